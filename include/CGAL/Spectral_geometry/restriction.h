@@ -1,0 +1,243 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
+#define CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/*!
+The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of vertex merges (section 3.2 of
+Lescoat et al. 2020), recorded in constant time per merge.
+
+A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r` (removed) into the slot
+`k` (kept) with weight alpha stands for the matrix `Q` with
+\f[ (Q F)_k = (1 - \alpha) F_k + \alpha F_r, \qquad (Q F)_w = F_w \ \mbox{for the other slots}, \f]
+after which `r` is gone and `k` goes on, and may be kept or removed by later merges.
+
+The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse vertex and
+`P` has at most one nonzero per column: the merges form a binary forest with a weight on each arc (alpha for the
+removed side, 1 - alpha for the kept side), and a nonzero of `P` is the product of the arcs from a fine vertex up
+to its root. The forest is stored as the log of its merges in order. Reading the log backwards visits every node
+before its two children, so that `P` is expanded in linear time, at the end of the log or after any number of its
+merges, without a single product of sparse matrices.
+
+Every row of `P` sums to 1. When each alpha is 0 or 1, every row holds exactly one nonzero, equal to 1.
+
+Reference: T. Lescoat, H.-T. D. Liu, J.-M. Thiery, A. Jacobson, T. Boubekeur, M. Ovsjanikov, *Spectral Mesh
+Simplification*, Computer Graphics Forum 39(2), 2020.
+*/
+class Merge_forest
+{
+public:
+  using Index = Eigen::Index;
+  using Matrix = Eigen::SparseMatrix<double>;
+
+  /// one merge: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
+  struct Merge
+  {
+    Index removed;
+    Index kept;
+    double alpha;
+  };
+
+  /// the forest of the empty mesh.
+  Merge_forest() = default;
+
+  /// `n` slots and no merge: `P` is the identity. Throws `std::invalid_argument` if `n` is negative.
+  explicit Merge_forest(Index n)
+  {
+    if(n < 0)
+      throw std::invalid_argument("Merge_forest: the number of slots is " + std::to_string(n) +
+                                  ", pass the number of vertices of the fine mesh.");
+    m_alive.assign(static_cast<std::size_t>(n), true);
+  }
+
+  /*!
+  merges the slot `removed` into the slot `kept`: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
+
+  Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out of range or has been
+  removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
+  */
+  void merge(Index removed, Index kept, double alpha)
+  {
+    check_alive(removed);
+    check_alive(kept);
+    if(removed == kept)
+      throw std::invalid_argument("Merge_forest: slot " + std::to_string(kept) +
+                                  " is merged into itself, pass two different slots.");
+    if(!(alpha >= 0 && alpha <= 1)) // false for NaN as well
+      throw std::invalid_argument("Merge_forest: the weight of slot " + std::to_string(removed) + " is " +
+                                  std::to_string(alpha) + ", clamp it to [0, 1].");
+    m_merges.push_back({removed, kept, alpha});
+    m_alive[static_cast<std::size_t>(removed)] = false;
+  }
+
+  /// number of vertices of the fine mesh, the columns of `P`.
+  Index number_of_slots() const { return static_cast<Index>(m_alive.size()); }
+
+  /// number of merges recorded so far.
+  Index number_of_merges() const { return static_cast<Index>(m_merges.size()); }
+
+  /// `true` if the slot has not been removed by any merge; `false` for an index out of range.
+  bool is_alive(Index slot) const
+  {
+    return slot >= 0 && slot < number_of_slots() && m_alive[static_cast<std::size_t>(slot)];
+  }
+
+  /// the merges in the order in which they happened, from which a run can be replayed.
+  const std::vector<Merge>& merges() const { return m_merges; }
+
+  /// the slots that are left after the first `number_of_merges` merges, ascending.
+  std::vector<Index> kept_slots(Index number_of_merges) const
+  {
+    const std::vector<bool> alive = alive_after(number_of_merges);
+    std::vector<Index> slots;
+    slots.reserve(static_cast<std::size_t>(number_of_slots() - number_of_merges));
+    for(Index slot = 0; slot < number_of_slots(); ++slot)
+      if(alive[static_cast<std::size_t>(slot)])
+        slots.push_back(slot);
+    return slots;
+  }
+
+  /// the slots that are left after all merges, ascending.
+  std::vector<Index> kept_slots() const { return kept_slots(number_of_merges()); }
+
+  /*!
+  returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in `slots[i]`.
+
+  At most one nonzero per column; zeros (a merge with alpha 0 or 1 makes some) are not written. Rows sum to 1.
+
+  @param slots every slot that is left after the merges, once, in the order wanted for the rows: for a simplified mesh
+  the slots of `vertices(mesh)` in their order, which `collect_garbage()` may change.
+  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is a permutation) and
+  `number_of_merges()`: `P` of any intermediate level of the simplification.
+
+  Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there are fewer merges.
+  */
+  Matrix restriction(const std::vector<Index>& slots, Index number_of_merges) const
+  {
+    const Expansion e = expand(slots, number_of_merges);
+    Index nonzeros = 0;
+    for(const double w : e.weight)
+      nonzeros += (w != 0);
+    Matrix P(static_cast<Index>(slots.size()), number_of_slots());
+    P.reserve(nonzeros);
+    for(Index slot = 0; slot < number_of_slots(); ++slot) {
+      P.startVec(slot);
+      const std::size_t s = static_cast<std::size_t>(slot);
+      if(e.weight[s] != 0)
+        P.insertBack(e.row[s], slot) = e.weight[s];
+    }
+    P.finalize();
+    return P;
+  }
+
+  /// `P` after all merges.
+  Matrix restriction(const std::vector<Index>& slots) const { return restriction(slots, number_of_merges()); }
+
+  /*!
+  returns, for every fine vertex, the row of the coarse vertex into which it was merged (`number_of_slots()` entries).
+
+  The map is total: a fine vertex whose weight in `P` is zero has a coarse vertex all the same. Parameters and
+  exceptions are those of `restriction()`.
+  */
+  std::vector<Index> vertex_map(const std::vector<Index>& slots, Index number_of_merges) const
+  {
+    return expand(slots, number_of_merges).row;
+  }
+
+  /// the vertex map after all merges.
+  std::vector<Index> vertex_map(const std::vector<Index>& slots) const
+  {
+    return vertex_map(slots, number_of_merges());
+  }
+
+private:
+  struct Expansion
+  {
+    std::vector<Index> row;     // the coarse vertex of each slot
+    std::vector<double> weight; // and the slot's weight in it
+  };
+
+  void check_alive(Index slot) const
+  {
+    if(slot < 0 || slot >= number_of_slots())
+      throw std::invalid_argument("Merge_forest: slot " + std::to_string(slot) + " is not one of the " +
+                                  std::to_string(number_of_slots()) +
+                                  " vertices of the fine mesh, pass an index in [0, n).");
+    if(!m_alive[static_cast<std::size_t>(slot)])
+      throw std::invalid_argument("Merge_forest: slot " + std::to_string(slot) +
+                                  " has been removed by an earlier merge, pass the slot that was kept.");
+  }
+
+  void check_number_of_merges(Index number_of_merges) const
+  {
+    if(number_of_merges < 0 || number_of_merges > this->number_of_merges())
+      throw std::invalid_argument("Merge_forest: " + std::to_string(number_of_merges) +
+                                  " merges are asked for, pass a number in [0, " +
+                                  std::to_string(this->number_of_merges()) + "], those that were recorded.");
+  }
+
+  std::vector<bool> alive_after(Index number_of_merges) const
+  {
+    check_number_of_merges(number_of_merges);
+    std::vector<bool> alive(m_alive.size(), true);
+    for(Index i = 0; i < number_of_merges; ++i)
+      alive[static_cast<std::size_t>(m_merges[static_cast<std::size_t>(i)].removed)] = false;
+    return alive;
+  }
+
+  Expansion roots(const std::vector<Index>& slots, Index number_of_merges) const
+  {
+    const std::vector<bool> alive = alive_after(number_of_merges);
+    Expansion e{std::vector<Index>(alive.size(), -1), std::vector<double>(alive.size(), 0.)};
+    for(std::size_t i = 0; i < slots.size(); ++i) {
+      const Index slot = slots[i];
+      const bool in_range = slot >= 0 && slot < number_of_slots();
+      const std::size_t s = in_range ? static_cast<std::size_t>(slot) : 0;
+      if(!in_range || !alive[s] || e.row[s] != -1)
+        throw std::invalid_argument(
+            "Merge_forest: slot " + std::to_string(slot) + " of row " + std::to_string(i) +
+            " is out of range, removed or listed twice, list each slot that is left once.");
+      e.row[s] = static_cast<Index>(i);
+      e.weight[s] = 1;
+    }
+    for(std::size_t s = 0; s < alive.size(); ++s)
+      if(alive[s] && e.row[s] == -1)
+        throw std::invalid_argument("Merge_forest: slot " + std::to_string(s) +
+                                    " is left but has no row, list each slot that is left once.");
+    return e;
+  }
+
+  // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in `removed`.
+  Expansion expand(const std::vector<Index>& slots, Index number_of_merges) const
+  {
+    Expansion e = roots(slots, number_of_merges);
+    for(Index i = number_of_merges; i-- > 0;) {
+      const Merge& m = m_merges[static_cast<std::size_t>(i)];
+      const std::size_t k = static_cast<std::size_t>(m.kept), r = static_cast<std::size_t>(m.removed);
+      e.row[r] = e.row[k];
+      e.weight[r] = e.weight[k] * m.alpha;
+      e.weight[k] *= 1 - m.alpha;
+    }
+    return e;
+  }
+
+  std::vector<Merge> m_merges;
+  std::vector<bool> m_alive;
+};
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
