@@ -1,0 +1,43 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <memory>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/*!
+ * A handle on a `Spectral_state`, a model of `GetCost`: the change of E (Eq. 2 of the paper) that the collapse
+ * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
+ *
+ * Made by `Spectral_policies::get_cost()`. Throws `std::logic_error` unless the visitor of the same policies
+ * takes part in the run.
+ */
+template <class State>
+class Spectral_cost
+{
+public:
+  Spectral_cost() = default;
+  explicit Spectral_cost(std::shared_ptr<State> state) : m_state(std::move(state)) {}
+
+  template <class Profile, class OptionalPoint>
+  auto operator()(const Profile& profile, const OptionalPoint& placement) const
+  {
+    return m_state->cost(profile, placement);
+  }
+
+private:
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H

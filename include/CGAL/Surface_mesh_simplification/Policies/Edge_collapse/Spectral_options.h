@@ -1,0 +1,102 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/// Where the vertex that replaces an edge is put (section 3.4 of the paper).
+enum class Spectral_placement_strategy {
+  midpoint, ///< strategy (i): the middle of the edge; one evaluation per candidate
+  on_edge   ///< strategy (ii): the minimiser along the edge of a parabola through three samples
+};
+
+/// The name of a placement as the programs spell it.
+inline const char* placement_name(const Spectral_placement_strategy placement)
+{
+  return placement == Spectral_placement_strategy::midpoint ? "midpoint" : "on_edge";
+}
+
+/// What a run is doing; see `Spectral_options::progress`.
+enum class Spectral_phase {
+  pre_simplification, ///< collapsing with a cheap cost down to `Spectral_options::pre_simplify`
+  eigenpairs,         ///< solving for the basis
+  first_costs,        ///< evaluating every edge once
+  collapses           ///< inside the collapse loop
+};
+
+/// The argument of `Spectral_options::progress`.
+struct Spectral_progress
+{
+  Spectral_phase phase;
+  double fraction;                ///< of this phase, in [0,1]; never decreases within a phase
+  std::size_t number_of_vertices; ///< of the mesh as it is now
+};
+
+/*!
+ * The options of `Spectral_policies` and `spectral_edge_collapse()`, in the manner of the parameter
+ * structures of the other policies. The defaults are those of Lescoat et al., *Spectral Mesh
+ * Simplification*, Computer Graphics Forum 39(2), 2020.
+ */
+struct Spectral_options
+{
+  /// K, the number of eigenvectors that are preserved, the constant one included. In [1, n].
+  /// The target size should be at least 3 K (section 4.3 of the paper). Ignored when `signals` or
+  /// `eigenpairs` are given: they bring their own number of columns.
+  Eigen::Index number_of_eigenvectors = 100;
+
+  /// The placement strategy.
+  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+
+  /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
+  /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %.
+  Spectral_geometry::Mass mass = Spectral_geometry::Mass::lumped;
+
+  /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
+  /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
+  bool binary = false;
+
+  /// On an edge with exactly one border vertex, keeps the position and the value of that vertex.
+  bool preserve_border = false;
+
+  /// Signals F to preserve instead of eigenvectors, n x K, rows in the order of `vertices(mesh)`;
+  /// they need not be orthonormal. Then Z = B^-1 L F (Eq. 2). Empty: eigenvectors.
+  Eigen::MatrixXd signals;
+
+  /// Eigenpairs of the input in the mass chosen above, at the input's scale, so that several targets
+  /// cost one solve. Their residuals are checked. Null: they are computed.
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
+
+  /// How accurately the basis is computed when it is not given.
+  Spectral_geometry::Eigenpairs_options eigenpairs_options;
+
+  /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
+  Eigen::VectorXd weights;
+
+  /// Number of threads that evaluate costs; more than one needs TBB. The result does not depend on it.
+  int threads = 1;
+
+  /// Called now and then with the phase and how far it is. Returning `false` cancels: while the
+  /// eigenpairs or the first costs are computed `Spectral_geometry::Cancelled` is thrown and the mesh
+  /// is untouched; inside the loop `spectral_edge_collapse()` stops with a valid mesh and its P.
+  std::function<bool(const Spectral_progress&)> progress;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H

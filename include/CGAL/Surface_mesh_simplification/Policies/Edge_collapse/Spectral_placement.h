@@ -1,0 +1,44 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_PLACEMENT_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_PLACEMENT_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <memory>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/*!
+ * A handle on a `Spectral_state`, a model of `GetPlacement`: the point on the edge where the cost is least
+ * (section 3.4 of the paper), or its midpoint. No point where every position makes a triangle without
+ * area, or where the collapse is topologically impossible.
+ *
+ * Made by `Spectral_policies::get_placement()`. May be wrapped, by `Constrained_placement` for instance: the cost
+ * is then evaluated at the point that the wrapper returns.
+ */
+template <class State>
+class Spectral_placement
+{
+public:
+  Spectral_placement() = default;
+  explicit Spectral_placement(std::shared_ptr<State> state) : m_state(std::move(state)) {}
+
+  template <class Profile>
+  auto operator()(const Profile& profile) const
+  {
+    return m_state->placement(profile);
+  }
+
+private:
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_PLACEMENT_H

@@ -1,0 +1,151 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_POLICIES_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_POLICIES_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_state.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/*!
+ * Cost, placement and visitor for `edge_collapse()` that keep the spectrum of the Laplace-Beltrami operator.
+ *
+ * Each candidate costs the change of
+ * \f[ E = \| P Z - \tilde M^{-1} \tilde L P F \|_{\tilde M}^2, \qquad Z = M^{-1} L F \f]
+ * (Eq. 2 of Lescoat et al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020), where F holds the first K
+ * eigenvectors of the input and P is the restriction from the input to the current mesh. With
+ * `Spectral_options::mass` set to `averaged` the mass matrix B replaces M in its weak form,
+ * \f$ E = \sum_w \| (\tilde B P Z - \tilde L P F)_w \|^2 / \tilde M_w \f$. Values are those of the input scaled to unit
+ * area.
+ *
+ * \code
+ * SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
+ * SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(600, mesh),
+ *                    CGAL::parameters::get_cost(spectral.get_cost())
+ *                                     .get_placement(spectral.get_placement())
+ *                                     .visitor(spectral.visitor()));
+ * Eigen::SparseMatrix<double> P = spectral.restriction();
+ * \endcode
+ *
+ * All three must be passed; without the visitor the first cost throws `std::logic_error`. The object is a
+ * handle: copies share one state. The mesh must outlive it, and must not be given new vertices. A
+ * second `edge_collapse()` with the same policies continues, and P still starts at the original
+ * input.
+ *
+ * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
+ * @tparam GeomTraits   a kernel, that of the points by default; exact numbers are read by `to_double()`
+ * @tparam VertexPointMap the mesh's own by default
+ */
+template <class TriangleMesh,
+          class GeomTraits = typename Kernel_traits<typename boost::property_traits<
+              typename boost::property_map<TriangleMesh, vertex_point_t>::type>::value_type>::Kernel,
+          class VertexPointMap = typename boost::property_map<TriangleMesh, vertex_point_t>::type>
+class Spectral_policies
+{
+public:
+  using Triangle_mesh = TriangleMesh;
+  using Geom_traits = GeomTraits;
+  using Vertex_point_map = VertexPointMap;
+  using State = Spectral_state<Triangle_mesh, Geom_traits, Vertex_point_map>;
+  using Get_cost = Spectral_cost<State>;
+  using Get_placement = Spectral_placement<State>;
+
+  /*!
+   * Reads the mesh and finds the basis, which takes most of the time for large meshes.
+   *
+   * @param mesh a triangle mesh without isolated vertices
+   * @param options see `Spectral_options`
+   * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets
+   *
+   * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the first
+   * offender
+   * @throws std::runtime_error when the eigenpairs do not converge
+   * @throws Spectral_geometry::Cancelled when the progress callback returns false
+   */
+  template <class NamedParameters = parameters::Default_named_parameters>
+  explicit Spectral_policies(Triangle_mesh& mesh, const Spectral_options& options = Spectral_options(),
+                             const NamedParameters& np = parameters::default_values())
+    : m_state(std::make_shared<State>(
+          mesh, options,
+          parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                       get_property_map(vertex_point, mesh)),
+          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)), np))
+  {}
+
+  Get_cost get_cost() const { return Get_cost(m_state); }
+  Get_placement get_placement() const { return Get_placement(m_state); }
+
+  /// The visitor that `edge_collapse()` must get.
+  Spectral_visitor<State> visitor() const { return Spectral_visitor<State>(m_state); }
+
+  /// The same, which also calls yours; `std::ref(v)` is called itself, anything else is copied.
+  template <class Visitor>
+  Spectral_visitor<State, Visitor> visitor(Visitor user_visitor) const
+  {
+    return Spectral_visitor<State, Visitor>(m_state, std::move(user_visitor));
+  }
+
+  /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call, columns in that
+  /// at construction. Rows sum to 1 and columns have at most one nonzero.
+  Eigen::SparseMatrix<double> restriction() const { return m_state->restriction(); }
+
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  std::vector<std::size_t> vertex_map() const { return m_state->vertex_map(); }
+
+  /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric coordinates of the
+  /// closest point of the current mesh. Rows sum to 1.
+  Eigen::SparseMatrix<double> prolongation() const
+  {
+    return Spectral_geometry::closest_point_interpolation(
+        m_state->fine_points(), Spectral_geometry::mesh_matrices(
+                                    m_state->mesh(), parameters::vertex_point_map(m_state->vertex_point_map())));
+  }
+
+  /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
+  /// `Spectral_options::eigenpairs` to simplify the same input again.
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_state->eigenpairs(); }
+
+  /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
+  double error() const { return m_state->core().total(); }
+
+  /// sqrt(E / sum_k lambda_k^2), which does not depend on scale.
+  double relative_error() const { return std::sqrt(error() / m_state->sum_of_squares()); }
+
+  /// What the three handles share.
+  State& state() { return *m_state; }
+  const State& state() const { return *m_state; }
+
+private:
+  std::shared_ptr<State> m_state;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_POLICIES_H

@@ -1,0 +1,416 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/*!
+ * What cost, placement and visitor of one `Spectral_policies` share: F and Z, the residual
+ * R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
+ *
+ * It translates between the mesh and slots (the order of `vertices(mesh)` at construction) and leaves
+ * the mathematics to `internal::Spectral_collapse_core`. `edge_collapse()` copies the policies several
+ * times; all copies are handles on one state.
+ *
+ * Life of a run: on_started() builds everything from the mesh as it is and evaluates every edge;
+ * placement() and cost() look up; on_collapsing() captures which candidate is about to be collapsed;
+ * on_collapsed() follows the mesh and evaluates the edges that are costed next; on_finished() ends it.
+ * A further run continues: F, Z and P go on from where they are.
+ */
+template <class TriangleMesh, class GeomTraits, class VertexPointMap>
+class Spectral_state
+{
+public:
+  using Triangle_mesh = TriangleMesh;
+  using Geom_traits = GeomTraits;
+  using Vertex_point_map = VertexPointMap;
+  using FT = typename Geom_traits::FT;
+  using Point = typename boost::property_traits<Vertex_point_map>::value_type;
+  using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
+  using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
+  using Slot = internal::Spectral_slot;
+
+  /// Why candidates were given up when their turn came.
+  struct Refusals
+  {
+    std::size_t topology = 0;  ///< CGAL's link condition and the like
+    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;    ///< the `filter` named parameter
+    std::size_t placement = 0; ///< no position without a degenerate triangle
+  };
+
+  /// Reads the mesh, finds the basis. Throws `std::invalid_argument` for a mesh, an option or a basis that
+  /// cannot be used (the first offender is named), `Spectral_geometry::Cancelled` where the progress
+  /// callback asks for it.
+  template <class NamedParameters>
+  Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const Vertex_point_map& vpm,
+                 const Geom_traits& traits, const NamedParameters& np)
+    : m_mesh(&mesh), m_vpm(vpm), m_traits(traits), m_options(options),
+      m_slots(get(dynamic_vertex_property_t<Slot>(), mesh))
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
+    m_fine_points = std::move(matrices.V);
+    Slot next = 0;
+    for(const vertex_descriptor v : vertices(mesh))
+      put(m_slots, v, ++next);
+    m_number_of_vertices = next;
+
+    internal::Spectral_basis basis = internal::spectral_basis(m_fine_points, matrices.T, m_options);
+    m_eigenpairs = basis.eigenpairs;
+    m_area = basis.area;
+    m_sum_of_squares = basis.sum_of_squares;
+    internal::Spectral_cost_parameters parameters;
+    parameters.placement = m_options.placement;
+    parameters.binary = m_options.binary;
+    parameters.preserve_border = m_options.preserve_border;
+    parameters.single_precision_points = std::is_same<FT, float>::value;
+    parameters.threads = m_options.threads;
+    m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,
+                     1 / basis.area, parameters);
+    m_seconds_basis = seconds_since(begin);
+  }
+
+  Spectral_state(const Spectral_state&) = delete;
+  Spectral_state& operator=(const Spectral_state&) = delete;
+
+  /// \name Called by the policies
+  /// @{
+
+  /// Starts a run. It lasts as long as somebody holds the token that is returned, so that an
+  /// exception that leaves the loop ends the run as well.
+  std::shared_ptr<void> on_started(Triangle_mesh& mesh)
+  {
+    if(&mesh != m_mesh)
+      throw std::invalid_argument("Spectral_policies: edge_collapse() was called with another mesh than the "
+                                  "one that the policies were made for; make policies for that mesh.");
+    const auto begin = std::chrono::steady_clock::now();
+    m_run.reset();
+    read_geometry();
+    m_positions_checked = false;
+    m_selecting = m_selection_open = m_pending.open = false;
+    const bool go_on = !m_batched || m_core.evaluate_all([this](const double fraction) {
+      return report(Spectral_phase::first_costs, fraction);
+    });
+    if(!go_on)
+      throw Spectral_geometry::Cancelled();
+    m_seconds_first_costs = seconds_since(begin);
+    std::shared_ptr<void> token = std::make_shared<int>(0);
+    m_run = token;
+    return token;
+  }
+
+  void on_finished()
+  {
+    close_selection();
+    m_run.reset();
+  }
+
+  template <class Profile>
+  void on_selected(const Profile&)
+  {
+    close_selection();
+    m_selecting = m_selection_open = true;
+    m_placement_asked = m_placement_found = false;
+  }
+
+  void on_stop_condition_reached() { m_selection_open = false; }
+
+  template <class Profile>
+  void on_non_collapsable(const Profile&)
+  {
+    ++(m_placement_asked ? m_refusals.filter : m_refusals.topology);
+    m_selection_open = false;
+  }
+
+  /// Remembers which slots are merged, and with which weight: afterwards some mesh types have freed the
+  /// removed vertex, and the point of the kept one has changed.
+  template <class Profile, class OptionalPoint>
+  void on_collapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_selection_open = false;
+    m_pending.removed = slot(profile.v0());
+    m_pending.kept = slot(profile.v1());
+    const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[m_pending.kept];
+    const internal::Spectral_candidate* c = m_core.candidates().find(m_pending.removed, m_pending.kept);
+    if(c != nullptr && c->collapsible && c->point == point)
+      m_pending.weight = c->other == m_pending.removed ? c->weight : 1 - c->weight;
+    else
+      m_pending.weight = m_core.projected_weight(m_pending.kept, m_pending.removed, point);
+    m_pending.open = true;
+  }
+
+  void on_collapsed(const vertex_descriptor kept_vertex)
+  {
+    const Slot kept = slot(kept_vertex);
+    internal::Spectral_ring ring = ring_of(kept_vertex);
+    const bool in_loop = m_pending.open;
+    if(in_loop) {
+      // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
+      if(kept != m_pending.kept) {
+        CGAL_assertion(kept == m_pending.removed);
+        std::swap(m_pending.kept, m_pending.removed);
+        m_pending.weight = 1 - m_pending.weight;
+      }
+    } else
+      capture_zero_length_merge(kept, ring);
+    m_pending.open = m_selecting = false;
+    --m_number_of_vertices;
+    m_core.commit(m_pending.removed, kept, m_pending.weight, to_vector(get(m_vpm, kept_vertex)),
+                  std::move(ring));
+    if(!in_loop)
+      m_core.drop_candidates_around(kept);
+    else if(m_batched)
+      m_core.evaluate_around(kept);
+  }
+
+  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected,
+  /// this is the placement that was costed.
+  template <class Profile>
+  auto placement(const Profile& profile)
+  {
+    using Optional_point = internal::Spectral_optional<Point>;
+    check_ready(profile);
+    const internal::Spectral_candidate& c =
+        m_core.candidate(slot(profile.v0()), slot(profile.v1()), m_selecting);
+    m_placement_asked = true;
+    m_placement_found = c.collapsible;
+    if(!c.collapsible)
+      return Optional_point();
+    return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
+  }
+
+  /// cost(e) = sum over H of E_w after - E_w before, at the point given. The largest finite
+  /// number where there is none: an absent cost would be sorted first by CGAL's queue.
+  template <class Profile, class OptionalPoint>
+  auto cost(const Profile& profile, const OptionalPoint& placement)
+  {
+    using Optional_cost = internal::Spectral_optional<FT>;
+    check_ready(profile);
+    if(!placement)
+      return Optional_cost(largest_cost());
+    const Slot u = slot(profile.v0()), v = slot(profile.v1());
+    const Eigen::Vector3d point = to_vector(*placement);
+    const internal::Spectral_candidate& c = m_core.candidate(u, v, m_selecting);
+    const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
+    if(!(value < double(std::numeric_limits<float>::max())))
+      return Optional_cost(largest_cost());
+    return Optional_cost(FT(value));
+  }
+
+  /// @}
+  /// \name Results
+  /// @{
+
+  /// P, rows in the order of `vertices(mesh)` now, columns in that of the input.
+  Eigen::SparseMatrix<double> restriction() const { return m_core.forest().restriction(current_slots()); }
+
+  /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
+  std::vector<std::size_t> vertex_map() const
+  {
+    const std::vector<Eigen::Index> map = m_core.forest().vertex_map(current_slots());
+    return std::vector<std::size_t>(map.begin(), map.end());
+  }
+
+  /// The slots of `vertices(mesh)`, in that order.
+  std::vector<Eigen::Index> current_slots() const
+  {
+    std::vector<Eigen::Index> slots;
+    slots.reserve(m_number_of_vertices);
+    for(const vertex_descriptor v : vertices(*m_mesh))
+      slots.push_back(slot(v));
+    return slots;
+  }
+
+  const Triangle_mesh& mesh() const { return *m_mesh; }
+  const Vertex_point_map& vertex_point_map() const { return m_vpm; }
+  const internal::Spectral_collapse_core& core() const { return m_core; }
+  const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
+  const Refusals& refusals() const { return m_refusals; }
+  std::size_t number_of_vertices() const { return m_number_of_vertices; }
+  double area() const { return m_area; }
+  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2.
+  double sum_of_squares() const { return m_sum_of_squares; }
+  double seconds_basis() const { return m_seconds_basis; }
+  double seconds_first_costs() const { return m_seconds_first_costs; }
+
+  /// @}
+
+  /// Calls the progress callback, if any; `false` means that the user cancelled.
+  bool report(const Spectral_phase phase, const double fraction) const
+  {
+    return !m_options.progress || m_options.progress(Spectral_progress{phase, fraction, m_number_of_vertices});
+  }
+
+  /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
+  /// result is the same.
+  void set_batched(const bool batched) { m_batched = batched; }
+
+private:
+  struct Pending
+  {
+    bool open = false;
+    Slot removed = 0, kept = 0;
+    double weight = 0; // of the removed slot
+  };
+
+  static double seconds_since(const std::chrono::steady_clock::time_point begin)
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+
+  static FT largest_cost()
+  {
+    if(std::is_same<FT, float>::value)
+      return FT((std::numeric_limits<float>::max)());
+    return FT((std::numeric_limits<double>::max)());
+  }
+
+  static Eigen::Vector3d to_vector(const Point& p)
+  {
+    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  }
+
+  // The map holds slot + 1: a vertex that appeared after construction reads as 0.
+  Slot slot(const vertex_descriptor v) const
+  {
+    const Slot s = get(m_slots, v);
+    if(s == 0)
+      throw std::logic_error("Spectral_policies: a vertex of the mesh was not there when the policies were "
+                             "made; make new policies after adding vertices.");
+    return s - 1;
+  }
+
+  // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts with.
+  internal::Spectral_ring ring_of(const vertex_descriptor v) const
+  {
+    internal::Spectral_ring ring;
+    const halfedge_descriptor h0 = halfedge(v, *m_mesh);
+    if(h0 == boost::graph_traits<Triangle_mesh>::null_halfedge())
+      return ring;
+    for(const halfedge_descriptor h : halfedges_around_target(h0, *m_mesh)) {
+      ring.emplace_back();
+      ring.back().vertex = slot(source(h, *m_mesh));
+      ring.back().face = !is_border(h, *m_mesh);
+    }
+    std::rotate(ring.begin(),
+                std::min_element(ring.begin(), ring.end(),
+                                 [](const auto& a, const auto& b) { return a.vertex < b.vertex; }),
+                ring.end());
+    return ring;
+  }
+
+  void read_geometry()
+  {
+    const std::size_t n = std::size_t(m_fine_points.rows());
+    std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
+    internal::Spectral_rings rings;
+    rings.resize(n);
+    m_number_of_vertices = 0;
+    for(const vertex_descriptor v : vertices(*m_mesh)) {
+      const Slot s = slot(v);
+      points[s] = to_vector(get(m_vpm, v));
+      rings[s] = ring_of(v);
+      ++m_number_of_vertices;
+    }
+    m_core.set_geometry(std::move(points), std::move(rings));
+  }
+
+  // Edges without length are collapsed before the loop, announced by OnCollapsed alone. The removed vertex
+  // is the one neighbour that the kept vertex has lost.
+  void capture_zero_length_merge(const Slot kept, const internal::Spectral_ring& ring)
+  {
+    m_pending.kept = kept;
+    m_pending.removed = internal::null_spectral_slot;
+    for(const internal::Spectral_ring_entry& old : m_core.fields().rings[kept])
+      if(std::none_of(ring.begin(), ring.end(), [&](const auto& e) { return e.vertex == old.vertex; }))
+        m_pending.removed = old.vertex;
+    CGAL_assertion(m_pending.removed != internal::null_spectral_slot);
+    m_pending.weight =
+        m_core.projected_weight(kept, m_pending.removed, m_core.fields().points[m_pending.removed]);
+  }
+
+  void close_selection()
+  {
+    if(m_selection_open)
+      ++(m_placement_found || !m_placement_asked ? m_refusals.geometry : m_refusals.placement);
+    m_selection_open = false;
+  }
+
+  template <class Profile>
+  void check_ready(const Profile& profile)
+  {
+    if(m_positions_checked && !m_run.expired())
+      return;
+    if(m_run.expired())
+      throw std::logic_error("Spectral_policies: a cost or placement was asked for outside of a run; pass "
+                             "spectral.visitor() to edge_collapse() with .visitor().");
+    for(const vertex_descriptor v : {profile.v0(), profile.v1()})
+      if(to_vector(get(profile.vertex_point_map(), v)) != m_core.fields().points[slot(v)])
+        throw std::logic_error("Spectral_policies: the vertex_point_map of edge_collapse() disagrees with that "
+                               "of the policies; pass the same map to both.");
+    m_positions_checked = true;
+  }
+
+  Triangle_mesh* m_mesh;
+  Vertex_point_map m_vpm;
+  Geom_traits m_traits;
+  Spectral_options m_options;
+  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Slot>>::type m_slots;
+
+  Eigen::MatrixXd m_fine_points;
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
+  internal::Spectral_collapse_core m_core;
+  double m_area = 0, m_sum_of_squares = 0;
+  std::size_t m_number_of_vertices = 0;
+
+  std::weak_ptr<void> m_run;
+  Pending m_pending;
+  bool m_positions_checked = false;
+  bool m_batched = true;
+  bool m_selecting = false;      // a placement asked for now is that of the selected candidate
+  bool m_selection_open = false; // selected, and nothing has become of it yet
+  bool m_placement_asked = false, m_placement_found = false;
+  Refusals m_refusals;
+  double m_seconds_basis = 0, m_seconds_first_costs = 0;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H

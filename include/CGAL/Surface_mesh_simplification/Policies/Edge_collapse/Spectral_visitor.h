@@ -1,0 +1,119 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The user's visitor where there is none.
+struct No_visitor
+{
+  template <class TM> void OnStarted(TM&) const {}
+  template <class TM> void OnFinished(TM&) const {}
+  template <class P> void OnStopConditionReached(const P&) const {}
+  template <class P, class C> void OnCollected(const P&, const C&) const {}
+  template <class P, class C, class S> void OnSelected(const P&, const C&, S, S) const {}
+  template <class P, class O> void OnCollapsing(const P&, const O&) const {}
+  template <class P, class V> void OnCollapsed(const P&, const V&) const {}
+  template <class P> void OnNonCollapsable(const P&) const {}
+};
+
+template <class Visitor> Visitor& unwrap_visitor(Visitor& visitor) { return visitor; }
+template <class Visitor> Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor) { return visitor; }
+
+} // namespace internal
+
+/*!
+ * A handle on a `Spectral_state`, a model of `EdgeCollapseSimplificationVisitor` that keeps the state in step with
+ * the mesh, and hands every call on to a visitor of the user's.
+ *
+ * Made by `Spectral_policies::visitor()`. The user's visitor is called before the state in `OnStarted`,
+ * where it may still change the mesh, and after it everywhere else. It is copied, as `edge_collapse()` itself copies
+ * visitors; pass `std::ref(my_visitor)` to share it.
+ */
+template <class State, class UserVisitor = internal::No_visitor>
+class Spectral_visitor
+{
+public:
+  explicit Spectral_visitor(std::shared_ptr<State> state, UserVisitor user = UserVisitor())
+    : m_state(std::move(state)), m_user(std::move(user))
+  {}
+
+  template <class TriangleMesh>
+  void OnStarted(TriangleMesh& mesh)
+  {
+    user().OnStarted(mesh);
+    m_run = m_state->on_started(mesh);
+  }
+
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh& mesh)
+  {
+    m_state->on_finished();
+    m_run.reset();
+    user().OnFinished(mesh);
+  }
+
+  template <class Profile>
+  void OnStopConditionReached(const Profile& profile)
+  {
+    m_state->on_stop_condition_reached();
+    user().OnStopConditionReached(profile);
+  }
+
+  template <class Profile, class OptionalCost>
+  void OnCollected(const Profile& profile, const OptionalCost& cost)
+  {
+    user().OnCollected(profile, cost);
+  }
+
+  template <class Profile, class OptionalCost, class Size>
+  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
+  {
+    m_state->on_selected(profile);
+    user().OnSelected(profile, cost, initial, current);
+  }
+
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_state->on_collapsing(profile, placement);
+    user().OnCollapsing(profile, placement);
+  }
+
+  template <class Profile, class VertexDescriptor>
+  void OnCollapsed(const Profile& profile, const VertexDescriptor& kept)
+  {
+    m_state->on_collapsed(kept);
+    user().OnCollapsed(profile, kept);
+  }
+
+  template <class Profile>
+  void OnNonCollapsable(const Profile& profile)
+  {
+    m_state->on_non_collapsable(profile);
+    user().OnNonCollapsable(profile);
+  }
+
+private:
+  decltype(auto) user() { return internal::unwrap_visitor(m_user); }
+
+  std::shared_ptr<State> m_state;
+  std::shared_ptr<void> m_run; // the run ends with the visitor, even when an exception leaves the loop
+  UserVisitor m_user;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H

@@ -1,0 +1,70 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_COUNT_STOP_PREDICATE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_COUNT_STOP_PREDICATE_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/boost/graph/properties.h>
+
+#include <cstddef>
+#include <iterator>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/*!
+ * A model of `StopPredicate`: stops when the mesh has at most the given number of vertices, isolated ones
+ * included. Works with every cost and placement, without a visitor.
+ *
+ * CGAL tells a stop predicate edge counts only, and counting vertices is linear while a mesh is being
+ * collapsed. Each collapse removes one vertex, and two or three edges: so the vertices are counted at
+ * the first call, and one less is taken whenever the edge count has fallen by that much. Any other
+ * change of the edge count, a new run on a changed mesh for instance, makes it count again.
+ *
+ * The mesh must outlive the predicate. Copies made before the first call are independent.
+ */
+template <class TriangleMesh>
+class Vertex_count_stop_predicate
+{
+public:
+  using Triangle_mesh = TriangleMesh;
+
+  /// @param number_of_vertices the target N; 0 never stops
+  /// @param mesh the mesh that is simplified
+  Vertex_count_stop_predicate(const std::size_t number_of_vertices, const Triangle_mesh& mesh)
+    : m_target(number_of_vertices), m_mesh(&mesh)
+  {}
+
+  template <class Cost, class Profile>
+  bool operator()(const Cost&, const Profile&, const std::size_t initial_edge_count,
+                  const std::size_t current_edge_count) const
+  {
+    const bool one_collapse = m_counted && initial_edge_count == m_initial_edges &&
+                              current_edge_count < m_edges && m_edges - current_edge_count <= 3;
+    const bool nothing_happened =
+        m_counted && initial_edge_count == m_initial_edges && current_edge_count == m_edges;
+    if(one_collapse)
+      --m_vertices;
+    else if(!nothing_happened) {
+      m_vertices = std::size_t(std::distance(vertices(*m_mesh).begin(), vertices(*m_mesh).end()));
+      m_counted = true;
+    }
+    m_initial_edges = initial_edge_count;
+    m_edges = current_edge_count;
+    return m_vertices <= m_target;
+  }
+
+private:
+  std::size_t m_target;
+  const Triangle_mesh* m_mesh;
+  mutable bool m_counted = false;
+  mutable std::size_t m_vertices = 0, m_edges = 0, m_initial_edges = 0;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_COUNT_STOP_PREDICATE_H

@@ -1,0 +1,190 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_for_each.h>
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <Eigen/Core>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// What the metric preserves, for the input scaled to unit area: F (n x K), and Z = B^-1 L F, either as
+/// `lambda` (Z = F Lambda, where Z is empty) or in rows of its own. Columns carry the square root of
+/// their weight.
+struct Spectral_basis
+{
+  Eigen::MatrixXd F, Z;
+  Eigen::VectorXd lambda;
+  double theta = 0;
+  double area = 1;             ///< of the input
+  double sum_of_squares = 0;   ///< || Z ||_B^2; the sum of lambda_k^2 for eigenvectors
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< at the input's scale
+};
+
+inline void check_spectral_options(const Spectral_options& options, const Eigen::Index n)
+{
+  using std::to_string;
+  if(options.threads < 1)
+    throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
+                                ", use a number from 1.");
+  if(options.threads > 1 && !spectral_threads_available)
+    throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
+                                ", but this program was built without TBB; use 1, or link with TBB and define "
+                                "CGAL_LINKED_WITH_TBB.");
+  if(options.signals.size() != 0 && options.eigenpairs)
+    throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
+  if(options.signals.size() != 0 && options.signals.rows() != n)
+    throw std::invalid_argument("Spectral_options: signals has " + to_string(options.signals.rows()) +
+                                " rows, but the mesh has " + to_string(n) + " vertices; give one row for each.");
+  if(options.signals.size() != 0 && !options.signals.allFinite())
+    throw std::invalid_argument("Spectral_options: signals has an entry that is not finite; correct it.");
+  if(options.eigenpairs && options.eigenpairs->vectors.rows() != n)
+    throw std::invalid_argument("Spectral_options: the eigenvectors have " +
+                                to_string(options.eigenpairs->vectors.rows()) + " rows, but the mesh has " +
+                                to_string(n) + " vertices; give the eigenpairs of this mesh.");
+  const bool given = options.signals.size() != 0 || options.eigenpairs;
+  if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
+    throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
+                                to_string(options.number_of_eigenvectors) + ", but the mesh has " +
+                                to_string(n) + " vertices; use a number from 1 to " + to_string(n - 1) + ".");
+}
+
+inline Eigen::VectorXd spectral_weights(const Spectral_options& options, const Eigen::Index K)
+{
+  if(options.weights.size() == 0)
+    return Eigen::VectorXd::Ones(K);
+  if(options.weights.size() != K)
+    throw std::invalid_argument("Spectral_options: there are " + std::to_string(options.weights.size()) +
+                                " weights for " + std::to_string(K) + " signals; give one for each.");
+  for(Eigen::Index k = 0; k < K; ++k)
+    if(!(options.weights[k] >= 0) || !std::isfinite(options.weights[k]))
+      throw std::invalid_argument("Spectral_options: weight " + std::to_string(k) +
+                                  " is negative or not finite; use numbers from 0.");
+  return options.weights;
+}
+
+/// Z = B^-1 L F. The consistent mass scaled by its diagonal has eigenvalues in [1/2, 2], so conjugate
+/// gradients converge in a number of steps that does not depend on the mesh.
+inline Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
+{
+  Eigen::MatrixXd Z = op.L * F;
+  if(op.theta == 0) {
+    Z = op.mass.cwiseInverse().asDiagonal() * Z;
+    return Z;
+  }
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(op.B);
+  solver.setTolerance(1e-13);
+  for(Eigen::Index k = 0; k < Z.cols(); ++k) {
+    const Eigen::VectorXd column = solver.solve(Z.col(k));
+    if(solver.info() != Eigen::Success)
+      throw std::runtime_error("Spectral_policies: B z = L f did not converge for signal " +
+                               std::to_string(k) + "; check the mesh for needle-shaped faces.");
+    Z.col(k) = column;
+  }
+  return Z;
+}
+
+/// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area, for each pair.
+inline Eigen::VectorXd spectral_residuals(const Spectral_geometry::Laplace_operator& op,
+                                          const Spectral_geometry::Eigenpairs& pairs)
+{
+  Eigen::VectorXd result(pairs.size());
+  const double shift = 4 * std::acos(-1.) / op.mass.sum();
+  for(Eigen::Index k = 0; k < pairs.size(); ++k) {
+    const Eigen::VectorXd r = op.L * pairs.vectors.col(k) - pairs.values[k] * (op.B * pairs.vectors.col(k));
+    result[k] = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values[k] + shift);
+  }
+  return result;
+}
+
+inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
+                                       const Spectral_options& options, const double area)
+{
+  Spectral_basis basis;
+  const Eigen::VectorXd weights = spectral_weights(options, options.signals.cols());
+  basis.F = options.signals * weights.cwiseSqrt().asDiagonal();
+  basis.Z = area * spectral_z(op, basis.F);
+  basis.sum_of_squares = basis.Z.cwiseProduct(op.B * basis.Z).sum() / area;
+  return basis;
+}
+
+inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
+                                          const Spectral_options& options,
+                                          std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
+                                          const double area)
+{
+  Spectral_basis basis;
+  const Eigen::VectorXd weights = spectral_weights(options, pairs->size());
+  const Eigen::VectorXd residuals = spectral_residuals(op, *pairs);
+  if(options.eigenpairs)
+    for(Eigen::Index k = 0; k < residuals.size(); ++k)
+      if(!(residuals[k] < 1e-3))
+        throw std::invalid_argument("Spectral_options: eigenpair " + std::to_string(k) +
+                                    " is not one of this mesh in the " +
+                                    Spectral_geometry::mass_name(options.mass) + " mass (relative residual " +
+                                    std::to_string(residuals[k]) +
+                                    "); compute it with eigenpairs(), or pass the vectors as signals.");
+  basis.F = pairs->vectors * (weights * area).cwiseSqrt().asDiagonal();
+  basis.lambda = area * pairs->values;
+  basis.sum_of_squares = weights.dot(basis.lambda.cwiseAbs2());
+  // Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add.
+  if(residuals.size() != 0 && residuals.maxCoeff() > 1e-6)
+    basis.Z = area * spectral_z(op, basis.F);
+  basis.eigenpairs = std::move(pairs);
+  return basis;
+}
+
+/// mesh -> Laplacian -> eigenpairs -> F and Z.
+inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                     const Spectral_options& options)
+{
+  check_spectral_options(options, V.rows());
+  const double theta = Spectral_geometry::mass_blend(options.mass);
+  const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, theta);
+  const double area = op.mass.sum();
+  Spectral_basis basis;
+  if(options.signals.size() != 0)
+    basis = basis_of_signals(op, options, area);
+  else {
+    std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
+    if(!pairs) {
+      Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
+      if(options.progress && !solver.progress)
+        solver.progress = [&options, &V](const double fraction) {
+          return options.progress(
+              Spectral_progress{Spectral_phase::eigenpairs, fraction, std::size_t(V.rows())});
+        };
+      pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
+          Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
+    }
+    basis = basis_of_eigenpairs(op, options, pairs, area);
+  }
+  basis.theta = theta;
+  basis.area = area;
+  return basis;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H

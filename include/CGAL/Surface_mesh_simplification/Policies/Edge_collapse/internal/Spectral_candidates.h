@@ -1,0 +1,102 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_CANDIDATES_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_CANDIDATES_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The best way found to collapse an edge (u, other) with u < other.
+///
+/// The weight belongs to the slot `other`, never to an end of a halfedge: the direction in which CGAL
+/// presents the same edge can change after a collapse nearby.
+struct Spectral_candidate
+{
+  Spectral_slot other = null_spectral_slot;
+  std::uint32_t version = 0; ///< the number of commits that it has seen
+  bool collapsible = false;
+  double cost = std::numeric_limits<double>::infinity();
+  double weight = 0; ///< f_x = (1 - weight) f_u + weight f_other
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+};
+
+/// The candidates of all edges, each kept with the smaller of its slots: a lookup runs through about
+/// three entries that lie side by side.
+class Spectral_candidates
+{
+public:
+  void resize(const std::size_t n) { m_lists.assign(n, {}); }
+
+  void clear()
+  {
+    for(auto& list : m_lists)
+      list.clear();
+    ++m_version;
+  }
+
+  std::uint32_t version() const { return m_version; }
+
+  const Spectral_candidate* find(Spectral_slot u, Spectral_slot v) const
+  {
+    if(v < u)
+      std::swap(u, v);
+    for(const Spectral_candidate& c : m_lists[u])
+      if(c.other == v)
+        return &c;
+    return nullptr;
+  }
+
+  /// Puts in or replaces the candidate of the edge (u, candidate.other), u being the smaller slot.
+  const Spectral_candidate& insert(const Spectral_slot u, Spectral_candidate candidate)
+  {
+    CGAL_precondition(u < candidate.other);
+    candidate.version = m_version;
+    for(Spectral_candidate& c : m_lists[u])
+      if(c.other == candidate.other)
+        return c = candidate;
+    m_lists[u].push_back(candidate);
+    return m_lists[u].back();
+  }
+
+  void forget(const Spectral_slot u, const Spectral_slot v)
+  {
+    auto& list = m_lists[(std::min)(u, v)];
+    const Spectral_slot other = (std::max)(u, v);
+    list.erase(std::remove_if(list.begin(), list.end(),
+                              [other](const Spectral_candidate& c) { return c.other == other; }),
+               list.end());
+  }
+
+  /// A vertex is gone, and with it the candidates that are kept under it.
+  void merge(const Spectral_slot removed)
+  {
+    std::vector<Spectral_candidate>().swap(m_lists[removed]);
+    ++m_version;
+  }
+
+private:
+  std::vector<std::vector<Spectral_candidate>> m_lists;
+  std::uint32_t m_version = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_CANDIDATES_H

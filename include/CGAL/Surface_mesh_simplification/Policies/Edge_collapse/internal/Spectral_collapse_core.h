@@ -1,0 +1,382 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_COLLAPSE_CORE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_COLLAPSE_CORE_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_for_each.h>
+
+#include <CGAL/Spectral_geometry/restriction.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The part of `Spectral_options` that the cost of a candidate depends on.
+struct Spectral_cost_parameters
+{
+  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+  bool binary = false;
+  bool preserve_border = false;
+  bool single_precision_points = false; ///< the mesh stores its points as float
+  int threads = 1;
+};
+
+/*!
+ * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
+ * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
+ *
+ * Order of calls: set_basis() once; set_geometry() at the start of each run; then, in any order,
+ * candidate(), cost_at() and evaluate_batch(), which read, and commit(), which follows one collapse.
+ */
+class Spectral_collapse_core
+{
+public:
+  using Rows = Spectral_fields::Rows;
+
+  Spectral_collapse_core() = default;
+
+  /// `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.
+  void set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& Z,
+                 const double theta, const double area_scale, const Spectral_cost_parameters& parameters)
+  {
+    const Eigen::Index K = F.cols();
+    const Eigen::Index padded =
+        (K + Eigen::Index(spectral_padding) - 1) / Eigen::Index(spectral_padding) * Eigen::Index(spectral_padding);
+    m_number_of_signals = K;
+    m_fields.F = Rows::Zero(F.rows(), padded);
+    m_fields.F.leftCols(K) = F;
+    m_fields.Z.resize(0, 0);
+    m_fields.lambda = Eigen::VectorXd::Zero(padded);
+    if(lambda.size() != 0)
+      m_fields.lambda.head(K) = lambda;
+    else
+      set_Z(Z);
+    m_fields.theta = theta;
+    m_fields.area_scale = area_scale;
+    m_parameters = parameters;
+    m_forest = Spectral_geometry::Merge_forest(F.rows());
+    m_candidates.resize(std::size_t(F.rows()));
+  }
+
+  /// Replaces Z = F Lambda by rows of its own. set_geometry() must follow.
+  void set_Z(const Eigen::MatrixXd& Z)
+  {
+    m_fields.Z = Rows::Zero(m_fields.F.rows(), m_fields.F.cols());
+    m_fields.Z.leftCols(Z.cols()) = Z;
+  }
+
+  /// Takes positions and rings (entries without triangles) of the mesh as it is and computes R, M, E.
+  /// Slots that are gone have an empty ring.
+  void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings)
+  {
+    m_fields.points = std::move(points);
+    m_fields.rings = std::move(rings);
+    const Eigen::Index n = m_fields.F.rows();
+    m_fields.R.resize(n, m_fields.F.cols());
+    m_fields.mass = Eigen::VectorXd::Zero(n);
+    m_fields.E = Eigen::VectorXd::Zero(n);
+    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
+      m_fields.rings.update_triangles(w, position());
+    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
+      update_row(w);
+    m_total = m_fields.E.sum();
+    m_candidates.clear();
+  }
+
+  const Spectral_fields& fields() const { return m_fields; }
+  const Spectral_cost_parameters& parameters() const { return m_parameters; }
+  Eigen::Index number_of_signals() const { return m_number_of_signals; }
+  const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+  const Spectral_candidates& candidates() const { return m_candidates; }
+
+  /// E, the sum of E_w over the current vertices (Eq. 2).
+  double total() const { return m_total; }
+
+  /// The best way to collapse the edge between two slots. Reads only; one kernel per thread.
+  Spectral_candidate evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel) const
+  {
+    if(v < u)
+      std::swap(u, v);
+    Spectral_candidate result;
+    result.other = v;
+    if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+      return result;
+    const Spectral_sample best = best_sample(u, v, kernel);
+    if(!std::isfinite(best.cost))
+      return result;
+    result.collapsible = true;
+    result.cost = best.cost;
+    result.weight = best.weight;
+    result.point = best.point;
+    return result;
+  }
+
+  /// The candidate of an edge, evaluated if need be. A candidate of an older version is good enough
+  /// where the edge was selected: it is what CGAL's queue holds.
+  const Spectral_candidate& candidate(const Spectral_slot u, const Spectral_slot v, const bool any_version)
+  {
+    const Spectral_candidate* found = m_candidates.find(u, v);
+    if(found != nullptr && (any_version || found->version == m_candidates.version()))
+      return *found;
+    ++m_number_of_evaluations;
+    return m_candidates.insert((std::min)(u, v), evaluate(u, v, m_kernel));
+  }
+
+  /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
+  double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+  {
+    if(m_kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+      return std::numeric_limits<double>::infinity();
+    ++m_number_of_evaluations;
+    Spectral_sample sample;
+    sample.point = point;
+    sample.weight = projected_weight(u, v, point);
+    m_kernel.evaluate(&sample, 1);
+    return sample.cost;
+  }
+
+  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
+  /// an edge without length.
+  double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  {
+    const Eigen::Vector3d uv = m_fields.points[v] - m_fields.points[u];
+    const double length = uv.squaredNorm();
+    const double alpha = length > 0 ? (point - m_fields.points[u]).dot(uv) / length : 0.5;
+    return rounded(u, v, (std::min)((std::max)(alpha, 0.), 1.));
+  }
+
+  /// Evaluates every edge of the mesh. `progress(fraction)` returning false stops early.
+  template <class Progress>
+  bool evaluate_all(const Progress& progress)
+  {
+    m_batch.clear();
+    for(Spectral_slot u = 0; u < Spectral_slot(m_fields.points.size()); ++u)
+      for(const Spectral_ring_entry& e : m_fields.rings[u])
+        if(u < e.vertex)
+          m_batch.emplace_back(u, e.vertex);
+    const std::size_t chunk = 4096;
+    const std::vector<Edge> all = m_batch;
+    for(std::size_t i = 0; i < all.size(); i += chunk) {
+      m_batch.assign(all.begin() + i, all.begin() + (std::min)(all.size(), i + chunk));
+      evaluate_batch();
+      if(!progress(double((std::min)(all.size(), i + chunk)) / double(all.size())))
+        return false;
+    }
+    return true;
+  }
+
+  /// Evaluates every edge that CGAL's loop costs again after a collapse to `kept`: those incident to
+  /// the neighbours of `kept`.
+  void evaluate_around(const Spectral_slot kept)
+  {
+    m_batch.clear();
+    for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
+      for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex])
+        m_batch.push_back(std::minmax(Spectral_slot(neighbor.vertex), Spectral_slot(e.vertex)));
+    std::sort(m_batch.begin(), m_batch.end());
+    m_batch.erase(std::unique(m_batch.begin(), m_batch.end()), m_batch.end());
+    evaluate_batch();
+  }
+
+  /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
+  /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
+  void commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
+              const Eigen::Vector3d& point, Spectral_ring ring)
+  {
+    m_forest.merge(removed, kept, weight);
+    merge_rows(m_fields.F, removed, kept, weight);
+    if(m_fields.Z.size() != 0)
+      merge_rows(m_fields.Z, removed, kept, weight);
+    m_total -= m_fields.E[removed] + m_fields.E[kept];
+    m_fields.E[removed] = m_fields.E[kept] = m_fields.mass[removed] = 0;
+    m_fields.points[kept] = point;
+    m_fields.rings.merge(removed, kept, std::move(ring));
+    m_candidates.merge(removed);
+
+    m_fields.rings.update_triangles(kept, position());
+    for(const Spectral_ring_entry& e : m_fields.rings[kept]) {
+      m_fields.rings.update_triangles(e.vertex, position());
+      m_candidates.forget(e.vertex, removed);
+    }
+    // R is computed afresh from the current geometry: nothing accumulates, so E cannot drift.
+    refresh(kept);
+    for(const Spectral_ring_entry& e : m_fields.rings[kept])
+      refresh(e.vertex);
+  }
+
+  /// Forgets the candidates of the edges whose H met the last commit.
+  void drop_candidates_around(const Spectral_slot kept)
+  {
+    for(const Spectral_ring_entry& e : m_fields.rings[kept])
+      for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
+        m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
+  }
+
+  std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
+
+private:
+  using Edge = std::pair<Spectral_slot, Spectral_slot>;
+
+  struct Position
+  {
+    const std::vector<Eigen::Vector3d>& points;
+    const Eigen::Vector3d& operator()(const Spectral_slot s) const { return points[s]; }
+  };
+  Position position() const { return Position{m_fields.points}; }
+
+  static void merge_rows(Rows& rows, const Spectral_slot removed, const Spectral_slot kept, const double weight)
+  {
+    rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
+  }
+
+  // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
+  void update_row(const Spectral_slot w)
+  {
+    const Spectral_ring& ring = m_fields.rings[w];
+    double area = 0, to_self = 0;
+    auto R = m_fields.R.row(w);
+    m_scratch.setZero(m_fields.F.cols());
+    R.setZero();
+    for(std::size_t i = 0; i < ring.size(); ++i) {
+      const Spectral_triangle &after = ring[i].triangle,
+                              &before = ring[Spectral_rings::prev(ring, i)].triangle;
+      const double cot = (after.cot_second + before.cot_first) / 2;
+      R += cot * m_fields.F.row(ring[i].vertex);
+      to_self -= cot;
+      area += after.area * m_fields.area_scale;
+      if(m_fields.theta != 0)
+        add_z(ring[i].vertex,
+              (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share());
+    }
+    R += to_self * m_fields.F.row(w);
+    add_z(w, area * m_fields.diagonal_share());
+    if(m_fields.Z.size() != 0)
+      R += m_scratch;
+    else
+      R += m_scratch.cwiseProduct(m_fields.lambda.transpose());
+    m_fields.mass[w] = area / 3;
+    m_fields.E[w] = area > 0 ? R.squaredNorm() / m_fields.mass[w] : 0;
+  }
+
+  void add_z(const Spectral_slot w, const double share)
+  {
+    if(m_fields.Z.size() != 0)
+      m_scratch += share * m_fields.Z.row(w);
+    else
+      m_scratch += share * m_fields.F.row(w);
+  }
+
+  void refresh(const Spectral_slot w)
+  {
+    m_total -= m_fields.E[w];
+    update_row(w);
+    m_total += m_fields.E[w];
+  }
+
+  double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    if(!m_parameters.binary)
+      return alpha;
+    if(alpha != 0.5)
+      return alpha < 0.5 ? 0. : 1.;
+    if(m_fields.mass[u] != m_fields.mass[v])
+      return m_fields.mass[u] > m_fields.mass[v] ? 0. : 1.;
+    return u < v ? 0. : 1.;
+  }
+
+  Spectral_sample sample_at(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    Spectral_sample s;
+    const Eigen::Vector3d &pu = m_fields.points[u], &pv = m_fields.points[v];
+    s.point = alpha == 0 ? pu : alpha == 1 ? pv : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
+    if(m_parameters.single_precision_points)
+      s.point = s.point.cast<float>().cast<double>();
+    s.weight = rounded(u, v, alpha);
+    return s;
+  }
+
+  // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples.
+  Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel) const
+  {
+    Spectral_sample samples[3];
+    if(m_parameters.preserve_border) {
+      const bool border_u = m_fields.rings.is_border(u), border_v = m_fields.rings.is_border(v);
+      if(border_u != border_v) {
+        samples[0] = sample_at(u, v, border_v ? 1. : 0.);
+        kernel.evaluate(samples, 1);
+        return samples[0];
+      }
+    }
+    if(m_parameters.placement == Spectral_placement_strategy::midpoint) {
+      samples[0] = sample_at(u, v, 0.5);
+      kernel.evaluate(samples, 1);
+      return samples[0];
+    }
+    for(int s = 0; s < 3; ++s)
+      samples[s] = sample_at(u, v, s / 2.);
+    kernel.evaluate(samples, 3);
+    Spectral_sample best = samples[0];
+    for(int s = 1; s < 3; ++s)
+      if(samples[s].cost < best.cost)
+        best = samples[s];
+
+    // p(alpha) = c0 + b alpha + a alpha^2
+    const double a = 2 * (samples[0].cost - 2 * samples[1].cost + samples[2].cost);
+    const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
+    const double alpha = -b / (2 * a);
+    if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
+      Spectral_sample minimiser = sample_at(u, v, alpha);
+      kernel.evaluate(&minimiser, 1);
+      if(minimiser.cost < best.cost)
+        best = minimiser;
+    }
+    return best;
+  }
+
+  void evaluate_batch()
+  {
+    m_number_of_evaluations += m_batch.size();
+    m_results.resize(m_batch.size());
+    spectral_for_each(m_batch.size(), m_parameters.threads, m_kernels,
+                      [this](const std::size_t i, Spectral_collapse_kernel& kernel) {
+                        m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, kernel);
+                      });
+    for(std::size_t i = 0; i < m_batch.size(); ++i)
+      m_candidates.insert(m_batch[i].first, m_results[i]);
+  }
+
+  Spectral_fields m_fields;
+  Spectral_cost_parameters m_parameters;
+  Eigen::Index m_number_of_signals = 0;
+  double m_total = 0;
+  Spectral_geometry::Merge_forest m_forest;
+  Spectral_candidates m_candidates;
+
+  Spectral_collapse_kernel m_kernel;
+  std::vector<Spectral_collapse_kernel> m_kernels;
+  std::vector<Edge> m_batch;
+  std::vector<Spectral_candidate> m_results;
+  Eigen::RowVectorXd m_scratch;
+  std::size_t m_number_of_evaluations = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_COLLAPSE_CORE_H

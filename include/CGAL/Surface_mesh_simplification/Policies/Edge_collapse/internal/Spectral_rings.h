@@ -1,0 +1,172 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_RINGS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_RINGS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/assertions.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// A vertex of the input mesh, numbered in the order of `vertices(mesh)` when the state was made. A
+/// merged vertex keeps the slot of the vertex that CGAL kept; slots are never used again.
+using Spectral_slot = std::uint32_t;
+
+constexpr Spectral_slot null_spectral_slot = (std::numeric_limits<Spectral_slot>::max)();
+
+/// Cotangents and area of a triangle (c; a, b), seen from its corner c.
+struct Spectral_triangle
+{
+  double cot_center = 0; ///< at c, opposite ab
+  double cot_first = 0;  ///< at a, opposite cb
+  double cot_second = 0; ///< at b, opposite ca
+  double area = 0;
+};
+
+/// cot = dot / |cross|, with one division and one square root, where the cross product is that of the two shortest
+/// edges. A triangle that is degenerate to rounding contributes nothing to L and M; the rule is that of
+/// `Spectral_geometry::triangle_cotangents()`, so that E is 0 on the input.
+inline Spectral_triangle spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a,
+                                           const Eigen::Vector3d& b)
+{
+  const Eigen::Vector3d ca = a - c, cb = b - c, ab = b - a;
+  const double ca2 = ca.squaredNorm(), cb2 = cb.squaredNorm(), ab2 = ab.squaredNorm();
+  Eigen::Vector3d cross;
+  double product;
+  if(ab2 >= ca2 && ab2 >= cb2) {
+    cross = ca.cross(cb);
+    product = ca2 * cb2;
+  } else if(ca2 >= cb2) {
+    cross = ab.cross(cb);
+    product = ab2 * cb2;
+  } else {
+    cross = ca.cross(ab);
+    product = ca2 * ab2;
+  }
+  const double twice_area_squared = cross.squaredNorm();
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  Spectral_triangle t;
+  if(!(twice_area_squared > rounding * rounding * product))
+    return t;
+  const double twice_area = std::sqrt(twice_area_squared), inverse = 1 / twice_area;
+  t.cot_center = ca.dot(cb) * inverse;
+  t.cot_first = -ca.dot(ab) * inverse;
+  t.cot_second = cb.dot(ab) * inverse;
+  t.area = twice_area / 2;
+  return t;
+}
+
+/// A neighbour in the ring of a vertex c, and the triangle (c; vertex, next vertex of the ring) if
+/// `face` is set. Border vertices have an entry without a face; a pinched vertex has several.
+struct Spectral_ring_entry
+{
+  Spectral_slot vertex = null_spectral_slot;
+  bool face = false;
+  Spectral_triangle triangle;
+};
+
+using Spectral_ring = std::vector<Spectral_ring_entry>;
+
+/*!
+ * The connectivity of the current mesh in slots, with the geometry of each triangle at each of its
+ * corners.
+ *
+ * The policies see every mesh type through this mirror: the walk over halfedges is done once, for
+ * the kept vertex of a collapse, and everything else is arithmetic on contiguous arrays, which may run
+ * on several threads whatever the mesh is.
+ */
+class Spectral_rings
+{
+public:
+  void resize(const std::size_t n) { m_rings.assign(n, Spectral_ring()); }
+  std::size_t size() const { return m_rings.size(); }
+
+  Spectral_ring& operator[](const Spectral_slot s) { return m_rings[s]; }
+  const Spectral_ring& operator[](const Spectral_slot s) const { return m_rings[s]; }
+
+  /// Position of `w` in the ring of `c`, or the ring's size.
+  std::size_t find(const Spectral_slot c, const Spectral_slot w) const
+  {
+    const Spectral_ring& ring = m_rings[c];
+    std::size_t i = 0;
+    while(i < ring.size() && ring[i].vertex != w)
+      ++i;
+    return i;
+  }
+
+  bool is_border(const Spectral_slot c) const
+  {
+    return std::any_of(m_rings[c].begin(), m_rings[c].end(),
+                       [](const Spectral_ring_entry& e) { return !e.face; });
+  }
+
+  static std::size_t next(const Spectral_ring& ring, const std::size_t i)
+  {
+    return i + 1 == ring.size() ? 0 : i + 1;
+  }
+  static std::size_t prev(const Spectral_ring& ring, const std::size_t i)
+  {
+    return i == 0 ? ring.size() - 1 : i - 1;
+  }
+
+  /// Fills the triangles of the ring of `c` from `position(slot)`.
+  template <class Position>
+  void update_triangles(const Spectral_slot c, const Position& position)
+  {
+    Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i)
+      ring[i].triangle = ring[i].face ? spectral_triangle(position(c), position(ring[i].vertex),
+                                                          position(ring[next(ring, i)].vertex))
+                                      : Spectral_triangle();
+  }
+
+  /// Replaces `removed` by `kept` in the rings of the neighbours and forgets the ring of `removed`.
+  /// `ring` is the ring of the kept vertex after the collapse, as the mesh has it.
+  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
+  {
+    Spectral_ring().swap(m_rings[removed]);
+    for(const Spectral_ring_entry& e : ring)
+      replace_in_ring(e.vertex, removed, kept);
+    m_rings[kept] = std::move(ring);
+  }
+
+private:
+  // Where removed and kept were consecutive, the triangle between them vanished and the later of the
+  // two entries takes the place of both: an entry carries the face that follows it.
+  void replace_in_ring(const Spectral_slot w, const Spectral_slot removed, const Spectral_slot kept)
+  {
+    Spectral_ring& ring = m_rings[w];
+    const std::size_t i = find(w, removed);
+    if(i == ring.size())
+      return;
+    ring[i].vertex = kept;
+    const std::size_t nx = next(ring, i), pv = prev(ring, i);
+    if(nx != i && ring[nx].vertex == kept)
+      ring.erase(ring.begin() + i);
+    else if(pv != i && ring[pv].vertex == kept)
+      ring.erase(ring.begin() + pv);
+  }
+
+  std::vector<Spectral_ring> m_rings;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_RINGS_H
