@@ -41,8 +41,8 @@ inline Eigen::Vector3d combination(const Eigen::Matrix3d& triangle, const Eigen:
   return triangle * weights;
 }
 
-// Keeps the candidate if it is strictly closer: a vertex or an edge that is tried first wins against an interior
-// point that only rounding makes as close.
+// Keeps the candidate if it is strictly closer: a vertex or an edge that is tried first wins against an
+// interior point that only rounding makes as close.
 inline void keep_closer(const Eigen::Vector3d& query, const Eigen::Matrix3d& triangle,
                         const Eigen::Vector3d& weights, Point_of_triangle& best)
 {
@@ -51,10 +51,11 @@ inline void keep_closer(const Eigen::Vector3d& query, const Eigen::Matrix3d& tri
     best = {weights, d};
 }
 
-// The point of the triangle (one vertex per column) closest to the query. The best of the projections on the three
-// edges and, when it lies inside, on the plane. Each candidate is a point of the triangle and its distance is measured,
-// so that an ill-conditioned plane (a needle) can lose accuracy but never give a point off the triangle; a face without
-// area is the union of its edges, a face without extent a point. The kernel's projection goes through the normal.
+// The point of the triangle (one vertex per column) closest to the query. The best of the projections on the
+// three edges and, when it lies inside, on the plane. Each candidate is a point of the triangle and its
+// distance is measured, so that an ill-conditioned plane (a needle) can lose accuracy but never give a point
+// off the triangle; a face without area is the union of its edges, a face without extent a point. The
+// kernel's projection goes through the normal.
 inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
                                                    const Eigen::Matrix3d& triangle)
 {
@@ -79,11 +80,11 @@ inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
   return best;
 }
 
-using Kernel = CGAL::Simple_cartesian<double>;
+using Closest_point_kernel = CGAL::Simple_cartesian<double>;
 
-inline Kernel::Point_3 to_point(const Eigen::Vector3d& p)
+inline Closest_point_kernel::Point_3 to_point(const Eigen::Vector3d& p)
 {
-  return Kernel::Point_3(p(0), p(1), p(2));
+  return Closest_point_kernel::Point_3(p(0), p(1), p(2));
 }
 
 // A face of the surface, its index and its corners (one per column).
@@ -97,7 +98,7 @@ struct Indexed_face
 
   Eigen::Index id;
   Eigen::Matrix3d corners;
-  Kernel::Triangle_3 triangle;
+  Closest_point_kernel::Triangle_3 triangle;
 };
 
 // Model of `AABBPrimitive`: a handle on a face.
@@ -105,8 +106,8 @@ class Indexed_face_primitive
 {
 public:
   using Id = std::vector<Indexed_face>::const_iterator;
-  using Point = Kernel::Point_3;
-  using Datum = Kernel::Triangle_3;
+  using Point = Closest_point_kernel::Point_3;
+  using Datum = Closest_point_kernel::Triangle_3;
   using Datum_reference = const Datum&;
   using Point_reference = const Point&;
 
@@ -123,9 +124,9 @@ private:
 };
 
 #if CGAL_VERSION_MAJOR >= 6
-using Face_traits_base = CGAL::AABB_traits_3<Kernel, Indexed_face_primitive>;
+using Face_traits_base = CGAL::AABB_traits_3<Closest_point_kernel, Indexed_face_primitive>;
 #else
-using Face_traits_base = CGAL::AABB_traits<Kernel, Indexed_face_primitive>;
+using Face_traits_base = CGAL::AABB_traits<Closest_point_kernel, Indexed_face_primitive>;
 #endif
 
 // CGAL's traits with the closest point above instead of the kernel's.
@@ -179,29 +180,31 @@ inline void check_interpolation_input(const Eigen::MatrixXd& points, const Mesh_
 } // namespace internal
 
 /*!
-returns the matrix that interpolates functions on a triangulated surface at the closest points of given points.
+returns the matrix that interpolates functions on a triangulated surface at the closest points of given
+points.
 
-Row `i` holds the barycentric coordinates, in the face of the surface that is closest to `points.row(i)`, of the point of
-that face closest to `points.row(i)`: at most three nonzeros, none negative, which sum to 1. Zeros are not written. The
-function \f$ W g \f$ is the piecewise linear function `g` read off at the closest points, so that `W` times the vertices
-of the surface gives the closest points themselves.
+Row `i` holds the barycentric coordinates, in the face of the surface that is closest to `points.row(i)`, of
+the point of that face closest to `points.row(i)`: at most three nonzeros, none negative, which sum to 1.
+Zeros are not written. The function \f$ W g \f$ is the piecewise linear function `g` read off at the closest
+points, so that `W` times the vertices of the surface gives the closest points themselves.
 
 - With the vertices of the fine mesh as `points` and the coarse mesh as `surface` it is the *prolongation*
   (fine x coarse), by which functions on a simplified mesh go back to the input.
 - With the vertices of the coarse mesh as `points` and the fine mesh as `surface` it is a restriction `P`
-  (coarse x fine) that does not depend on the simplifier, for judging any coarse mesh, whoever made it. It is not the
-  transpose of the prolongation, and may have several nonzeros in a column.
+  (coarse x fine) that does not depend on the simplifier, for judging any coarse mesh, whoever made it. It is
+  not the transpose of the prolongation, and may have several nonzeros in a column.
 
-Where several points of the surface are equally close one of them is taken, always the same one for the same input. A
-closest point says nothing of the orientation: sheets of a surface that nearly touch can take each other's values.
+Where several points of the surface are equally close one of them is taken, always the same one for the same
+input. A closest point says nothing of the orientation: sheets of a surface that nearly touch can take each
+other's values.
 
 @param points `r` x 3, coordinates in the unit of the surface.
-@param surface `n` vertices and `m` triangles, `m > 0`. Faces without area count as their edges, vertices without a face
-  get an empty column.
+@param surface `n` vertices and `m` triangles, `m > 0`. Faces without area count as their edges, vertices
+  without a face get an empty column.
 @return `r` x `n`.
 
-Throws `std::invalid_argument` for a coordinate that is not finite, an index out of range, a surface without a face, or
-matrices that do not have three columns.
+Throws `std::invalid_argument` for a coordinate that is not finite, an index out of range, a surface without a
+face, or matrices that do not have three columns.
 
 Complexity: one AABB tree of the faces, then O(log m) per point for points close to the surface.
 */

@@ -19,17 +19,17 @@ namespace Spectral_geometry {
 The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of vertex merges (section 3.2 of
 Lescoat et al. 2020), recorded in constant time per merge.
 
-A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r` (removed) into the slot
-`k` (kept) with weight alpha stands for the matrix `Q` with
+A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r` (removed) into the
+slot `k` (kept) with weight alpha stands for the matrix `Q` with
 \f[ (Q F)_k = (1 - \alpha) F_k + \alpha F_r, \qquad (Q F)_w = F_w \ \mbox{for the other slots}, \f]
 after which `r` is gone and `k` goes on, and may be kept or removed by later merges.
 
-The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse vertex and
-`P` has at most one nonzero per column: the merges form a binary forest with a weight on each arc (alpha for the
-removed side, 1 - alpha for the kept side), and a nonzero of `P` is the product of the arcs from a fine vertex up
-to its root. The forest is stored as the log of its merges in order. Reading the log backwards visits every node
-before its two children, so that `P` is expanded in linear time, at the end of the log or after any number of its
-merges, without a single product of sparse matrices.
+The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse vertex
+and `P` has at most one nonzero per column: the merges form a binary forest with a weight on each arc (alpha
+for the removed side, 1 - alpha for the kept side), and a nonzero of `P` is the product of the arcs from a
+fine vertex up to its root. The forest is stored as the log of its merges in order. Reading the log backwards
+visits every node before its two children, so that `P` is expanded in linear time, at the end of the log or
+after any number of its merges, without a single product of sparse matrices.
 
 Every row of `P` sums to 1. When each alpha is 0 or 1, every row holds exactly one nonzero, equal to 1.
 
@@ -65,8 +65,8 @@ public:
   /*!
   merges the slot `removed` into the slot `kept`: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
 
-  Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out of range or has been
-  removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
+  Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out of range or
+  has been removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
   */
   void merge(Index removed, Index kept, double alpha)
   {
@@ -117,12 +117,13 @@ public:
 
   At most one nonzero per column; zeros (a merge with alpha 0 or 1 makes some) are not written. Rows sum to 1.
 
-  @param slots every slot that is left after the merges, once, in the order wanted for the rows: for a simplified mesh
-  the slots of `vertices(mesh)` in their order, which `collect_garbage()` may change.
-  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is a permutation) and
-  `number_of_merges()`: `P` of any intermediate level of the simplification.
+  @param slots every slot that is left after the merges, once, in the order wanted for the rows: for a
+    simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may change.
+  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is a
+    permutation) and `number_of_merges()`: `P` of any intermediate level of the simplification.
 
-  Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there are fewer merges.
+  Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there are fewer
+  merges.
   */
   Matrix restriction(const std::vector<Index>& slots, Index number_of_merges) const
   {
@@ -146,7 +147,8 @@ public:
   Matrix restriction(const std::vector<Index>& slots) const { return restriction(slots, number_of_merges()); }
 
   /*!
-  returns, for every fine vertex, the row of the coarse vertex into which it was merged (`number_of_slots()` entries).
+  returns, for every fine vertex, the row of the coarse vertex into which it was merged (`number_of_slots()`
+  entries).
 
   The map is total: a fine vertex whose weight in `P` is zero has a coarse vertex all the same. Parameters and
   exceptions are those of `restriction()`.

@@ -25,7 +25,9 @@ class Spectral_cost
 {
 public:
   Spectral_cost() = default;
-  explicit Spectral_cost(std::shared_ptr<State> state) : m_state(std::move(state)) {}
+  explicit Spectral_cost(std::shared_ptr<State> state)
+    : m_state(std::move(state))
+  {}
 
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const

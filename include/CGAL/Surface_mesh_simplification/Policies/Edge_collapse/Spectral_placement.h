@@ -26,7 +26,9 @@ class Spectral_placement
 {
 public:
   Spectral_placement() = default;
-  explicit Spectral_placement(std::shared_ptr<State> state) : m_state(std::move(state)) {}
+  explicit Spectral_placement(std::shared_ptr<State> state)
+    : m_state(std::move(state))
+  {}
 
   template <class Profile>
   auto operator()(const Profile& profile) const

@@ -95,7 +95,8 @@ public:
           mesh, options,
           parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                        get_property_map(vertex_point, mesh)),
-          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)), np))
+          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)),
+          np))
   {}
 
   Get_cost get_cost() const { return Get_cost(m_state); }
@@ -123,8 +124,9 @@ public:
   Eigen::SparseMatrix<double> prolongation() const
   {
     return Spectral_geometry::closest_point_interpolation(
-        m_state->fine_points(), Spectral_geometry::mesh_matrices(
-                                    m_state->mesh(), parameters::vertex_point_map(m_state->vertex_point_map())));
+        m_state->fine_points(),
+        Spectral_geometry::mesh_matrices(m_state->mesh(),
+                                         parameters::vertex_point_map(m_state->vertex_point_map())));
   }
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into

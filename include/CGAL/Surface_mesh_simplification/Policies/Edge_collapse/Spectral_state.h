@@ -79,8 +79,11 @@ public:
   template <class NamedParameters>
   Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const Vertex_point_map& vpm,
                  const Geom_traits& traits, const NamedParameters& np)
-    : m_mesh(&mesh), m_vpm(vpm), m_traits(traits), m_options(options),
-      m_slots(get(dynamic_vertex_property_t<Slot>(), mesh))
+    : m_mesh(&mesh)
+    , m_vpm(vpm)
+    , m_traits(traits)
+    , m_options(options)
+    , m_slots(get(dynamic_vertex_property_t<Slot>(), mesh))
   {
     const auto begin = std::chrono::steady_clock::now();
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
@@ -258,6 +261,7 @@ public:
 
   const Triangle_mesh& mesh() const { return *m_mesh; }
   const Vertex_point_map& vertex_point_map() const { return m_vpm; }
+  const Geom_traits& geom_traits() const { return m_traits; }
   const internal::Spectral_collapse_core& core() const { return m_core; }
   const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
@@ -274,7 +278,8 @@ public:
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_phase phase, const double fraction) const
   {
-    return !m_options.progress || m_options.progress(Spectral_progress{phase, fraction, m_number_of_vertices});
+    return !m_options.progress ||
+           m_options.progress(Spectral_progress{phase, fraction, m_number_of_vertices});
   }
 
   /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
@@ -382,8 +387,9 @@ private:
                              "spectral.visitor() to edge_collapse() with .visitor().");
     for(const vertex_descriptor v : {profile.v0(), profile.v1()})
       if(to_vector(get(profile.vertex_point_map(), v)) != m_core.fields().points[slot(v)])
-        throw std::logic_error("Spectral_policies: the vertex_point_map of edge_collapse() disagrees with that "
-                               "of the policies; pass the same map to both.");
+        throw std::logic_error(
+            "Spectral_policies: the vertex_point_map of edge_collapse() disagrees with that "
+            "of the policies; pass the same map to both.");
     m_positions_checked = true;
   }
 

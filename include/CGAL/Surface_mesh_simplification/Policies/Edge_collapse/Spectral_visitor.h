@@ -18,18 +18,42 @@ namespace internal {
 /// The user's visitor where there is none.
 struct No_visitor
 {
-  template <class TM> void OnStarted(TM&) const {}
-  template <class TM> void OnFinished(TM&) const {}
-  template <class P> void OnStopConditionReached(const P&) const {}
-  template <class P, class C> void OnCollected(const P&, const C&) const {}
-  template <class P, class C, class S> void OnSelected(const P&, const C&, S, S) const {}
-  template <class P, class O> void OnCollapsing(const P&, const O&) const {}
-  template <class P, class V> void OnCollapsed(const P&, const V&) const {}
-  template <class P> void OnNonCollapsable(const P&) const {}
+  template <class TM>
+  void OnStarted(TM&) const
+  {}
+  template <class TM>
+  void OnFinished(TM&) const
+  {}
+  template <class P>
+  void OnStopConditionReached(const P&) const
+  {}
+  template <class P, class C>
+  void OnCollected(const P&, const C&) const
+  {}
+  template <class P, class C, class S>
+  void OnSelected(const P&, const C&, S, S) const
+  {}
+  template <class P, class O>
+  void OnCollapsing(const P&, const O&) const
+  {}
+  template <class P, class V>
+  void OnCollapsed(const P&, const V&) const
+  {}
+  template <class P>
+  void OnNonCollapsable(const P&) const
+  {}
 };
 
-template <class Visitor> Visitor& unwrap_visitor(Visitor& visitor) { return visitor; }
-template <class Visitor> Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor) { return visitor; }
+template <class Visitor>
+Visitor& unwrap_visitor(Visitor& visitor)
+{
+  return visitor;
+}
+template <class Visitor>
+Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
+{
+  return visitor;
+}
 
 } // namespace internal
 
@@ -46,7 +70,8 @@ class Spectral_visitor
 {
 public:
   explicit Spectral_visitor(std::shared_ptr<State> state, UserVisitor user = UserVisitor())
-    : m_state(std::move(state)), m_user(std::move(user))
+    : m_state(std::move(state))
+    , m_user(std::move(user))
   {}
 
   template <class TriangleMesh>

@@ -35,7 +35,8 @@ public:
   /// @param number_of_vertices the target N; 0 never stops
   /// @param mesh the mesh that is simplified
   Vertex_count_stop_predicate(const std::size_t number_of_vertices, const Triangle_mesh& mesh)
-    : m_target(number_of_vertices), m_mesh(&mesh)
+    : m_target(number_of_vertices)
+    , m_mesh(&mesh)
   {}
 
   template <class Cost, class Profile>

@@ -35,8 +35,8 @@ struct Spectral_basis
   Eigen::MatrixXd F, Z;
   Eigen::VectorXd lambda;
   double theta = 0;
-  double area = 1;             ///< of the input
-  double sum_of_squares = 0;   ///< || Z ||_B^2; the sum of lambda_k^2 for eigenvectors
+  double area = 1;           ///< of the input
+  double sum_of_squares = 0; ///< || Z ||_B^2; the sum of lambda_k^2 for eigenvectors
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< at the input's scale
 };
 
@@ -47,14 +47,16 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
     throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
                                 ", use a number from 1.");
   if(options.threads > 1 && !spectral_threads_available)
-    throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
-                                ", but this program was built without TBB; use 1, or link with TBB and define "
-                                "CGAL_LINKED_WITH_TBB.");
+    throw std::invalid_argument(
+        "Spectral_options: threads is " + to_string(options.threads) +
+        ", but this program was built without TBB; use 1, or link with TBB and define "
+        "CGAL_LINKED_WITH_TBB.");
   if(options.signals.size() != 0 && options.eigenpairs)
     throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
   if(options.signals.size() != 0 && options.signals.rows() != n)
     throw std::invalid_argument("Spectral_options: signals has " + to_string(options.signals.rows()) +
-                                " rows, but the mesh has " + to_string(n) + " vertices; give one row for each.");
+                                " rows, but the mesh has " + to_string(n) +
+                                " vertices; give one row for each.");
   if(options.signals.size() != 0 && !options.signals.allFinite())
     throw std::invalid_argument("Spectral_options: signals has an entry that is not finite; correct it.");
   if(options.eigenpairs && options.eigenpairs->vectors.rows() != n)

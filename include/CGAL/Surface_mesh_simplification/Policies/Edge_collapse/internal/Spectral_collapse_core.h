@@ -55,8 +55,8 @@ public:
                  const double theta, const double area_scale, const Spectral_cost_parameters& parameters)
   {
     const Eigen::Index K = F.cols();
-    const Eigen::Index padded =
-        (K + Eigen::Index(spectral_padding) - 1) / Eigen::Index(spectral_padding) * Eigen::Index(spectral_padding);
+    const Eigen::Index padded = (K + Eigen::Index(spectral_padding) - 1) / Eigen::Index(spectral_padding) *
+                                Eigen::Index(spectral_padding);
     m_number_of_signals = K;
     m_fields.F = Rows::Zero(F.rows(), padded);
     m_fields.F.leftCols(K) = F;
@@ -94,6 +94,10 @@ public:
       m_fields.rings.update_triangles(w, position());
     for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
       update_row(w);
+    m_products.resize(std::size_t(n));
+    m_builders.resize(1);
+    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
+      m_builders.front().compute(m_fields, w, m_products[w]);
     m_total = m_fields.E.sum();
     m_candidates.clear();
   }
@@ -114,7 +118,7 @@ public:
       std::swap(u, v);
     Spectral_candidate result;
     result.other = v;
-    if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return result;
     const Spectral_sample best = best_sample(u, v, kernel);
     if(!std::isfinite(best.cost))
@@ -140,7 +144,7 @@ public:
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
   double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
   {
-    if(m_kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    if(m_kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return std::numeric_limits<double>::infinity();
     ++m_number_of_evaluations;
     Spectral_sample sample;
@@ -205,7 +209,8 @@ public:
     m_total -= m_fields.E[removed] + m_fields.E[kept];
     m_fields.E[removed] = m_fields.E[kept] = m_fields.mass[removed] = 0;
     m_fields.points[kept] = point;
-    m_fields.rings.merge(removed, kept, std::move(ring));
+    m_fields.rings.merge(removed, kept, std::move(ring),
+                         [this](const Spectral_slot w, const std::size_t i) { m_products[w].erase(i); });
     m_candidates.merge(removed);
 
     m_fields.rings.update_triangles(kept, position());
@@ -217,6 +222,7 @@ public:
     refresh(kept);
     for(const Spectral_ring_entry& e : m_fields.rings[kept])
       refresh(e.vertex);
+    update_products(removed, kept);
   }
 
   /// Forgets the candidates of the edges whose H met the last commit.
@@ -239,7 +245,8 @@ private:
   };
   Position position() const { return Position{m_fields.points}; }
 
-  static void merge_rows(Rows& rows, const Spectral_slot removed, const Spectral_slot kept, const double weight)
+  static void merge_rows(Rows& rows, const Spectral_slot removed, const Spectral_slot kept,
+                         const double weight)
   {
     rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
   }
@@ -288,6 +295,40 @@ private:
     m_total += m_fields.E[w];
   }
 
+  // f changed at `kept` alone, R at `kept` and its neighbours: the products in the ring of `kept` are computed afresh,
+  // in those of its neighbours what f of `kept` or a changed R is in, in the rings around them what a changed R is in.
+  void update_products(const Spectral_slot removed, const Spectral_slot kept)
+  {
+    const Spectral_rings& rings = m_fields.rings;
+    m_products[removed].clear();
+    m_around.assign({kept});
+    for(const Spectral_ring_entry& e : rings[kept])
+      m_around.push_back(e.vertex);
+    const std::size_t inner = m_around.size();
+    ++m_mark;
+    m_marks.resize(m_products.size(), 0);
+    for(const Spectral_slot w : m_around)
+      m_marks[w] = m_mark;
+    const std::size_t mark_of_inner = m_mark++;
+    for(std::size_t i = 1; i < inner; ++i)
+      for(const Spectral_ring_entry& e : rings[m_around[i]])
+        if(m_marks[e.vertex] < mark_of_inner) {
+          m_marks[e.vertex] = m_mark;
+          m_around.push_back(e.vertex);
+        }
+    spectral_for_each(m_around.size(), m_parameters.threads, m_builders,
+                      [&](const std::size_t i, Spectral_ring_product_builder& builder) {
+                        const Spectral_slot c = m_around[i];
+                        const Spectral_ring& ring = rings[c];
+                        if(i == 0 || ring.size() != m_products[c].degree())
+                          return builder.compute(m_fields, c, m_products[c]);
+                        const std::size_t moved = i < inner ? rings.find(c, kept) : ring.size();
+                        builder.update(m_fields, c, m_products[c], moved, [&](const std::size_t j) {
+                          return m_marks[j < ring.size() ? ring[j].vertex : c] == mark_of_inner;
+                        });
+                      });
+  }
+
   double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
   {
     if(!m_parameters.binary)
@@ -311,7 +352,8 @@ private:
   }
 
   // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples.
-  Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel) const
+  Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v,
+                              Spectral_collapse_kernel& kernel) const
   {
     Spectral_sample samples[3];
     if(m_parameters.preserve_border) {
@@ -369,6 +411,11 @@ private:
 
   Spectral_collapse_kernel m_kernel;
   std::vector<Spectral_collapse_kernel> m_kernels;
+  std::vector<Spectral_ring_products> m_products;
+  std::vector<Spectral_ring_product_builder> m_builders;
+  std::vector<Spectral_slot> m_around;
+  std::vector<std::size_t> m_marks;
+  std::size_t m_mark = 0;
   std::vector<Edge> m_batch;
   std::vector<Spectral_candidate> m_results;
   Eigen::RowVectorXd m_scratch;

@@ -7,14 +7,17 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_merged_row.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_ring_products.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_row_norms.h>
 
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -23,31 +26,6 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
-
-/*!
- * What the local cost reads: the current mesh in slots and, for each slot w, the rows f_w and
- * R_w = (B Z)_w - (L F)_w, the mass M_w and E_w = |R_w|^2 / M_w (Eq. 2, decomposed by vertex).
- * Areas and masses are those of the input scaled to unit area.
- */
-struct Spectral_fields
-{
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  Rows F;                          ///< n x padded K
-  Rows Z;                          ///< the same, or empty where Z = F Lambda
-  Eigen::VectorXd lambda;          ///< padded K, read where Z is empty
-  Rows R;                          ///< n x padded K
-  Eigen::VectorXd mass;            ///< lumped barycentric M_w
-  Eigen::VectorXd E;               ///< E_w
-  std::vector<Eigen::Vector3d> points;
-  Spectral_rings rings;
-  double theta = 0;                ///< B = (1 - theta) M_lumped + theta M_consistent
-  double area_scale = 1;           ///< 1 / area of the input
-
-  // Shares of a triangle's area: row sums of B stay A / 3 per corner.
-  double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
-  double off_diagonal_share() const { return theta / 12; }
-};
 
 /// A way to collapse a candidate (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.
 struct Spectral_sample
@@ -62,8 +40,9 @@ struct Spectral_sample
  * where H is the merged vertex and its link (section 3.3 of the paper).
  *
  * For a vertex w of the link only the triangles around u and v change, so R_w after is R_w plus a
- * combination of five rows: w, u, v and the two neighbours of w along the link. The merged
- * vertex has no such shortcut: its row is summed over its whole ring.
+ * combination of z_w and of four differences of rows of F (and, with a mass that has off-diagonal entries, of the
+ * rows of Z of the same vertices). Its square is a quadratic form in the coefficients, whose matrix is gathered from
+ * `Spectral_ring_products`. The coefficients of up to four samples are computed side by side.
  *
  * The object holds the scratch memory of one thread; it allocates only while a larger ring than any
  * before comes along.
@@ -71,70 +50,95 @@ struct Spectral_sample
 class Spectral_collapse_kernel
 {
 public:
+  static constexpr int max_samples = 4;
+
   enum class Topology { collapsible, link_condition, both_on_border };
 
   /// Collects the neighbourhood of (u,v) as it is. Unless the answer is `collapsible`, CGAL's loop would
   /// refuse the edge until something near changes, and nothing may be evaluated.
-  Topology prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
+  Topology prepare(const Spectral_fields& fields, const std::vector<Spectral_ring_products>& products,
+                   const Spectral_slot u, const Spectral_slot v)
   {
     m_fields = &fields;
+    m_products = &products;
     m_u = u;
     m_v = v;
+    m_v_in_u = fields.rings.find(u, v);
+    m_u_in_v = fields.rings.find(v, u);
+    CGAL_assertion(m_v_in_u < fields.rings[u].size() && m_u_in_v < fields.rings[v].size());
     const Topology topology = check_topology();
     if(topology == Topology::collapsible) {
-      collect_link();
-      subtract_old_triangles();
+#ifdef CGAL_SPECTRAL_DISPATCH
+      if(spectral_has_avx2())
+        prepare_avx2();
+      else
+#endif
+        prepare_body();
     }
     return topology;
   }
 
-  /// Fills `cost` of up to three samples; infinity where a triangle without area would arise.
+  /// Fills `cost` of up to four samples; infinity where a triangle without area would arise.
   void evaluate(Spectral_sample* samples, const int count)
   {
-    CGAL_precondition(count >= 1 && count <= Spectral_row_combination::max_samples);
-    for(int s = 0; s < count; ++s) {
-      samples[s].cost = -m_before;
-      if(!add_new_triangles(samples[s], s))
-        samples[s].cost = std::numeric_limits<double>::infinity();
-    }
-    for(std::size_t i = 0; i < m_link.size(); ++i)
-      add_link_row(i, samples, count);
-    add_merged_row(samples, count);
-    for(int s = 0; s < count; ++s)
-      if(!std::isfinite(samples[s].cost))
-        samples[s].cost = std::numeric_limits<double>::infinity();
+    CGAL_precondition(count >= 1 && count <= max_samples);
+#ifdef CGAL_SPECTRAL_DISPATCH
+    if(spectral_has_avx2())
+      return evaluate_avx2(samples, count);
+#endif
+    evaluate_body(samples, count);
   }
 
 private:
-  enum Column { self, at_u, at_v, first, second, number_of_columns };
+  using Lanes = Spectral_lanes;
 
-  // Coefficients of one row of the residual on its five columns: a on F (from -L), b on Z (from B).
-  struct Coefficients
-  {
-    std::array<double, number_of_columns> a{}, b{};
-    double mass = 0;
+  // The vectors that R_w after is a combination of. For w next to one end c of the edge, with the other end o:
+  // f_c - f_w and f_o - f_c; for w next to both: f_u - f_w and f_v - f_w. Then the two neighbours along the link. The
+  // rows of Z are those of w, of c and o (or u and v), and of the same neighbours.
+  enum Column {
+    residual,
+    z_self,
+    g_near,
+    g_far,
+    g_first,
+    g_second,
+    z_near,
+    z_far,
+    z_first,
+    z_second,
+    columns
   };
+  static constexpr int lumped_columns = z_near;
 
   struct Link_vertex
   {
+    Link_vertex() {} // leaves `gram` as it is, which is filled where it is read
+
     Spectral_slot slot;
-    int neighbor[2] = {-1, -1}; ///< along the link, as indices into it
-    Coefficients old;           ///< minus the triangles around u and v as they are
-    Coefficients updated[Spectral_row_combination::max_samples];
+    int in_u = -1, in_v = -1;      // its index in the rings of u and v
+    int u_in = -1, v_in = -1;      // their indices in its own ring
+    int neighbor_in[2] = {0, 0};   // its neighbours along the link, in its own ring
+    int neighbor_near[2] = {0, 0}; // the same in the ring of the one end that it is next to
+    // Half cotangents and shares of area of the triangles that go.
+    double old_u = 0, old_v = 0, old_neighbor[2] = {0, 0};
+    double old_area = 0, old_area_u = 0, old_area_v = 0, old_area_neighbor[2] = {0, 0};
+    double gram[columns][columns]; // upper triangle
+
+    bool next_to_both() const { return in_u >= 0 && in_v >= 0; }
   };
 
-  // A triangle around u or v that survives the collapse as (x; a, b); a and b index the link.
+  // The same for the triangles that come, for each sample.
+  struct New_entries
+  {
+    Lanes to_x, to_neighbor[2], area, area_neighbor[2];
+  };
+
+  // A triangle around u or v that survives the collapse as (x; a, b); a and b index the link, and each names the
+  // other by a column.
   struct Outer_triangle
   {
-    int a, b;
-    Spectral_triangle old;
-  };
-
-  // Coefficients of the merged row: on F and Z of each link vertex, then on those of x itself.
-  struct Merged_row
-  {
-    std::vector<double> a, b;
-    double a_self, b_self, mass;
+    int a, b, column_of_b, column_of_a;
+    bool degenerate;
   };
 
   // CGAL's link condition, and its refusal of inner edges between border vertices. Both depend only
@@ -143,12 +147,10 @@ private:
   {
     const Spectral_rings& rings = m_fields->rings;
     const Spectral_ring& ring = rings[m_u];
-    const std::size_t i = rings.find(m_u, m_v);
-    CGAL_assertion(i < ring.size());
-    const std::size_t before = Spectral_rings::prev(ring, i);
+    const std::size_t i = m_v_in_u, before = Spectral_rings::prev(ring, i);
     for(std::size_t j = 0; j < ring.size(); ++j) {
-      const bool shares_face = (j == Spectral_rings::next(ring, i) && ring[i].face) ||
-                               (j == before && ring[before].face);
+      const bool shares_face =
+          (j == Spectral_rings::next(ring, i) && ring[i].face) || (j == before && ring[before].face);
       if(j != i && !shares_face && rings.find(m_v, ring[j].vertex) < rings[m_v].size())
         return Topology::link_condition;
     }
@@ -157,238 +159,316 @@ private:
     return Topology::collapsible;
   }
 
-  int link_index(const Spectral_slot s) const
+#ifdef CGAL_SPECTRAL_DISPATCH
+  CGAL_SPECTRAL_AVX2 void prepare_avx2()
   {
-    for(std::size_t i = 0; i < m_link.size(); ++i)
-      if(m_link[i].slot == s)
-        return int(i);
-    return -1;
+    prepare_body();
+  }
+  CGAL_SPECTRAL_AVX2 void evaluate_avx2(Spectral_sample* samples, const int count)
+  {
+    evaluate_body(samples, count);
+  }
+#endif
+
+  CGAL_SPECTRAL_INLINE void prepare_body()
+  {
+    collect_link();
+    m_outer.clear();
+    collect_triangles(m_u, m_v, true);
+    collect_triangles(m_v, m_u, false);
+    for(Link_vertex& w : m_link)
+      gather_gram(w);
+    m_merged.prepare(*m_fields, (*m_products)[m_u], (*m_products)[m_v], m_u, m_v, m_v_in_u, m_u_in_v);
   }
 
-  void add_to_link(const Spectral_slot s)
+  // First the ring of u without v, in order, then what only the ring of v has.
+  void collect_link()
   {
-    if(link_index(s) >= 0)
-      return;
+    const Spectral_rings& rings = m_fields->rings;
+    m_link.clear();
+    m_before = m_fields->E[m_u] + m_fields->E[m_v];
+    m_link_of_u.assign(rings[m_u].size(), -1);
+    m_link_of_v.assign(rings[m_v].size(), -1);
+    for(std::size_t i = 0; i < rings[m_u].size(); ++i)
+      if(i != m_v_in_u) {
+        m_link_of_u[i] = int(m_link.size());
+        add_to_link(rings[m_u][i].vertex).in_u = int(i);
+      }
+    const std::size_t size_u = m_link.size();
+    for(std::size_t i = 0; i < rings[m_v].size(); ++i) {
+      const Spectral_slot s = rings[m_v][i].vertex;
+      if(s == m_u)
+        continue;
+      std::size_t k = 0;
+      while(k < size_u && m_link[k].slot != s)
+        ++k;
+      if(k == size_u) {
+        k = m_link.size();
+        add_to_link(s);
+      }
+      m_link_of_v[i] = int(k);
+      m_link[k].in_v = int(i);
+      m_link[k].v_in = int(rings.find(s, m_v));
+    }
+    for(std::size_t k = 0; k < size_u; ++k)
+      m_link[k].u_in = int(rings.find(m_link[k].slot, m_u));
+  }
+
+  Link_vertex& add_to_link(const Spectral_slot s)
+  {
     m_link.emplace_back();
     m_link.back().slot = s;
     m_before += m_fields->E[s];
+    return m_link.back();
   }
 
-  void collect_link()
-  {
-    m_link.clear();
-    m_before = m_fields->E[m_u] + m_fields->E[m_v];
-    for(const Spectral_ring_entry& e : m_fields->rings[m_u])
-      if(e.vertex != m_v)
-        add_to_link(e.vertex);
-    for(const Spectral_ring_entry& e : m_fields->rings[m_v])
-      if(e.vertex != m_u)
-        add_to_link(e.vertex);
-  }
-
-  static Column link_column(Link_vertex& w, const int neighbor)
-  {
-    if(w.neighbor[0] == neighbor || w.neighbor[0] < 0) {
-      w.neighbor[0] = neighbor;
-      return first;
-    }
-    CGAL_assertion(w.neighbor[1] == neighbor || w.neighbor[1] < 0);
-    w.neighbor[1] = neighbor;
-    return second;
-  }
-
-  // The row of corner w of a triangle (w; p, q): L has -cot(q)/2 on p and -cot(p)/2 on q, B has the
-  // shares of the area.
-  void add_corner(Coefficients& row, const Column p, const double cot_q, const Column q, const double cot_p,
-                  const double area, const double sign) const
-  {
-    const double to_p = sign * cot_q / 2, to_q = sign * cot_p / 2;
-    const double scaled_area = sign * area * m_fields->area_scale;
-    row.a[p] += to_p;
-    row.a[q] += to_q;
-    row.a[self] -= to_p + to_q;
-    row.b[self] += scaled_area * m_fields->diagonal_share();
-    row.b[p] += scaled_area * m_fields->off_diagonal_share();
-    row.b[q] += scaled_area * m_fields->off_diagonal_share();
-    row.mass += scaled_area / 3;
-  }
-
-  void subtract_old_triangles()
-  {
-    m_outer.clear();
-    subtract_ring(m_u, m_v, at_u, true);
-    subtract_ring(m_v, m_u, at_v, false);
-  }
-
-  // Triangles with both u and v are seen from u and from v; they are taken once.
-  void subtract_ring(const Spectral_slot center, const Spectral_slot other, const Column center_column,
-                     const bool with_shared)
+  // Triangles with both u and v are seen from both ends; they are taken once.
+  void collect_triangles(const Spectral_slot center, const Spectral_slot other, const bool with_shared)
   {
     const Spectral_ring& ring = m_fields->rings[center];
-    const Column other_column = center_column == at_u ? at_v : at_u;
+    const std::vector<int>& link_of = center == m_u ? m_link_of_u : m_link_of_v;
     for(std::size_t i = 0; i < ring.size(); ++i) {
       if(!ring[i].face)
         continue;
-      const Spectral_slot p = ring[i].vertex, q = ring[Spectral_rings::next(ring, i)].vertex;
-      const Spectral_triangle& t = ring[i].triangle;
-      if(p == other || q == other) {
-        if(!with_shared)
-          continue;
-        Link_vertex& w = m_link[link_index(p == other ? q : p)];
-        const double cot_other = p == other ? t.cot_first : t.cot_second;
-        add_corner(w.old, center_column, cot_other, other_column, t.cot_center, t.area, -1);
-      } else {
-        const int a = link_index(p), b = link_index(q);
-        Link_vertex &wa = m_link[a], &wb = m_link[b];
-        add_corner(wa.old, center_column, t.cot_second, link_column(wa, b), t.cot_center, t.area, -1);
-        add_corner(wb.old, center_column, t.cot_first, link_column(wb, a), t.cot_center, t.area, -1);
-        m_outer.push_back(Outer_triangle{a, b, t});
+      const std::size_t j = Spectral_rings::next(ring, i);
+      if(ring[i].vertex != other && ring[j].vertex != other)
+        add_outer_triangle(center == m_u, i, j, link_of[i], link_of[j]);
+      else if(with_shared)
+        subtract_shared_triangle(ring[i].triangle, ring[i].vertex == other,
+                                 link_of[ring[i].vertex == other ? j : i]);
+    }
+  }
+
+  // In the ring of a the corner b of the triangle (c; a, b) comes before c, in that of b the corner a comes after it.
+  void add_outer_triangle(const bool around_u, const std::size_t i, const std::size_t j, const int a,
+                          const int b)
+  {
+    const Spectral_triangle& t = m_fields->rings[around_u ? m_u : m_v][i].triangle;
+    Link_vertex &wa = m_link[a], &wb = m_link[b];
+    const int column_of_b = wa.next_to_both() ? (around_u ? 0 : 1) : 0;
+    const int column_of_a = wb.next_to_both() ? (around_u ? 0 : 1) : 1;
+    const Spectral_rings& rings = m_fields->rings;
+    wa.neighbor_in[column_of_b] = int(Spectral_rings::prev(rings[wa.slot], around_u ? wa.u_in : wa.v_in));
+    wb.neighbor_in[column_of_a] = int(Spectral_rings::next(rings[wb.slot], around_u ? wb.u_in : wb.v_in));
+    wa.neighbor_near[column_of_b] = int(j);
+    wb.neighbor_near[column_of_a] = int(i);
+    (around_u ? wa.old_u : wa.old_v) += t.cot_second / 2;
+    (around_u ? wb.old_u : wb.old_v) += t.cot_first / 2;
+    (around_u ? wa.old_area_u : wa.old_area_v) += t.area;
+    (around_u ? wb.old_area_u : wb.old_area_v) += t.area;
+    for(const int side : {0, 1}) {
+      Link_vertex& w = side == 0 ? wa : wb;
+      const int column = side == 0 ? column_of_b : column_of_a;
+      w.old_neighbor[column] += t.cot_center / 2;
+      w.old_area_neighbor[column] += t.area;
+      w.old_area += t.area;
+    }
+    m_outer.push_back(Outer_triangle{a, b, column_of_b, column_of_a, degenerate(t)});
+  }
+
+  void subtract_shared_triangle(const Spectral_triangle& t, const bool v_is_first, const int link)
+  {
+    Link_vertex& w = m_link[link];
+    w.old_u += (v_is_first ? t.cot_first : t.cot_second) / 2; // the angle at v
+    w.old_v += t.cot_center / 2;                              // the angle at u
+    w.old_area += t.area;
+    w.old_area_u += t.area;
+    w.old_area_v += t.area;
+  }
+
+  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
+  static constexpr double degenerate_cotangent = 1e10;
+  static bool degenerate(const Spectral_triangle& t)
+  {
+    return !(t.area > 0) || !(t.cot_center + t.cot_first + t.cot_second < degenerate_cotangent);
+  }
+
+  CGAL_SPECTRAL_INLINE void gather_gram(Link_vertex& w) const
+  {
+    const Spectral_ring_products& own = (*m_products)[w.slot];
+    const std::size_t d = own.degree();
+    w.gram[residual][residual] = m_fields->E[w.slot] * m_fields->mass[w.slot];
+    w.gram[residual][z_self] = own.rz(d, d);
+    w.gram[z_self][z_self] = own.zz(d, d);
+    if(w.next_to_both()) {
+      const std::size_t in[4] = {std::size_t(w.u_in), std::size_t(w.v_in), std::size_t(w.neighbor_in[0]),
+                                 std::size_t(w.neighbor_in[1])};
+      gather_own(w, own, in, false);
+    } else {
+      const std::size_t in[4] = {std::size_t(w.in_u >= 0 ? w.u_in : w.v_in), d, std::size_t(w.neighbor_in[0]),
+                                 std::size_t(w.neighbor_in[1])};
+      gather_own(w, own, in, true);
+      gather_far(w);
+    }
+  }
+
+  // Products among the differences and the rows of Z at ring indices `in` (near, far, first, second) of w;
+  // without the far one if `skip_far`.
+  CGAL_SPECTRAL_INLINE void gather_own(Link_vertex& w, const Spectral_ring_products& own,
+                                       const std::size_t* in, const bool skip_far) const
+  {
+    constexpr int n = 4;
+    const std::size_t d = own.degree();
+    const bool full = m_fields->theta != 0;
+    for(int i = 0; i < n; ++i) {
+      if(skip_far && i == 1)
+        continue;
+      w.gram[residual][g_near + i] = own.rg(d, in[i]);
+      w.gram[z_self][g_near + i] = own.zg(d, in[i]);
+      for(int j = i; j < n; ++j)
+        w.gram[g_near + i][g_near + j] = own.gg(in[i], in[j]);
+      if(!full)
+        continue;
+      w.gram[residual][z_near + i] = own.rz(d, in[i]);
+      w.gram[z_self][z_near + i] = own.zz(d, in[i]);
+      for(int j = 0; j < n; ++j) {
+        w.gram[g_near + i][z_near + j] = own.zg(in[j], in[i]);
+        w.gram[z_near + i][z_near + j] = own.zz(in[i], in[j]);
       }
     }
   }
 
-  // New coefficients go to the column of u first and are shared out with v by the weight at the end.
-  bool add_new_triangles(const Spectral_sample& sample, const int s)
+  // The far end o is not in the ring of w, but both are in that of the near end c: e = f_o - f_c is one of
+  // its differences, and f_i - f_w = (f_i - f_c) - (f_w - f_c).
+  CGAL_SPECTRAL_INLINE void gather_far(Link_vertex& w) const
   {
-    Merged_row& x = m_merged[s];
-    x.a.assign(m_link.size(), 0);
-    x.b.assign(m_link.size(), 0);
-    x.a_self = x.b_self = x.mass = 0;
-    for(Link_vertex& w : m_link)
-      w.updated[s] = Coefficients();
-
-    for(const Outer_triangle& o : m_outer) {
-      const Eigen::Vector3d &pa = m_fields->points[m_link[o.a].slot], &pb = m_fields->points[m_link[o.b].slot];
-      const Spectral_triangle t = spectral_triangle(sample.point, pa, pb);
-      if(degenerate(t) && !degenerate(o.old))
-        return false;
-      Link_vertex &wa = m_link[o.a], &wb = m_link[o.b];
-      add_corner(wa.updated[s], at_u, t.cot_second, link_column(wa, o.b), t.cot_center, t.area, 1);
-      add_corner(wb.updated[s], at_u, t.cot_first, link_column(wb, o.a), t.cot_center, t.area, 1);
-      add_merged_corner(x, o, t);
+    const bool near_u = w.in_u >= 0;
+    const Spectral_ring_products& near = (*m_products)[near_u ? m_u : m_v];
+    const std::size_t c = near.degree(), self = std::size_t(near_u ? w.in_u : w.in_v);
+    const std::size_t o = near_u ? m_v_in_u : m_u_in_v;
+    const std::size_t k[2] = {std::size_t(w.neighbor_near[0]), std::size_t(w.neighbor_near[1])};
+    w.gram[residual][g_far] = near.rg(self, o);
+    w.gram[z_self][g_far] = near.zg(self, o);
+    w.gram[g_far][g_far] = near.gg(o, o);
+    w.gram[g_near][g_far] = -near.gg(o, self);
+    for(int i = 0; i < 2; ++i)
+      w.gram[g_far][g_first + i] = near.gg(o, k[i]) - near.gg(o, self);
+    if(m_fields->theta == 0)
+      return;
+    const std::size_t z_in_near[4] = {c, o, k[0], k[1]};
+    for(int j = 0; j < 4; ++j) {
+      w.gram[g_far][z_near + j] = near.zg(z_in_near[j], o);
+      if(j != 1)
+        w.gram[(std::min)(z_near + j, int(z_far))][(std::max)(z_near + j, int(z_far))] =
+            near.zz(o, z_in_near[j]);
     }
-    for(Link_vertex& w : m_link)
-      share_with_v(w.updated[s], w.old, sample.weight);
-    return x.mass > 0;
+    w.gram[residual][z_far] = near.rz(self, o);
+    w.gram[z_self][z_far] = near.zz(self, o);
+    w.gram[z_far][z_far] = near.zz(o, o);
+    w.gram[g_near][z_far] = -near.zg(o, self);
+    for(int i = 0; i < 2; ++i)
+      w.gram[g_first + i][z_far] = near.zg(o, k[i]) - near.zg(o, self);
   }
 
-  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
-  static bool degenerate(const Spectral_triangle& t)
+  CGAL_SPECTRAL_INLINE void evaluate_body(Spectral_sample* samples, const int count)
   {
-    return !(t.area > 0) || !(t.cot_center + t.cot_first + t.cot_second < 1e10);
-  }
-
-  void add_merged_corner(Merged_row& x, const Outer_triangle& o, const Spectral_triangle& t) const
-  {
-    const double area = t.area * m_fields->area_scale;
-    x.a[o.a] += t.cot_second / 2;
-    x.a[o.b] += t.cot_first / 2;
-    x.a_self -= (t.cot_first + t.cot_second) / 2;
-    x.b[o.a] += area * m_fields->off_diagonal_share();
-    x.b[o.b] += area * m_fields->off_diagonal_share();
-    x.b_self += area * m_fields->diagonal_share();
-    x.mass += area / 3;
-  }
-
-  static void share_with_v(Coefficients& updated, const Coefficients& old, const double weight)
-  {
-    const double a = updated.a[at_u], b = updated.b[at_u];
-    updated.a[at_u] = (1 - weight) * a;
-    updated.a[at_v] = weight * a;
-    updated.b[at_u] = (1 - weight) * b;
-    updated.b[at_v] = weight * b;
-    for(int c = 0; c < number_of_columns; ++c) {
-      updated.a[c] += old.a[c];
-      updated.b[c] += old.b[c];
+    Lanes weight, invalid = {}, cost = {-m_before, -m_before, -m_before, -m_before}, point[3];
+    for(int s = 0; s < max_samples; ++s) {
+      const Spectral_sample& sample = samples[s < count ? s : 0];
+      weight[s] = sample.weight;
+      for(int c = 0; c < 3; ++c)
+        point[c][s] = sample.point[c];
     }
-    updated.mass += old.mass;
-  }
-
-  const double* f_row(const Spectral_slot s) const { return m_fields->F.data() + s * m_fields->F.cols(); }
-  const double* z_row(const Spectral_slot s) const { return m_fields->Z.data() + s * m_fields->Z.cols(); }
-
-  void set_rows(Spectral_row_combination& c, const Spectral_slot* slots)
-  {
-    m_f.resize(c.n);
-    m_z.resize(c.n);
-    const bool stored = m_fields->Z.size() != 0;
-    for(std::size_t j = 0; j < c.n; ++j) {
-      m_f[j] = f_row(slots[j]);
-      m_z[j] = stored ? z_row(slots[j]) : nullptr;
-    }
-    c.f = m_f.data();
-    c.z = stored ? m_z.data() : nullptr;
-    c.lambda = m_fields->lambda.data();
-    c.length = std::size_t(m_fields->F.cols());
-  }
-
-  void add_link_row(const std::size_t i, Spectral_sample* samples, const int count)
-  {
-    const Link_vertex& w = m_link[i];
-    Spectral_slot slots[number_of_columns] = {w.slot, m_u, m_v, w.slot, w.slot};
-    for(int k = 0; k < 2; ++k)
-      if(w.neighbor[k] >= 0)
-        slots[first + k] = m_link[w.neighbor[k]].slot;
-
-    Spectral_row_combination c;
-    c.base = m_fields->R.data() + w.slot * m_fields->R.cols();
-    c.n = number_of_columns;
-    c.n_mass = m_fields->theta == 0 ? 1 : number_of_columns;
-    set_rows(c, slots);
-    const double *a[3], *b[3];
-    for(int s = 0; s < count; ++s) {
-      a[s] = w.updated[s].a.data();
-      b[s] = w.updated[s].b.data();
-    }
-    c.a = a;
-    c.b = b;
-    double norms[3];
-    spectral_row_norms(c, count, norms);
-    for(int s = 0; s < count; ++s) {
-      const double mass = m_fields->mass[w.slot] + w.updated[s].mass;
-      samples[s].cost += mass > 0 ? norms[s] / mass : std::numeric_limits<double>::infinity();
-    }
-  }
-
-  // Columns: u and v, which share the coefficients of x and carry mass in either metric, then the link.
-  void add_merged_row(Spectral_sample* samples, const int count)
-  {
-    const std::size_t n = m_link.size() + 2;
-    m_slots.assign({m_u, m_v});
-    for(const Link_vertex& w : m_link)
-      m_slots.push_back(w.slot);
-
-    Spectral_row_combination c;
-    c.n = n;
-    c.n_mass = m_fields->theta == 0 ? 2 : n;
-    set_rows(c, m_slots.data());
-    const double *a[3], *b[3];
-    for(int s = 0; s < count; ++s) {
-      Merged_row& x = m_merged[s];
-      const double weight = samples[s].weight;
-      const double head_a[2] = {(1 - weight) * x.a_self, weight * x.a_self};
-      const double head_b[2] = {(1 - weight) * x.b_self, weight * x.b_self};
-      x.a.insert(x.a.begin(), head_a, head_a + 2);
-      x.b.insert(x.b.begin(), head_b, head_b + 2);
-      a[s] = x.a.data();
-      b[s] = x.b.data();
-    }
-    c.a = a;
-    c.b = b;
-    double norms[3];
-    spectral_row_norms(c, count, norms);
+    add_new_triangles(point, invalid);
+    for(std::size_t i = 0; i < m_link.size(); ++i)
+      add_link_term(m_link[i], m_new[i], weight, cost, invalid);
+    m_merged.add_term(weight, m_fields->diagonal_share() * m_fields->area_scale,
+                      m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
     for(int s = 0; s < count; ++s)
-      samples[s].cost += norms[s] / m_merged[s].mass;
+      samples[s].cost =
+          invalid[s] == 0 && std::isfinite(cost[s]) ? cost[s] : std::numeric_limits<double>::infinity();
+  }
+
+  CGAL_SPECTRAL_INLINE void add_new_triangles(const Lanes* x, Lanes& invalid)
+  {
+    const Lanes zero = {};
+    m_new.assign(m_link.size(), New_entries{zero, {zero, zero}, zero, {zero, zero}});
+    m_merged.reset(m_link.size());
+    for(const Outer_triangle& o : m_outer) {
+      const Eigen::Vector3d &pa = m_fields->points[m_link[o.a].slot],
+                            &pb = m_fields->points[m_link[o.b].slot];
+      const Eigen::Vector3d ab = pb - pa;
+      const Lanes a[3] = {pa[0] - x[0], pa[1] - x[1], pa[2] - x[2]};
+      const Lanes b[3] = {pb[0] - x[0], pb[1] - x[1], pb[2] - x[2]};
+      const Lanes n[3] = {a[1] * ab[2] - a[2] * ab[1], a[2] * ab[0] - a[0] * ab[2],
+                          a[0] * ab[1] - a[1] * ab[0]};
+      const Lanes square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+      const Lanes a_ab = a[0] * ab[0] + a[1] * ab[1] + a[2] * ab[2];
+      const Lanes b_ab = b[0] * ab[0] + b[1] * ab[1] + b[2] * ab[2];
+      const Lanes a_b = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      // Half of 1 / |cross|, so that the products are half cotangents. cot a + cot b + cot x < bound.
+      const Lanes sum = a_b - a_ab + b_ab;
+      const Lanes bound = sum * sum * (1 / (degenerate_cotangent * degenerate_cotangent));
+      Lanes half;
+      spectral_inverse_sqrt(half, square, bound);
+      half *= Lanes{0.5, 0.5, 0.5, 0.5};
+      for(int s = 0; s < max_samples; ++s)
+        invalid[s] += half[s] == 0 && !o.degenerate ? 1. : 0.;
+      const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
+      add_new_entries(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
+      add_new_entries(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
+      m_merged.add_triangle(o.a, o.b, cot_a, cot_b, area);
+    }
+  }
+
+  CGAL_SPECTRAL_INLINE static void add_new_entries(New_entries& w, const int column, const Lanes& to_x,
+                                                   const Lanes& to_neighbor, const Lanes& area)
+  {
+    w.to_x += to_x;
+    w.to_neighbor[column] += to_neighbor;
+    w.area += area;
+    w.area_neighbor[column] += area;
+  }
+
+  // E_w after, |R_w|^2 / M_w.
+  CGAL_SPECTRAL_INLINE void add_link_term(const Link_vertex& w, const New_entries& fresh, const Lanes& weight,
+                                          Lanes& cost, Lanes& invalid) const
+  {
+    const double diagonal = m_fields->diagonal_share() * m_fields->area_scale;
+    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
+    const bool full = off_diagonal != 0;
+    Lanes c[columns];
+    c[residual] = Lanes{1, 1, 1, 1};
+    c[z_self] = (fresh.area - w.old_area) * diagonal;
+    // f_x = f_near + far (f_o - f_c) where w is next to one end, (1 - weight) f_u + weight f_v where next to both.
+    const bool both = w.next_to_both(), near_u = w.in_u >= 0;
+    const Lanes far = near_u ? weight : 1. - weight, near = 1. - far;
+    const double old_near = near_u ? w.old_u : w.old_v, area_near = near_u ? w.old_area_u : w.old_area_v;
+    c[g_near] = both ? near * fresh.to_x - w.old_u : fresh.to_x - old_near;
+    c[g_far] = both ? far * fresh.to_x - w.old_v : far * fresh.to_x;
+    for(int k = 0; k < 2; ++k)
+      c[g_first + k] = fresh.to_neighbor[k] - w.old_neighbor[k];
+    if(full) {
+      const Lanes area_x = fresh.area; // every new triangle of w has the corner x
+      c[z_near] = (near * area_x - area_near) * off_diagonal;
+      c[z_far] = (both ? far * area_x - w.old_area_v : far * area_x) * off_diagonal;
+      for(int k = 0; k < 2; ++k)
+        c[z_first + k] = (fresh.area_neighbor[k] - w.old_area_neighbor[k]) * off_diagonal;
+    }
+    const int n = full ? int(columns) : lumped_columns;
+    Lanes norm = {};
+    for(int i = 0; i < n; ++i) {
+      Lanes row = {};
+      for(int j = i + 1; j < n; ++j)
+        row += c[j] * w.gram[i][j];
+      norm += c[i] * (c[i] * w.gram[i][i] + 2. * row);
+    }
+    const Lanes mass = m_fields->mass[w.slot] + (fresh.area - w.old_area) * (m_fields->area_scale / 3);
+    for(int s = 0; s < max_samples; ++s)
+      invalid[s] += mass[s] > 0 ? 0. : 1.;
+    cost += norm / mass;
   }
 
   const Spectral_fields* m_fields = nullptr;
+  const std::vector<Spectral_ring_products>* m_products = nullptr;
   Spectral_slot m_u = null_spectral_slot, m_v = null_spectral_slot;
+  std::size_t m_v_in_u = 0, m_u_in_v = 0;
   double m_before = 0;
   std::vector<Link_vertex> m_link;
+  std::vector<int> m_link_of_u, m_link_of_v; // ring index -> link index
   std::vector<Outer_triangle> m_outer;
-  Merged_row m_merged[Spectral_row_combination::max_samples];
-  std::vector<const double*> m_f, m_z;
-  std::vector<Spectral_slot> m_slots;
+  std::vector<New_entries> m_new;
+  Spectral_merged_row m_merged;
 };
 
 } // namespace internal

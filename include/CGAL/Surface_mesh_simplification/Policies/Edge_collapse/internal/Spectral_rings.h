@@ -136,30 +136,39 @@ public:
   }
 
   /// Replaces `removed` by `kept` in the rings of the neighbours and forgets the ring of `removed`.
-  /// `ring` is the ring of the kept vertex after the collapse, as the mesh has it.
-  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
+  /// `ring` is the ring of the kept vertex after the collapse, as the mesh has it. Calls `erased(w, i)` where a
+  /// neighbour w had both and has lost the entry at index i.
+  template <class Erased>
+  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring, const Erased& erased)
   {
     Spectral_ring().swap(m_rings[removed]);
-    for(const Spectral_ring_entry& e : ring)
-      replace_in_ring(e.vertex, removed, kept);
+    for(const Spectral_ring_entry& e : ring) {
+      const std::size_t i = replace_in_ring(e.vertex, removed, kept);
+      if(i <= m_rings[e.vertex].size())
+        erased(e.vertex, i);
+    }
     m_rings[kept] = std::move(ring);
   }
 
 private:
   // Where removed and kept were consecutive, the triangle between them vanished and the later of the
   // two entries takes the place of both: an entry carries the face that follows it.
-  void replace_in_ring(const Spectral_slot w, const Spectral_slot removed, const Spectral_slot kept)
+  // Returns the index that was erased, or a large number.
+  std::size_t replace_in_ring(const Spectral_slot w, const Spectral_slot removed, const Spectral_slot kept)
   {
     Spectral_ring& ring = m_rings[w];
+    constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
     const std::size_t i = find(w, removed);
     if(i == ring.size())
-      return;
+      return none;
     ring[i].vertex = kept;
     const std::size_t nx = next(ring, i), pv = prev(ring, i);
-    if(nx != i && ring[nx].vertex == kept)
-      ring.erase(ring.begin() + i);
-    else if(pv != i && ring[pv].vertex == kept)
-      ring.erase(ring.begin() + pv);
+    const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
+                             : pv != i && ring[pv].vertex == kept ? pv
+                                                                  : none;
+    if(gone != none)
+      ring.erase(ring.begin() + std::ptrdiff_t(gone));
+    return gone;
   }
 
   std::vector<Spectral_ring> m_rings;

@@ -1,0 +1,25 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
+#define CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
+
+#include <stdexcept>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/// \brief is thrown when a progress callback has asked to stop.
+class Cancelled : public std::runtime_error
+{
+public:
+  Cancelled()
+    : std::runtime_error("The computation was cancelled by the progress callback.")
+  {}
+};
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_CANCELLED_H

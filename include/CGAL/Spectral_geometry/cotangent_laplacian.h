@@ -1,0 +1,348 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H
+#define CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/// \brief the mass matrix of linear finite elements: lumped, or the mean of lumped and consistent.
+///
+/// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles and
+/// largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and Wajid 2010).
+enum class Mass { lumped, averaged };
+
+/// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$:
+/// 0 for `Mass::lumped`, 1/2 for `Mass::averaged`.
+inline double mass_blend(Mass mass)
+{
+  return mass == Mass::averaged ? 0.5 : 0.;
+}
+
+/// \brief `"lumped"` or `"averaged"`.
+inline const char* mass_name(Mass mass)
+{
+  return mass == Mass::averaged ? "averaged" : "lumped";
+}
+
+/// \brief a triangle mesh as two matrices.
+struct Mesh_matrices
+{
+  Eigen::MatrixXd V; ///< n x 3, positions; row i is the i-th vertex of `vertices(tm)`
+  Eigen::MatrixXi T; ///< m x 3, indices into the rows of V; row f is the f-th face of `faces(tm)`
+};
+
+/// \brief stiffness and mass of a triangle mesh, \f$L \phi = \lambda B \phi\f$.
+struct Laplace_operator
+{
+  /// n x n, symmetric, positive semidefinite, \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$ off the diagonal,
+  /// rows sum to 0. Invariant under scaling. Its kernel holds one constant for each connected component.
+  Eigen::SparseMatrix<double> L;
+  /// n x n, symmetric, positive definite, \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$, in units of area.
+  Eigen::SparseMatrix<double> B;
+  /// n, the row sums of B: with barycentric lumping \f$M_{ii}\f$, one third of the area of the incident faces,
+  /// whatever \f$\theta\f$ is. Their sum is the area of the mesh.
+  Eigen::VectorXd mass;
+  /// the blend \f$\theta\f$ in [0, 1] that made B
+  double theta = 0.;
+};
+
+/// \brief the cotangents of a triangle's three angles and its area.
+struct Triangle_cotangents
+{
+  Eigen::Vector3d cot; ///< cot(k) is the cotangent of the angle at the k-th corner, opposite to the k-th edge
+  double area;         ///< 0 for a triangle that is degenerate to rounding, and then cot is 0, too
+};
+
+/// \brief returns the cotangents (dot product over length of the cross product) and the area of a triangle.
+///
+/// A triangle counts as degenerate when the cross product of its two shortest edges is not larger than
+/// four roundings of the product of their lengths: what remains is then noise, and would depend on
+/// whether the compiler contracts products into fused operations. Coordinates of any magnitude are legal; a result
+/// that overflows is returned as such.
+inline Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                               const Eigen::Vector3d& r)
+{
+  Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
+  const double extent = (std::max)(
+      {edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
+  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
+  if(extent == 0.)
+    return result;
+
+  // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is exact.
+  const int exponent = std::isfinite(extent) ? std::ilogb(extent) : 0;
+  for(Eigen::Vector3d& e : edge)
+    for(int c = 0; c < 3; ++c)
+      e(c) = std::scalbn(e(c), -exponent);
+
+  // Two shortest edges: the cross product of the others would be a difference of larger numbers.
+  const Eigen::Vector3d length(edge[0].norm(), edge[1].norm(), edge[2].norm());
+  int longest;
+  length.maxCoeff(&longest);
+  const int a = (longest + 1) % 3, b = (longest + 2) % 3;
+  const double cross = edge[a].cross(edge[b]).norm();
+  if(cross <= 4. * std::numeric_limits<double>::epsilon() * length(a) * length(b))
+    return result;
+
+  for(int k = 0; k < 3; ++k)
+    result.cot(k) = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / cross;
+  result.area = std::scalbn(0.5 * cross, 2 * exponent);
+  return result;
+}
+
+namespace internal {
+
+// Beyond it the rounding of the two huge entries of a row (2e-16 times 1e12) shows in the small eigenvalues.
+constexpr double largest_cotangent = 1e12;
+
+inline std::string face_name(Eigen::Index f)
+{
+  return "face " + std::to_string(f) + " (counted from 0)";
+}
+
+inline std::string vertex_name(Eigen::Index v)
+{
+  return "vertex " + std::to_string(v) + " (counted from 0)";
+}
+
+inline void check_positions(const Eigen::MatrixXd& V)
+{
+  if(V.cols() != 3)
+    throw std::invalid_argument("Laplace operator: V must have 3 columns, one row per vertex, but has " +
+                                std::to_string(V.cols()) + " columns.");
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    if(!V.row(v).allFinite())
+      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                  " has a coordinate that is not a finite number; repair or remove it.");
+}
+
+inline void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
+{
+  if(T.cols() != 3 || T.rows() == 0)
+    throw std::invalid_argument("Laplace operator: T must have 3 columns and at least one row, but is " +
+                                std::to_string(T.rows()) + " x " + std::to_string(T.cols()) + ".");
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
+    if((std::min)({i, j, k}) < 0 || (std::max)({i, j, k}) >= n)
+      throw std::invalid_argument("Laplace operator: " + face_name(f) + " refers to a vertex outside 0.." +
+                                  std::to_string(n - 1) + "; repair the indices.");
+    if(i == j || j == k || k == i)
+      throw std::invalid_argument("Laplace operator: " + face_name(f) +
+                                  " uses one vertex twice; remove the face.");
+  }
+}
+
+inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                              Eigen::Index f)
+{
+  const Triangle_cotangents t = triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
+  if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(t.area))
+    throw std::invalid_argument(
+        "Laplace operator: " + face_name(f) +
+        " is a needle or too large, its cotangents or its area overflow the matrix; collapse "
+        "its shortest edge, remesh it or rescale the mesh.");
+  return t;
+}
+
+inline void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
+{
+  for(Eigen::Index v = 0; v < mass.size(); ++v) {
+    if(mass(v) > 0. && std::isfinite(mass(v)))
+      continue;
+    if(!(mass(v) <= 0.))
+      throw std::invalid_argument("Laplace operator: the mass of " + vertex_name(v) +
+                                  " is not a finite number; rescale the mesh.");
+    if((T.array() == static_cast<int>(v)).any())
+      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                  " has no mass because all its faces have zero area; remove these faces.");
+    throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                " is isolated, no face uses it; remove it.");
+  }
+}
+
+} // namespace internal
+
+/// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's area at each corner.
+inline Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  Eigen::MatrixXd corner_masses(T.rows(), 3);
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
+  return corner_masses;
+}
+
+/// \brief assembles stiffness and mass of the mesh (V, T) with a lumping of the user's choice.
+///
+/// \param V, T            n x 3 positions and m x 3 vertex indices
+/// \param corner_masses   m x 3, the lumped mass that face f gives to its corner k, in units of area, not negative
+///                        (`barycentric_corner_masses()`, or a Voronoi or mixed lumping)
+/// \param theta           weight of the consistent mass (A/6 on the diagonal, A/12 off it, per face), in [0, 1]
+///
+/// Throws as the overload without corner masses does.
+inline Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                         const Eigen::MatrixXd& corner_masses, double theta)
+{
+  if(!(theta >= 0. && theta <= 1.))
+    throw std::invalid_argument("Laplace operator: theta must lie in [0, 1], but is " +
+                                std::to_string(theta) + ".");
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
+    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
+
+  // Upper triangles only, mirrored afterwards: both matrices are symmetric to the last bit.
+  using Triplet = Eigen::Triplet<double>;
+  const Eigen::Index n = V.rows(), m = T.rows();
+  std::vector<Triplet> stiffness, consistent;
+  stiffness.reserve(3 * m + n);
+  consistent.reserve(theta > 0. ? 3 * m + n : n);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
+
+  Laplace_operator result;
+  result.theta = theta;
+  result.mass = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd mass_diagonal = Eigen::VectorXd::Zero(n);
+  for(Eigen::Index f = 0; f < m; ++f) {
+    const Triangle_cotangents t = internal::checked_cotangents(V, T, f);
+    for(int k = 0; k < 3; ++k) {
+      const int c = T(f, k);
+      const int i = (std::min)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
+      const int j = (std::max)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
+      stiffness.emplace_back(i, j, -0.5 * t.cot(k));
+      if(theta > 0.)
+        consistent.emplace_back(i, j, theta * t.area / 12.);
+      const double lumped = (1. - theta) * corner_masses(f, k);
+      mass_diagonal(c) += lumped + theta * t.area / 6.;
+      result.mass(c) += lumped + theta * t.area / 3.;
+    }
+  }
+  internal::check_mass(result.mass, T);
+
+  Eigen::SparseMatrix<double> upper(n, n);
+  upper.setFromTriplets(stiffness.begin(), stiffness.end());
+  for(Eigen::Index j = 0; j < n; ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(upper, j); it; ++it) {
+      diagonal(it.row()) -= it.value();
+      diagonal(it.col()) -= it.value();
+    }
+  for(Eigen::Index i = 0; i < n; ++i) {
+    stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
+    consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
+  }
+  upper.setFromTriplets(stiffness.begin(), stiffness.end());
+  result.L = upper.selfadjointView<Eigen::Upper>();
+  upper.setFromTriplets(consistent.begin(), consistent.end());
+  result.B = upper.selfadjointView<Eigen::Upper>();
+  return result;
+}
+
+/// \brief assembles the cotangent Laplacian and the mass of the mesh (V, T).
+///
+/// \f$L\f$ is the stiffness of linear elements (Pinkall and Polthier 1993, Meyer et al. 2003): positive semidefinite,
+/// \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$ with the angles opposite to edge ij (one angle on a border),
+/// \f$L_{ii} = -\sum_j L_{ij}\f$. The pointwise Laplacian, positive semidefinite as well, is \f$M^{-1} L\f$. Negative
+/// weights of obtuse angles are left as they are. The boundary condition is the natural one (Neumann).
+/// \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$: \f$M_{lumped}\f$ has one third of the incident area on its
+/// diagonal; \f$M_{consistent}\f$ adds A/6 on the diagonal and A/12 off it for each face.
+/// Faces of zero area contribute nothing.
+///
+/// \param V      n x 3 positions, in any unit of length u; B is in u^2, eigenvalues in u^-2
+/// \param T      m x 3 vertex indices, counted from 0
+/// \param theta  the blend in [0, 1]: 0 lumped (default), 1/2 averaged, 1 consistent
+///
+/// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an index out of
+///         range, a face that uses a vertex twice, a needle whose cotangent is larger than 1e12, an isolated vertex, a vertex
+///         with only zero-area faces.
+inline Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                         double theta = 0.)
+{
+  return laplace_operator(V, T, barycentric_corner_masses(V, T), theta);
+}
+
+/// \brief copies positions and faces of a triangle mesh into matrices.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
+/// \param tm the mesh
+/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go through `CGAL::to_double`
+///
+/// \throws std::invalid_argument that names the first face that is not a triangle, or the first vertex with a coordinate
+///         that is not finite; faces and vertices are counted from 0 in the order of `faces(tm)` and `vertices(tm)`
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                       get_const_property_map(vertex_point, tm));
+  // Neither removed elements nor the lack of an internal index may matter: number the vertices as they come.
+  auto index = get(CGAL::dynamic_vertex_property_t<int>(), tm);
+
+  std::vector<double> coordinates;
+  int n = 0;
+  for(const auto v : vertices(tm)) {
+    put(index, v, n++);
+    const auto& p = get(points, v);
+    for(const double x : {to_double(p.x()), to_double(p.y()), to_double(p.z())})
+      coordinates.push_back(x);
+  }
+  std::vector<int> corners;
+  Eigen::Index m = 0;
+  for(const auto f : faces(tm)) {
+    if(!is_triangle(halfedge(f, tm), tm))
+      throw std::invalid_argument("Mesh: " + internal::face_name(m) +
+                                  " is not a triangle; triangulate the faces first "
+                                  "(CGAL::Polygon_mesh_processing::triangulate_faces).");
+    for(const auto v : vertices_around_face(halfedge(f, tm), tm))
+      corners.push_back(get(index, v));
+    ++m;
+  }
+
+  Mesh_matrices result;
+  result.V =
+      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(coordinates.data(), n, 3);
+  result.T = Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>>(corners.data(), m, 3);
+  internal::check_positions(result.V);
+  return result;
+}
+
+/// \brief assembles the cotangent Laplacian and the mass of a triangle mesh: `laplace_operator()` of `mesh_matrices()`.
+///
+/// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
+/// \param tm   the mesh; rows and columns follow `vertices(tm)`
+/// \param mass lumped (default) or averaged
+/// \param np   named parameters: `vertex_point_map`
+///
+/// \throws std::invalid_argument as these two functions do
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::lumped,
+                                     const NamedParameters& np = parameters::default_values())
+{
+  const Mesh_matrices mesh = mesh_matrices(tm, np);
+  return laplace_operator(mesh.V, mesh.T, mass_blend(mass));
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H

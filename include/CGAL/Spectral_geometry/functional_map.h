@@ -1,0 +1,424 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_H
+#define CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+inline void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted)
+{
+  if(found != wanted)
+    throw std::invalid_argument(std::string("functional map: ") + what + " is " + std::to_string(found) +
+                                " where " + std::to_string(wanted) +
+                                " is needed, pass matrices that belong together.");
+}
+
+} // namespace internal
+
+/*!
+returns the functional map \f$ C = \widetilde\Phi^\top \widetilde B P \Phi \f$ of a restriction `P` in two
+truncated eigenbases (section 4.1 of Lescoat et al. 2020; Ovsjanikov et al. 2012): a function \f$ \Phi x \f$
+on the fine mesh has the coarse coefficients `C x`.
+
+Nothing is rescaled: see `unit_area_functional_map()`.
+
+@param coarse_vectors \f$ \widetilde\Phi \f$, coarse x (number of coarse modes), orthonormal in `coarse_B`
+@param coarse_B the mass matrix \f$ \widetilde B \f$ of the coarse mesh, in the unit of area of its operator
+@param P the restriction, coarse x fine
+@param fine_vectors \f$ \Phi \f$, fine x (number of fine modes), orthonormal in the mass of the fine mesh
+@return (number of coarse modes) x (number of fine modes)
+
+Throws `std::invalid_argument` if the sizes do not match.
+*/
+inline Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
+                                      const Eigen::SparseMatrix<double>& coarse_B,
+                                      const Eigen::SparseMatrix<double>& P,
+                                      const Eigen::MatrixXd& fine_vectors)
+{
+  internal::check_dimension("the number of columns of P", P.cols(), fine_vectors.rows());
+  internal::check_dimension("the number of rows of P", P.rows(), coarse_vectors.rows());
+  internal::check_dimension("the size of the coarse mass", coarse_B.cols(), P.rows());
+  internal::check_dimension("the number of rows of the coarse mass", coarse_B.rows(), P.rows());
+  const Eigen::MatrixXd restricted = P * fine_vectors;
+  const Eigen::MatrixXd weighted = coarse_B * restricted;
+  return coarse_vectors.transpose() * weighted;
+}
+
+/*!
+returns the functional map of the two meshes each scaled to unit area, from that at input scale, without a
+second solve.
+
+Scaling a mesh by \f$ 1/\sqrt{A} \f$ divides `B` by the area `A` and leaves `L` as it is, so that
+\f$ \lambda' = A \lambda \f$ and, orthonormal in \f$ B/A \f$, \f$ \Phi' = \sqrt{A} \Phi \f$. Hence
+\f[ C' = (\sqrt{\widetilde A} \widetilde\Phi)^\top (\widetilde B / \widetilde A) P (\sqrt{A} \Phi)
+       = \sqrt{A / \widetilde A} \; C. \f]
+
+@param C functional map at input scale
+@param fine_area, coarse_area `A` and \f$ \widetilde A \f$, positive, the sums of the masses
+*/
+inline Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C, double fine_area,
+                                                double coarse_area)
+{
+  if(!(fine_area > 0 && coarse_area > 0))
+    throw std::invalid_argument("functional map: an area is not positive, pass the sums of the masses.");
+  return std::sqrt(fine_area / coarse_area) * C;
+}
+
+/*!
+returns the Laplacian commutativity \f$ \|C\|_L = \|C \Lambda - \widetilde\Lambda C\| / \|C\| \f$, the root of
+Eq. (3) of Lescoat et al. 2020, **not squared**. Frobenius norms.
+
+It has the unit of the eigenvalues, the inverse of an area. The published figures are for meshes scaled to
+unit area.
+
+@param C (number of coarse modes) x (number of fine modes), not zero
+@param fine_values \f$ \Lambda \f$, one per column of `C`
+@param coarse_values \f$ \widetilde\Lambda \f$, one per row of `C`, at the scale of the coarse mesh
+
+Throws `std::invalid_argument` if the sizes do not match or `C` is zero.
+*/
+inline double laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values,
+                                           const Eigen::VectorXd& coarse_values)
+{
+  internal::check_dimension("the number of fine eigenvalues", fine_values.size(), C.cols());
+  internal::check_dimension("the number of coarse eigenvalues", coarse_values.size(), C.rows());
+  const double norm = C.norm();
+  if(!(norm > 0 && std::isfinite(norm)))
+    throw std::invalid_argument(
+        "functional map: C is zero or not finite, its commutativity is undefined, check P.");
+  return (C * fine_values.asDiagonal() - coarse_values.asDiagonal() * C).norm() / norm;
+}
+
+/*!
+returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et al. 2020,
+**not squared**. Frobenius norm; no unit.
+
+With more rows (coarse modes) than columns a fine eigenvector may also land on coarse modes beyond the number
+of columns without counting as lost.
+*/
+inline double orthonormality_norm(const Eigen::MatrixXd& C)
+{
+  return (C.transpose() * C - Eigen::MatrixXd::Identity(C.cols(), C.cols())).norm();
+}
+
+/*!
+returns an estimate of \f$ \|C\|_L \f$ at unit area for the best that linear elements on `N` vertices can do
+when the coarse mesh only samples the fine one: equilateral triangles, `C = Id`, eigenvalues at
+\f$ 4 \pi k \f$ (Weyl's law).
+
+A plane wave on the equilateral lattice of edge length `h` has, with \f$ x = \lambda h^2 \f$, the discrete
+eigenvalue
+\f[ \widetilde\lambda = \lambda \left(1 - \frac{1 - 2 \theta}{16} x
+      + \left(\frac{1}{576} - \frac{\theta - \theta^2}{64}\right) x^2 + O(x^3)\right),
+    \qquad h^2 = \frac{2}{\sqrt 3 N} \f]
+(second order averaged over directions). The root mean square of \f$ \widetilde\lambda - \lambda \f$ over `K`
+modes is 5.1 K^2/N for the lumped mass (theta = 0); the averaged mass (theta = 1/2) cancels it and leaves 2.2
+K^3/N^2. The two terms are combined by their squares.
+
+An estimate to read a result by, not a bound: a mesh can fall below it by distorting the surface, and real
+surfaces stay above it. A subdivided icosphere of 642 vertices out of 10,242 at K = 100: 71 for 79 (lumped),
+8.1 for 5.3 (averaged).
+
+@param theta weight of the consistent mass, 0 lumped, 1/2 averaged
+@param K number of modes, at least 1
+@param N number of coarse vertices, at least 1
+*/
+inline double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N)
+{
+  const double k = static_cast<double>(K), n = static_cast<double>(N);
+  const double wave = 4 * CGAL_PI, h2 = 2 / (std::sqrt(3.) * n);
+  const double first = std::abs(1 - 2 * theta) / 16 * wave * wave * h2 * k * k / std::sqrt(5.);
+  const double second = std::abs(1. / 576 - (theta - theta * theta) / 64) * wave * wave * wave * h2 * h2 * k *
+                        k * k / std::sqrt(7.);
+  return std::hypot(first, second);
+}
+
+/*!
+returns an estimate of \f$ \|C\|_D \f$ for the best that linear elements on `N` vertices can do when the
+coarse mesh only samples the fine one: \f$ (\pi/3) \theta K^{3/2} / N \f$, that is 0.52 K^1.5/N for the
+averaged mass.
+
+On the lattice of `commutativity_floor()` a sampled plane wave of unit norm has the discrete norm
+\f$ 1 - \theta x / 8 \f$ (squared). For the lumped mass the leading term vanishes and 0 is returned; on
+surfaces what is left is small (0.13 for a subdivided icosphere, 642 vertices out of 10,242, K = 100; averaged
+0.70 for 0.82).
+
+Parameters as for `commutativity_floor()`.
+*/
+inline double orthonormality_floor(double theta, Eigen::Index K, Eigen::Index N)
+{
+  const double k = static_cast<double>(K);
+  return CGAL_PI / 3 * theta * k * std::sqrt(k) / static_cast<double>(N);
+}
+
+/*!
+returns the metric \f$ E = \sum_w \| (\widetilde B P Z)_w - (\widetilde L P F)_w \|^2 / \widetilde M_w \f$ of
+a restriction, Eq. (2) of Lescoat et al. 2020 at theta = 0, computed from scratch.
+
+For the signals \f$ F = \Phi, Z = \Phi \Lambda \f$ and the lumped mass
+\f[ E = \|C\|^2 \|C\|_L^2 + \sum_{i > K} \sum_j (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f]
+at the scale of the input, where `i > K` are the coarse modes outside of the truncated map:
+\f$ \|C\|_L \le \sqrt{E}/\|C\| \f$. For other masses the same holds with \f$ \widetilde B^{-1} \f$ in place of
+\f$ \widetilde M^{-1} \f$. The consistent mass of a triangle is between a quarter of the lumped one and the
+lumped one, so that \f$ \widetilde B \ge (1 - 3\theta/4) \widetilde M \f$ and
+\f$ \|C\|_L \le \sqrt{E / (1 - 3\theta/4)}/\|C\| \f$.
+
+@param coarse operator of the coarse mesh
+@param P restriction, coarse x fine
+@param F signals, fine x K, one per column
+@param Z \f$ B^{-1} L F \f$, fine x K
+*/
+inline double restriction_energy(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+                                 const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
+{
+  internal::check_dimension("the number of rows of P", P.rows(), coarse.L.rows());
+  internal::check_dimension("the number of rows of F", F.rows(), P.cols());
+  internal::check_dimension("the number of rows of Z", Z.rows(), P.cols());
+  internal::check_dimension("the number of columns of Z", Z.cols(), F.cols());
+  const Eigen::MatrixXd PF = P * F, PZ = P * Z;
+  const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
+  return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
+}
+
+/*!
+returns how many of ascending eigenvalues are zero up to rounding, one per connected component of the mesh:
+those at or below `relative_threshold * spacing`.
+
+@param values eigenvalues, ascending
+@param spacing a typical distance of successive eigenvalues: \f$ 4\pi/A \f$ by Weyl's law, with the area `A`
+  of the mesh
+@param relative_threshold the default of 1e-6 lies between what a solver leaves of a zero (1e-10) and the
+  first eigenvalue of any shape of practical interest (a rod a thousand times longer than its girth has 8e-4)
+*/
+inline Eigen::Index number_of_zero_eigenvalues(const Eigen::VectorXd& values, double spacing,
+                                               double relative_threshold = 1e-6)
+{
+  const double threshold = relative_threshold * spacing;
+  return std::upper_bound(values.data(), values.data() + values.size(), threshold) - values.data();
+}
+
+/// relative errors \f$ |\widetilde\lambda_k - \lambda_k| / \lambda_k \f$ of a range of eigenvalues.
+struct Eigenvalue_errors
+{
+  Eigen::Index modes = 0; ///< number of modes compared; when it is 0, `mean` and `max` are NaN
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double max = std::numeric_limits<double>::quiet_NaN();
+};
+
+/*!
+returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse` against `fine`,
+as far as both have them and the fine eigenvalue is not among the `zeros` first.
+*/
+inline Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& coarse,
+                                           Eigen::Index first, Eigen::Index last, Eigen::Index zeros)
+{
+  first = (std::max)(first, zeros);
+  last = (std::min)({last, fine.size(), coarse.size()});
+  Eigenvalue_errors errors;
+  if(first >= last)
+    return errors;
+  errors.modes = last - first;
+  const Eigen::ArrayXd relative =
+      (coarse.segment(first, errors.modes).array() / fine.segment(first, errors.modes).array() - 1).abs();
+  errors.mean = relative.mean();
+  errors.max = relative.maxCoeff();
+  return errors;
+}
+
+/*!
+How well a coarse mesh and a restriction keep the first `K` eigenpairs of a fine mesh, see
+`evaluate_spectrum()`.
+
+Unless a name says *input scale*, figures are for both meshes scaled to unit area each, as in section 4 of
+Lescoat et al. 2020, and depend neither on the unit of length nor on a shrinking of the coarse mesh. Norms are
+not squared.
+*/
+struct Spectral_evaluation
+{
+  Eigen::Index requested_modes = 0; ///< the `K` that was asked for
+  /// the `K` of all figures: that one, or the number of coarse vertices if it is smaller
+  Eigen::Index judged_modes = 0;
+  /// number of coarse modes of `norm_D_extended`, 1.1 `K` or as many as were given
+  Eigen::Index extended_modes = 0;
+
+  double fine_theta = 0; ///< weight of the consistent mass in the operator of the fine mesh
+  double theta = 0;      ///< the same for the coarse mesh. Figures of different theta are not comparable
+  std::string mass;      ///< "lumped", "averaged", or "theta = ..." of the coarse mesh; both if they differ
+
+  Eigen::MatrixXd C;             ///< functional map, `judged_modes` x `judged_modes`, rows are coarse modes
+  Eigen::VectorXd fine_values;   ///< all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$
+  Eigen::VectorXd coarse_values; ///< all coarse eigenvalues that were given, at unit area
+  Eigen::Index fine_zeros = 0;   ///< number of fine eigenvalues that are zero, one per component
+  Eigen::Index coarse_zeros = 0; ///< and of coarse ones; if they differ the modes compared are shifted
+
+  double norm_L = 0; ///< Eq. (3), not squared
+  double norm_D = 0; ///< Eq. (4), not squared
+  /// Eq. (4) of the map with `extended_modes` rows: what is much smaller here than in `norm_D` was not lost,
+  /// it went into the next modes because eigenvalues `K` and `K + 1` are close
+  double norm_D_extended = 0;
+  double norm_L_input_scale = 0; ///< Eq. (3) of the meshes as they are, in the inverse of their unit of area
+  /// `norm_L_input_scale` times the fine area: both meshes scaled by one factor, to set beside `norm_L`
+  double norm_L_common_scale = 0;
+  double norm_D_input_scale = 0; ///< Eq. (4) of the meshes as they are
+  double floor_norm_L = 0;       ///< `commutativity_floor()`
+  double floor_norm_D = 0;       ///< `orthonormality_floor()`
+
+  Eigenvalue_errors errors;        ///< of modes 1..K, zeros skipped
+  Eigenvalue_errors errors_beyond; ///< of modes K+1..1.5K, as far as both spectra were given: overfitting
+  Eigenvalue_errors errors_input_scale; ///< of modes 1..K of the meshes as they are
+
+  double fine_area = 0;   ///< sum of the fine masses
+  double coarse_area = 0; ///< sum of the coarse masses
+  double area_ratio = 0;  ///< coarse over fine
+};
+
+namespace internal {
+
+inline std::string theta_name(double theta)
+{
+  for(const Mass mass : {Mass::lumped, Mass::averaged})
+    if(theta == mass_blend(mass))
+      return mass_name(mass);
+  return "theta = " + std::to_string(theta);
+}
+
+inline void check_pairs(const char* which, const Laplace_operator& op, const Eigenpairs& pairs,
+                        Eigen::Index wanted)
+{
+  const std::string who = std::string("spectral evaluation: the ") + which;
+  if(pairs.vectors.rows() != op.B.rows() || pairs.vectors.cols() != pairs.values.size() ||
+     op.mass.size() != op.B.rows())
+    throw std::invalid_argument(who + " eigenvectors are " + std::to_string(pairs.vectors.rows()) + " x " +
+                                std::to_string(pairs.vectors.cols()) + " for " + std::to_string(op.B.rows()) +
+                                " vertices and " + std::to_string(pairs.values.size()) +
+                                " eigenvalues, pass the operator and the eigenpairs of one mesh.");
+  if(pairs.size() < wanted)
+    throw std::invalid_argument(who + " mesh has " + std::to_string(pairs.size()) +
+                                " eigenpairs, compute at least " + std::to_string(wanted) + " of them.");
+  if(!(op.mass.sum() > 0))
+    throw std::invalid_argument(who + " mesh has no area, check its masses.");
+}
+
+} // namespace internal
+
+/*!
+judges a simplification: compares the first `K` eigenpairs of the fine mesh, restricted by `P`, with those of
+the coarse mesh.
+
+One eigensolve per mesh serves every scale, see `unit_area_functional_map()`. What the figures mean:
+\f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly (theorem 1
+of Lescoat et al. 2020). They depend on the mass, so compare within one theta, and they depend on `P`: a
+simplifier that made its own `P` is also judged with `closest_point_interpolation()`.
+
+@param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to judge the
+  modes beyond; tight ones, the residual of a rough basis counts as an error of the simplification
+@param coarse, coarse_pairs the same for the coarse mesh: at least `K` eigenpairs, or as many as it has
+  vertices if these are fewer, in which case that many modes are judged; 1.1 `K` and 1.5 `K` fill
+  `norm_D_extended` and `errors_beyond`
+@param P restriction, coarse x fine, rows that sum to 1
+@param K number of modes to judge, at least 1
+
+Throws `std::invalid_argument` if there are fewer pairs or if sizes do not match.
+*/
+inline Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                                             const Laplace_operator& coarse, const Eigenpairs& coarse_pairs,
+                                             const Eigen::SparseMatrix<double>& P, Eigen::Index K)
+{
+  if(K < 1)
+    throw std::invalid_argument("spectral evaluation: K is " + std::to_string(K) +
+                                ", judge at least one mode.");
+  const Eigen::Index N = coarse.B.rows(), judged = (std::min)(K, N);
+  internal::check_pairs("fine", fine, fine_pairs, judged);
+  internal::check_pairs("coarse", coarse, coarse_pairs, judged);
+
+  Spectral_evaluation e;
+  e.requested_modes = K;
+  e.judged_modes = judged;
+  e.extended_modes = (std::min)(judged + (judged + 9) / 10, coarse_pairs.size());
+  e.fine_theta = fine.theta;
+  e.theta = coarse.theta;
+  e.mass = internal::theta_name(e.theta);
+  if(e.theta != e.fine_theta)
+    e.mass += " (fine mesh: " + internal::theta_name(e.fine_theta) + ")";
+
+  e.fine_area = fine.mass.sum();
+  e.coarse_area = coarse.mass.sum();
+  e.area_ratio = e.coarse_area / e.fine_area;
+  e.fine_values = e.fine_area * fine_pairs.values;
+  e.coarse_values = e.coarse_area * coarse_pairs.values;
+  e.fine_zeros = number_of_zero_eigenvalues(e.fine_values, 4 * CGAL_PI);
+  e.coarse_zeros = number_of_zero_eigenvalues(e.coarse_values, 4 * CGAL_PI);
+
+  const Eigen::MatrixXd C_extended = functional_map(coarse_pairs.vectors.leftCols(e.extended_modes), coarse.B,
+                                                    P, fine_pairs.vectors.leftCols(judged));
+  const Eigen::MatrixXd C = C_extended.topRows(judged);
+  e.norm_L_input_scale =
+      laplacian_commutativity_norm(C, fine_pairs.values.head(judged), coarse_pairs.values.head(judged));
+  e.norm_L_common_scale = e.fine_area * e.norm_L_input_scale;
+  e.norm_D_input_scale = orthonormality_norm(C);
+  e.C = unit_area_functional_map(C, e.fine_area, e.coarse_area);
+  e.norm_L = laplacian_commutativity_norm(e.C, e.fine_values.head(judged), e.coarse_values.head(judged));
+  e.norm_D = orthonormality_norm(e.C);
+  e.norm_D_extended = orthonormality_norm(unit_area_functional_map(C_extended, e.fine_area, e.coarse_area));
+  e.floor_norm_L = commutativity_floor(e.theta, judged, N);
+  e.floor_norm_D = orthonormality_floor(e.theta, judged, N);
+
+  e.errors = eigenvalue_errors(e.fine_values, e.coarse_values, 0, judged, e.fine_zeros);
+  e.errors_beyond =
+      eigenvalue_errors(e.fine_values, e.coarse_values, judged, judged + judged / 2, e.fine_zeros);
+  e.errors_input_scale = eigenvalue_errors(fine_pairs.values, coarse_pairs.values, 0, judged, e.fine_zeros);
+  return e;
+}
+
+/*!
+carries functions from the coarse mesh back to the fine one through the spectrum,
+\f$ f = \Phi C^\top \widetilde\Phi^\top \widetilde B g \f$ with all matrices at unit area.
+
+It inverts the restriction on the span of the first eigenvectors as far as `C` is orthonormal; what `g` has
+outside of the span of \f$ \widetilde\Phi \f$ is lost. In matrices at input scale and the map \f$ C \f$ at
+unit area it reads \f$ \sqrt{A/\widetilde A} \; \Phi C^\top \widetilde\Phi^\top \widetilde B g \f$. Unit area
+matters: on a connected surface constants then stay as they are, while \f$ C^\top \f$ at input scale would
+multiply them by \f$ \widetilde A / A \f$.
+
+@param fine, fine_pairs operator and eigenpairs of the fine mesh, at least as many as `C` has columns
+@param coarse, coarse_pairs the same for the coarse mesh, at least as many as `C` has rows
+@param C functional map at unit area, `Spectral_evaluation::C`
+@param g one function per column, coarse x any
+@return fine x any
+*/
+inline Eigen::MatrixXd prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                                                const Laplace_operator& coarse,
+                                                const Eigenpairs& coarse_pairs, const Eigen::MatrixXd& C,
+                                                const Eigen::MatrixXd& g)
+{
+  internal::check_pairs("fine", fine, fine_pairs, C.cols());
+  internal::check_pairs("coarse", coarse, coarse_pairs, C.rows());
+  internal::check_dimension("the number of rows of g", g.rows(), coarse.B.rows());
+  const Eigen::MatrixXd weighted = coarse.B * g;
+  const Eigen::MatrixXd coefficients = coarse_pairs.vectors.leftCols(C.rows()).transpose() * weighted;
+  const double scale = std::sqrt(fine.mass.sum() / coarse.mass.sum());
+  return scale * (fine_pairs.vectors.leftCols(C.cols()) * (C.transpose() * coefficients));
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_H

@@ -1,0 +1,135 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGEN_PROBLEM_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGEN_PROBLEM_H
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+namespace internal {
+
+// Approximate eigenpairs, B-orthonormal, in ascending order.
+struct Ritz_pairs
+{
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+
+/// The pencil (L, B) with its shift: what every solver shares.
+class Eigen_problem
+{
+public:
+  Eigen_problem(const Eigen::SparseMatrix<double>& L, const Eigen::SparseMatrix<double>& B,
+                const Eigen::VectorXd& mass, const std::function<bool(double)>& progress)
+    : m_L(L)
+    , m_B(B)
+    , m_mass(mass)
+    , m_progress(progress)
+    , m_shift(4. * 3.14159265358979323846 / mass.sum())
+  {}
+
+  void check(Eigen::Index K, double tolerance, Eigen::Index maximum_iterations) const
+  {
+    const Eigen::Index n = size();
+    if(m_L.cols() != n || m_B.rows() != n || m_B.cols() != n || m_mass.size() != n)
+      throw std::invalid_argument(
+          "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
+    if(!(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift)))
+      throw std::invalid_argument("Eigenpairs: every mass must be positive and finite.");
+    if(K < 1 || K > n)
+      throw std::invalid_argument(
+          "Eigenpairs: the number of eigenvectors must lie between 1 and the number of "
+          "vertices " +
+          std::to_string(n) + ", but is " + std::to_string(K) + ".");
+    if(!(tolerance > 0. && tolerance < 1.))
+      throw std::invalid_argument("Eigenpairs: the tolerance must lie between 0 and 1.");
+    if(maximum_iterations < 1)
+      throw std::invalid_argument("Eigenpairs: the number of iterations must be positive.");
+  }
+
+  Eigen::Index size() const { return m_L.rows(); }
+  const Eigen::SparseMatrix<double>& L() const { return m_L; }
+  const Eigen::SparseMatrix<double>& B() const { return m_B; }
+  double shift() const { return m_shift; }
+
+  // L - sigma B
+  Eigen::SparseMatrix<double> shifted(double sigma) const
+  {
+    Eigen::SparseMatrix<double> result = m_L - sigma * m_B;
+    result.makeCompressed();
+    return result;
+  }
+
+  void report(double fraction) const
+  {
+    if(m_progress && !m_progress((std::min)(1., (std::max)(0., fraction))))
+      throw Cancelled();
+  }
+
+  Eigen::VectorXd residuals(const Ritz_pairs& pairs) const
+  {
+    Eigen::VectorXd result(pairs.values.size());
+    for(Eigen::Index k = 0; k < result.size(); ++k) { // column by column: no second n x K matrix
+      const Eigen::VectorXd r = m_L * pairs.vectors.col(k) - pairs.values(k) * (m_B * pairs.vectors.col(k));
+      result(k) = std::sqrt(r.cwiseAbs2().cwiseQuotient(m_mass).sum()) / (pairs.values(k) + m_shift);
+    }
+    return result;
+  }
+
+private:
+  const Eigen::SparseMatrix<double>& m_L;
+  const Eigen::SparseMatrix<double>& m_B;
+  const Eigen::VectorXd& m_mass;
+  const std::function<bool(double)>& m_progress;
+  double m_shift;
+};
+
+// A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors
+// vanish; an entry of exactly 0.618... times the largest is not structural.
+inline void fix_signs(Eigen::MatrixXd& vectors)
+{
+  for(Eigen::Index k = 0; k < vectors.cols(); ++k) {
+    const double bound = 0.6180339887498949 * vectors.col(k).cwiseAbs().maxCoeff();
+    Eigen::Index i = 0;
+    while(std::abs(vectors(i, k)) < bound)
+      ++i;
+    if(vectors(i, k) < 0.)
+      vectors.col(k) = -vectors.col(k);
+  }
+}
+
+// Sorts in ascending order, keeps the first K, cuts the kernel's noise at 0.
+inline Ritz_pairs sorted(const Eigen::VectorXd& values, const Eigen::MatrixXd& vectors, Eigen::Index K)
+{
+  std::vector<Eigen::Index> order(values.size());
+  std::iota(order.begin(), order.end(), Eigen::Index(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index i, Eigen::Index j) { return values(i) < values(j); });
+  Ritz_pairs result{Eigen::VectorXd(K), Eigen::MatrixXd(vectors.rows(), K)};
+  for(Eigen::Index k = 0; k < K; ++k) {
+    result.values(k) = (std::max)(0., values(order[k]));
+    result.vectors.col(k) = vectors.col(order[k]);
+  }
+  return result;
+}
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGEN_PROBLEM_H

@@ -1,0 +1,90 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_COMPLETENESS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_COMPLETENESS_H
+
+#include <CGAL/Spectral_geometry/internal/Cholesky.h>
+#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
+
+#include <Eigen/Core>
+
+#include <stdexcept>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+// A place to count: below the K-th value and the group that it belongs to, in a gap. Copies of values(K-1) itself need not be
+// counted, any K of them are right.
+struct Gap
+{
+  Eigen::Index count; // values below it
+  double lower, upper;
+};
+
+inline Gap last_gap(const Eigen_problem& problem, const Eigen::VectorXd& values)
+{
+  const double s = problem.shift();
+  for(Eigen::Index k = values.size() - 1; k >= 0; --k) {
+    const double lower = k > 0 ? values(k - 1) : -s;
+    if(values(k) - lower > 1e-5 * (values(k) + s))
+      return {k, lower, values(k)};
+  }
+  return {0, -s, -s}; // the values are not ascending from -s: never happens
+}
+
+// The number of eigenvalues below the gap minus the number of those found; factorisations without pivoting can be
+// wrong next to an eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
+inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, Eigen::Index& missing)
+{
+  const Gap gap = last_gap(problem, values);
+  for(const double t : {0.5, 0.375, 0.59375}) {
+    const double mu = gap.lower + t * (gap.upper - gap.lower);
+    missing = 0;
+    if(mu < 0.)
+      return true; // L is positive semidefinite
+    const Eigen::Index count = number_of_negative_eigenvalues(problem.shifted(mu));
+    missing = count - gap.count;
+    if(missing >= 0)
+      return true;
+  }
+  return false;
+}
+
+// Merges eigenpairs into a known set of K and keeps the first K.
+inline void merge(Ritz_pairs& pairs, const Ritz_pairs& more)
+{
+  const Eigen::Index K = pairs.values.size(), added = more.values.size();
+  Eigen::VectorXd values(K + added);
+  values << pairs.values, more.values;
+  Eigen::MatrixXd vectors(pairs.vectors.rows(), K + added);
+  vectors << pairs.vectors, more.vectors;
+  pairs = sorted(values, vectors, K);
+}
+
+// `find_missing(pairs, number)` returns eigenpairs in the complement of the known ones. Returns false when counting failed.
+template <class Find_missing>
+bool make_complete(const Eigen_problem& problem, Ritz_pairs& pairs, const Find_missing& find_missing)
+{
+  // Each search from one vector finds at least one copy of each multiple eigenvalue.
+  for(Eigen::Index attempt = 0; attempt <= pairs.values.size(); ++attempt) {
+    problem.report(0.92);
+    Eigen::Index missing;
+    if(!count_missing(problem, pairs.values, missing))
+      return false;
+    if(missing == 0)
+      return true;
+    merge(pairs, find_missing(pairs, missing));
+  }
+  throw std::runtime_error(
+      "Eigenpairs: copies of a multiple eigenvalue could not be found; lower the tolerance or solve "
+      "the connected components one by one.");
+}
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_COMPLETENESS_H

@@ -1,0 +1,372 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H
+#define CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H
+
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/*!
+\file
+Distances between the vertices of a mesh and signatures of them, from the eigenpairs of its Laplacian: the
+formulas of section 5.1 of Lescoat et al. 2020, truncated to the `K` pairs that are given.
+
+Common to all functions:
+- `pairs` holds `K` eigenpairs of a mesh of `n` vertices, \f$ \phi_i \f$ orthonormal in its mass.
+- Sums with \f$ 1/\lambda \f$ or \f$ \log\lambda \f$ skip the eigenvalues that are zero up to rounding, one
+  per connected component (see `number_of_zero_eigenvalues()`); the others run over all pairs. Distances
+  between different components by such sums are finite numbers without a meaning.
+- One source gives a vector of `n` values, several sources give an `n` x (number of sources) matrix, one
+  column each.
+- Units are given for a mesh measured in a unit of length `u`, time `t` of heat in `u^2`. Defaults of times
+  and energies are multiples of the spectrum's own, so that results do not depend on the unit. To compare two
+  meshes use *one* set of times or energies for both: take them from one and pass them to both.
+- `std::invalid_argument` is thrown for a source out of range, a time or energy that is not finite or negative
+  where it must not be, and when all eigenvalues are zero and a nonzero one is needed.
+*/
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/// returns how many of the eigenvalues are zero up to rounding, at most 1e-6 times \f$ 4 \pi / A \f$. The
+/// area `A` of the mesh is read off the first eigenvector, which is \f$ 1/\sqrt{A} \f$ at all vertices of a
+/// connected mesh (in other cases it gives the order of magnitude, which is all that is needed).
+inline Eigen::Index number_of_zero_eigenvalues(const Eigenpairs& pairs)
+{
+  if(pairs.size() == 0 || pairs.vectors.rows() == 0)
+    return 0;
+  return number_of_zero_eigenvalues(pairs.values, 4 * CGAL_PI * pairs.vectors.col(0).array().square().mean());
+}
+
+namespace internal {
+
+inline void check_sources(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources)
+{
+  for(const Eigen::Index s : sources)
+    if(s < 0 || s >= pairs.vectors.rows())
+      throw std::invalid_argument("spectral distances: source " + std::to_string(s) + " is not one of the " +
+                                  std::to_string(pairs.vectors.rows()) +
+                                  " vertices, pass an index in [0, n).");
+}
+
+inline void check_time(double t)
+{
+  if(!(t >= 0 && std::isfinite(t)))
+    throw std::invalid_argument("spectral distances: the time " + std::to_string(t) +
+                                " is negative or not finite, pass a time of heat of at least 0.");
+}
+
+inline void check_steps(Eigen::Index steps, Eigen::Index least)
+{
+  if(steps < least)
+    throw std::invalid_argument("spectral distances: " + std::to_string(steps) +
+                                " steps are asked for, take at least " + std::to_string(least) + ".");
+}
+
+// The pairs without the kernel.
+inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
+{
+  const Eigen::Index first = number_of_zero_eigenvalues(pairs);
+  if(first >= pairs.size())
+    throw std::invalid_argument("spectral distances: all of the " + std::to_string(pairs.size()) +
+                                " eigenvalues are zero, compute more of them than the mesh has components.");
+  return first;
+}
+
+// Squared distances in the embedding v -> (sqrt(w_i) phi_i(v)), i >= first. Differences first: the expansion
+// of the square would lose the distances of close vertices.
+inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
+                                         const Eigen::ArrayXd& weights, Eigen::Index first)
+{
+  check_sources(pairs, sources);
+  const Eigen::MatrixXd embedding =
+      (pairs.vectors.rightCols(pairs.size() - first) * weights.sqrt().matrix().asDiagonal()).transpose();
+  Eigen::MatrixXd distances(pairs.vectors.rows(), static_cast<Eigen::Index>(sources.size()));
+  for(std::size_t s = 0; s < sources.size(); ++s)
+    distances.col(static_cast<Eigen::Index>(s)) =
+        (embedding.colwise() - embedding.col(sources[s])).colwise().squaredNorm().transpose();
+  return distances;
+}
+
+} // namespace internal
+
+/// returns a time for `squared_diffusion_distance()` and `heat_kernel()`: \f$ 1/(4\lambda) \f$ with the first
+/// nonzero eigenvalue, in u^2. On a sphere of unit area it is 0.00995; Lescoat et al. show 0.01.
+inline double default_diffusion_time(const Eigenpairs& pairs)
+{
+  return 1 / (4 * pairs.values(internal::first_nonzero(pairs)));
+}
+
+/*!
+returns the **squared** diffusion distances \f$ \sum_i (\phi_i(u) - \phi_i(v))^2 e^{-2 \lambda_i t} \f$, in
+u^-2 (Coifman and Lafon 2006). Lescoat et al. 2020 write this sum without a root.
+
+@param pairs all of them are used, the zeros included
+@param sources the vertices `u`, one column of the result each
+@param t time of heat in u^2, at least 0, see `default_diffusion_time()`
+@return n x (number of sources)
+*/
+inline Eigen::MatrixXd squared_diffusion_distance(const Eigenpairs& pairs,
+                                                  const std::vector<Eigen::Index>& sources, double t)
+{
+  internal::check_time(t);
+  return internal::squared_distances(pairs, sources, (-2 * t * pairs.values.array()).exp(), 0);
+}
+
+/// the squared diffusion distances of one source, `n` values.
+inline Eigen::VectorXd squared_diffusion_distance(const Eigenpairs& pairs, Eigen::Index source, double t)
+{
+  return squared_diffusion_distance(pairs, std::vector<Eigen::Index>{source}, t);
+}
+
+/*!
+returns the **squared** biharmonic distances \f$ \sum_i (\phi_i(u) - \phi_i(v))^2 / \lambda_i^2 \f$, in u^2
+(Lipman, Rustamov and Funkhouser 2010). Zeros are skipped. The terms fall so fast that few pairs are enough:
+between antipodes of the unit sphere the sum is pi/12, of which 100 pairs give 99.4 %.
+
+@param pairs at least one with a nonzero eigenvalue
+@param sources the vertices `u`, one column of the result each
+@return n x (number of sources)
+*/
+inline Eigen::MatrixXd squared_biharmonic_distance(const Eigenpairs& pairs,
+                                                   const std::vector<Eigen::Index>& sources)
+{
+  const Eigen::Index first = internal::first_nonzero(pairs);
+  const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
+  return internal::squared_distances(pairs, sources, values.square().inverse(), first);
+}
+
+/// the squared biharmonic distances of one source, `n` values.
+inline Eigen::VectorXd squared_biharmonic_distance(const Eigenpairs& pairs, Eigen::Index source)
+{
+  return squared_biharmonic_distance(pairs, std::vector<Eigen::Index>{source});
+}
+
+/*!
+returns the **squared** commute-time distances \f$ \sum_i (\phi_i(u) - \phi_i(v))^2 / \lambda_i \f$, without
+unit (Qiu and Hancock 2007). Zeros are skipped. With all `n` pairs it is the effective resistance of the
+network of cotangent weights, whatever the mass; the commute time of a random walk is that times the volume of
+the network. On surfaces the sum grows with the logarithm of `K`: compare at one `K`.
+
+@param pairs at least one with a nonzero eigenvalue
+@param sources the vertices `u`, one column of the result each
+@return n x (number of sources)
+*/
+inline Eigen::MatrixXd squared_commute_time_distance(const Eigenpairs& pairs,
+                                                     const std::vector<Eigen::Index>& sources)
+{
+  const Eigen::Index first = internal::first_nonzero(pairs);
+  const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
+  return internal::squared_distances(pairs, sources, values.inverse(), first);
+}
+
+/// the squared commute-time distances of one source, `n` values.
+inline Eigen::VectorXd squared_commute_time_distance(const Eigenpairs& pairs, Eigen::Index source)
+{
+  return squared_commute_time_distance(pairs, std::vector<Eigen::Index>{source});
+}
+
+/*!
+returns the heat kernel \f$ \sum_i \phi_i(u) \phi_i(v) e^{-\lambda_i t} \f$, in u^-2.
+
+@param pairs all of them are used, the zeros included
+@param sources the vertices `u`, one column of the result each
+@param t time of heat in u^2, at least 0
+@return n x (number of sources)
+*/
+inline Eigen::MatrixXd heat_kernel(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
+                                   double t)
+{
+  internal::check_time(t);
+  internal::check_sources(pairs, sources);
+  const Eigen::ArrayXd decay = (-t * pairs.values.array()).exp();
+  Eigen::MatrixXd at_sources(pairs.size(), static_cast<Eigen::Index>(sources.size()));
+  for(std::size_t s = 0; s < sources.size(); ++s)
+    at_sources.col(static_cast<Eigen::Index>(s)) =
+        (pairs.vectors.row(sources[s]).transpose().array() * decay).matrix();
+  return pairs.vectors * at_sources;
+}
+
+/// the heat kernel of one source, `n` values.
+inline Eigen::VectorXd heat_kernel(const Eigenpairs& pairs, Eigen::Index source, double t)
+{
+  return heat_kernel(pairs, std::vector<Eigen::Index>{source}, t);
+}
+
+/*!
+returns times for `heat_kernel_signature()`: `steps` of them with constant ratio, from
+\f$ 4 \ln 10 / \lambda_K \f$ to \f$ 4 \ln 10 / \lambda_1 \f$, in u^2, where \f$ \lambda_1 \f$ is the first
+nonzero eigenvalue and \f$ \lambda_K \f$ the last (Sun, Ovsjanikov and Guibas 2009). At these times the last
+and the first mode have decayed to 1e-4.
+
+@param steps at least 1; with 1 only the first time is returned
+*/
+inline Eigen::VectorXd heat_kernel_times(const Eigenpairs& pairs, Eigen::Index steps = 100)
+{
+  internal::check_steps(steps, 1);
+  const double first = pairs.values(internal::first_nonzero(pairs)), last = pairs.values(pairs.size() - 1);
+  const double scale = 4 * std::log(10.);
+  Eigen::VectorXd times(steps);
+  for(Eigen::Index i = 0; i < steps; ++i) {
+    const double s = steps > 1 ? static_cast<double>(i) / static_cast<double>(steps - 1) : 0.;
+    times(i) = scale / last * std::pow(last / first, s);
+  }
+  return times;
+}
+
+/*!
+returns the heat kernel signature \f$ HKS(v, t) = \sum_i \phi_i^2(v) e^{-\lambda_i t} \f$ (Sun, Ovsjanikov and
+Guibas 2009), in u^-2, not normalised.
+
+@param pairs all of them are used, the zeros included
+@param times in u^2, at least 0, see `heat_kernel_times()`
+@return n x (number of times)
+*/
+inline Eigen::MatrixXd heat_kernel_signature(const Eigenpairs& pairs, const Eigen::VectorXd& times)
+{
+  for(const double t : times)
+    internal::check_time(t);
+  const Eigen::MatrixXd decay = (-pairs.values * times.transpose()).array().exp();
+  return pairs.vectors.cwiseAbs2() * decay;
+}
+
+/// the heat kernel signature at `heat_kernel_times()`, n x 100.
+inline Eigen::MatrixXd heat_kernel_signature(const Eigenpairs& pairs)
+{
+  return heat_kernel_signature(pairs, heat_kernel_times(pairs));
+}
+
+/// the energies (logarithms of eigenvalues) at which the wave kernel signature is taken: `steps` of them at
+/// equal distances from `t_min` to `t_max`, each seen through a Gaussian of standard deviation `sigma`.
+struct Wave_kernel_energies
+{
+  double t_min;       ///< the first energy
+  double t_max;       ///< the last energy, not smaller
+  double sigma;       ///< positive
+  Eigen::Index steps; ///< at least 1, 2 for a distance
+
+  /// the energy of the step `i`.
+  double at(Eigen::Index i) const
+  {
+    return steps > 1 ? t_min + (t_max - t_min) * static_cast<double>(i) / static_cast<double>(steps - 1)
+                     : t_min;
+  }
+};
+
+/*!
+returns energies for `wave_kernel_signature()` and `wave_kernel_distance()` as Aubry, Schlickewei and Cremers
+2011: \f$ \sigma = 0.07 (\log\lambda_K - \log\lambda_1) \f$ (seven of their hundred steps),
+\f$ t_{min} = \log\lambda_1 + 2 \sigma, t_{max} = \log\lambda_K - 2 \sigma \f$, with the first nonzero
+eigenvalue \f$ \lambda_1 \f$ and the last \f$ \lambda_K \f$. Another unit of length moves all energies by one
+constant.
+
+@param steps at least 1, 2 for a distance. More steps refine the sampling and change neither sigma nor the
+  interval.
+
+Throws `std::invalid_argument` if all nonzero eigenvalues are equal: then choose the energies by hand.
+*/
+inline Wave_kernel_energies wave_kernel_energies(const Eigenpairs& pairs, Eigen::Index steps = 100)
+{
+  internal::check_steps(steps, 1);
+  const double first = std::log(pairs.values(internal::first_nonzero(pairs)));
+  const double last = std::log(pairs.values(pairs.size() - 1));
+  const double sigma = 0.07 * (last - first);
+  if(!(sigma > 0))
+    throw std::invalid_argument(
+        "spectral distances: all nonzero eigenvalues are equal, the wave kernel has no "
+        "range of energies, compute more eigenpairs.");
+  return {first + 2 * sigma, last - 2 * sigma, sigma, steps};
+}
+
+/*!
+returns the wave kernel signature (Aubry, Schlickewei and Cremers 2011), in u^-2,
+\f[ WKS(v, t) = \sum_i \phi_i^2(v) e^{-(t - \log\lambda_i)^2 / 2\sigma^2}
+                 / \sum_i e^{-(t - \log\lambda_i)^2 / 2\sigma^2}. \f]
+Zeros are skipped. Exponents are taken relative to the largest, so that energies far from the spectrum give
+the signature of the nearest eigenvalue and not 0/0.
+
+@param pairs at least one with a nonzero eigenvalue
+@param energies see `wave_kernel_energies()`
+@return n x `energies.steps`
+*/
+inline Eigen::MatrixXd wave_kernel_signature(const Eigenpairs& pairs, const Wave_kernel_energies& energies)
+{
+  internal::check_steps(energies.steps, 1);
+  if(!(energies.sigma > 0 && std::isfinite(energies.sigma) && energies.t_min <= energies.t_max &&
+       std::isfinite(energies.t_min) && std::isfinite(energies.t_max)))
+    throw std::invalid_argument("spectral distances: the energies of the wave kernel are [" +
+                                std::to_string(energies.t_min) + ", " + std::to_string(energies.t_max) +
+                                "] with sigma " + std::to_string(energies.sigma) +
+                                ", pass a finite ascending interval and a positive sigma.");
+  const Eigen::Index first = internal::first_nonzero(pairs), modes = pairs.size() - first;
+  const Eigen::ArrayXd log_values = pairs.values.tail(modes).array().log();
+  Eigen::MatrixXd weights(modes, energies.steps);
+  for(Eigen::Index i = 0; i < energies.steps; ++i) {
+    const Eigen::ArrayXd exponents = -((energies.at(i) - log_values) / energies.sigma).square() / 2;
+    const Eigen::ArrayXd gaussians = (exponents - exponents.maxCoeff()).exp();
+    weights.col(i) = (gaussians / gaussians.sum()).matrix();
+  }
+  return pairs.vectors.rightCols(modes).cwiseAbs2() * weights;
+}
+
+/// the wave kernel signature at `wave_kernel_energies()`, n x 100.
+inline Eigen::MatrixXd wave_kernel_signature(const Eigenpairs& pairs)
+{
+  return wave_kernel_signature(pairs, wave_kernel_energies(pairs));
+}
+
+/*!
+returns the wave kernel distances
+\f[ \int_{t_{min}}^{t_{max}} \left| \frac{WKS(u,t) - WKS(v,t)}{WKS(u,t) + WKS(v,t)} \right| dt, \f]
+without unit, not squared, by the trapezoidal rule on the steps of the energies. Between 0 and
+\f$ t_{max} - t_{min} \f$. It compares signatures: vertices that a symmetry of the shape exchanges have
+distance 0. Energies at which both signatures vanish count as equal.
+
+@param pairs, energies as for `wave_kernel_signature()`, with at least 2 steps
+@param sources the vertices `u`, one column of the result each
+@return n x (number of sources)
+*/
+inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
+                                            const Wave_kernel_energies& energies)
+{
+  internal::check_steps(energies.steps, 2);
+  internal::check_sources(pairs, sources);
+  const Eigen::ArrayXXd signature = wave_kernel_signature(pairs, energies).array();
+  const double step = (energies.t_max - energies.t_min) / static_cast<double>(energies.steps - 1);
+  Eigen::MatrixXd distances =
+      Eigen::MatrixXd::Zero(signature.rows(), static_cast<Eigen::Index>(sources.size()));
+  for(std::size_t s = 0; s < sources.size(); ++s)
+    for(Eigen::Index i = 0; i < energies.steps; ++i) {
+      const double source = signature(sources[s], i);
+      const Eigen::ArrayXd sum = signature.col(i) + source;
+      const Eigen::ArrayXd ratio = (sum > 0).select((signature.col(i) - source).abs() / sum, 0.);
+      const double weight = (i == 0 || i == energies.steps - 1) ? step / 2 : step;
+      distances.col(static_cast<Eigen::Index>(s)) += weight * ratio.matrix();
+    }
+  return distances;
+}
+
+/// the wave kernel distances of one source, `n` values.
+inline Eigen::VectorXd wave_kernel_distance(const Eigenpairs& pairs, Eigen::Index source,
+                                            const Wave_kernel_energies& energies)
+{
+  return wave_kernel_distance(pairs, std::vector<Eigen::Index>{source}, energies);
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H

@@ -1,0 +1,63 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_FIELDS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_FIELDS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/*!
+ * The current mesh and what lives on it, in slots: for each slot w the rows f_w, z_w and
+ * R_w = (B Z)_w - (L F)_w, the mass M_w and E_w = |R_w|^2 / M_w (Eq. 2, decomposed by vertex).
+ * Areas and masses are those of the input scaled to unit area.
+ */
+struct Spectral_fields
+{
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  Rows F;                 ///< n x padded K
+  Rows Z;                 ///< the same, or empty where Z = F Lambda
+  Eigen::VectorXd lambda; ///< padded K, read where Z is empty
+  Rows R;                 ///< n x padded K
+  Eigen::VectorXd mass;   ///< lumped barycentric M_w
+  Eigen::VectorXd E;      ///< E_w
+  std::vector<Eigen::Vector3d> points;
+  Spectral_rings rings;
+  double theta = 0;      ///< B = (1 - theta) M_lumped + theta M_consistent
+  double area_scale = 1; ///< 1 / area of the input
+
+  // Shares of a triangle's area: row sums of B stay A / 3 per corner.
+  double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
+  double off_diagonal_share() const { return theta / 12; }
+
+  bool has_z_rows() const { return Z.size() != 0; }
+  const double* f_row(const Spectral_slot s) const
+  {
+    return F.data() + std::size_t(s) * std::size_t(F.cols());
+  }
+  const double* z_row(const Spectral_slot s) const
+  {
+    return Z.data() + std::size_t(s) * std::size_t(Z.cols());
+  }
+  const double* r_row(const Spectral_slot s) const
+  {
+    return R.data() + std::size_t(s) * std::size_t(R.cols());
+  }
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_FIELDS_H

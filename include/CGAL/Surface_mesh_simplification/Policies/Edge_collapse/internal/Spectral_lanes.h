@@ -1,0 +1,127 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_LANES_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_LANES_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+// Vectors of four doubles are a language extension of GCC and Clang on every target; other compilers
+// run a class that loops. A function marked CGAL_SPECTRAL_AVX2 is compiled for wide vector units, with all that it
+// calls, beside its baseline variant; which of them runs is decided at run time. So a build without any -m flag
+// uses what the machine has.
+#if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
+#define CGAL_SPECTRAL_VECTOR_EXTENSION 1
+#define CGAL_SPECTRAL_INLINE inline __attribute__((always_inline))
+#if defined(__x86_64__)
+#include <immintrin.h>
+#define CGAL_SPECTRAL_DISPATCH 1
+#define CGAL_SPECTRAL_AVX2 __attribute__((flatten, target("avx2,fma")))
+#endif
+#else
+#define CGAL_SPECTRAL_INLINE inline
+#endif
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+typedef double Spectral_lanes __attribute__((vector_size(32), aligned(8), may_alias));
+#else
+/// Four doubles, lane by lane.
+struct Spectral_lanes
+{
+  double lane[4];
+  double& operator[](const int i) { return lane[i]; }
+  double operator[](const int i) const { return lane[i]; }
+#define CGAL_SPECTRAL_LANE_OPERATOR(op)                                        \
+  friend Spectral_lanes operator op(Spectral_lanes a, const Spectral_lanes& b) \
+  {                                                                            \
+    for(int i = 0; i < 4; ++i)                                                 \
+      a.lane[i] = a.lane[i] op b.lane[i];                                      \
+    return a;                                                                  \
+  }                                                                            \
+  friend Spectral_lanes operator op(Spectral_lanes a, const double b)          \
+  {                                                                            \
+    for(int i = 0; i < 4; ++i)                                                 \
+      a.lane[i] = a.lane[i] op b;                                              \
+    return a;                                                                  \
+  }                                                                            \
+  friend Spectral_lanes operator op(const double a, Spectral_lanes b)          \
+  {                                                                            \
+    for(int i = 0; i < 4; ++i)                                                 \
+      b.lane[i] = a op b.lane[i];                                              \
+    return b;                                                                  \
+  }                                                                            \
+  Spectral_lanes& operator op##=(const Spectral_lanes& b)                      \
+  {                                                                            \
+    return *this = *this op b;                                                 \
+  }
+  CGAL_SPECTRAL_LANE_OPERATOR(+)
+  CGAL_SPECTRAL_LANE_OPERATOR(-)
+  CGAL_SPECTRAL_LANE_OPERATOR(*)
+  CGAL_SPECTRAL_LANE_OPERATOR(/)
+#undef CGAL_SPECTRAL_LANE_OPERATOR
+  Spectral_lanes operator-() const
+  {
+    return 0. - *this;
+  }
+};
+#endif
+
+/// Rows of F, Z and R are padded with zeros to a multiple of this.
+constexpr std::size_t spectral_padding = 8;
+
+// Lanes are never returned or passed by value: that ABI would depend on -m flags.
+
+CGAL_SPECTRAL_INLINE void spectral_load(Spectral_lanes& x, const double* p)
+{
+  std::memcpy(&x, p, sizeof(x));
+}
+
+CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)
+{
+  return (x[0] + x[1]) + (x[2] + x[3]);
+}
+
+/// result = 1 / sqrt(x) where x > bound, else 0.
+CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Spectral_lanes& x,
+                                                const Spectral_lanes& bound)
+{
+#ifdef CGAL_SPECTRAL_DISPATCH
+  // The halves are SSE2, which every x86_64 has; the AVX2 variant of the caller turns them into VEX code.
+  const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0])), high = _mm_sqrt_pd(_mm_set_pd(x[3], x[2]));
+  Spectral_lanes root;
+  std::memcpy(&root, &low, sizeof(low));
+  std::memcpy(reinterpret_cast<char*>(&root) + sizeof(low), &high, sizeof(high));
+  result = 1. / root;
+#else
+  for(int i = 0; i < 4; ++i)
+    result[i] = 1 / std::sqrt(x[i]);
+#endif
+  for(int i = 0; i < 4; ++i)
+    result[i] = x[i] > bound[i] ? result[i] : 0.;
+}
+
+/// Whether the machine runs functions marked CGAL_SPECTRAL_AVX2.
+inline bool spectral_has_avx2()
+{
+#ifdef CGAL_SPECTRAL_DISPATCH
+  static const bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return result;
+#else
+  return false;
+#endif
+}
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_LANES_H

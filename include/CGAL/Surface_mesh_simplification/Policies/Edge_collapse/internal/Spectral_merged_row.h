@@ -1,0 +1,299 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_MERGED_ROW_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_MERGED_ROW_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_ring_products.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/*!
+ * E_x after the collapse of (u,v) to x. The row is new as a whole,
+ * R_x = sum over the link of l_k (f_k - f_x) + b_k z_k, plus b_x z_x. With e = f_v - f_u it is a combination
+ * of f_k - f_u for the neighbours k of u (v among them: e), of f_m - f_v for the neighbours m of v alone, and of
+ * rows of Z: f_k - f_x = (f_k - f_u) - weight e, f_m - f_x = (f_m - f_v) + (1 - weight) e.
+ *
+ * The matrix of the quadratic form comes from the products in the rings of u and v. Only pairs of a neighbour of u
+ * alone and one of v alone are in neither: they are the work over K that is left in an evaluation.
+ *
+ * Vertices of the link are numbered as the kernel does: the ring of u without v, then those of v alone.
+ */
+class Spectral_merged_row
+{
+public:
+  using Lanes = Spectral_lanes;
+
+  CGAL_SPECTRAL_INLINE void prepare(const Spectral_fields& fields, const Spectral_ring_products& of_u,
+                                    const Spectral_ring_products& of_v, const Spectral_slot u,
+                                    const Spectral_slot v, const std::size_t v_in_u, const std::size_t u_in_v)
+  {
+    m_full = fields.theta != 0;
+    m_v_in_u = v_in_u;
+    m_of_u = &of_u;
+    m_of_v = &of_v;
+    m_u_in_v = u_in_v;
+    classify(fields.rings[u], fields.rings[v]);
+    multiply_across(fields, u, v);
+    fill_gram();
+  }
+
+  CGAL_SPECTRAL_INLINE void reset(const std::size_t link_size)
+  {
+    const Lanes zero = {};
+    m_link.assign(link_size, Link_entry{zero, zero});
+    m_total_area = zero;
+  }
+
+  /// A new triangle (x; a, b), with half cotangents at a and b.
+  CGAL_SPECTRAL_INLINE void add_triangle(const int a, const int b, const Lanes& half_cot_a,
+                                         const Lanes& half_cot_b, const Lanes& area)
+  {
+    m_link[a].half_cot += half_cot_b;
+    m_link[b].half_cot += half_cot_a;
+    m_link[a].area += area;
+    m_link[b].area += area;
+    m_total_area += area;
+  }
+
+  /// Adds E_x = |R_x|^2 / M_x to the cost of each sample.
+  CGAL_SPECTRAL_INLINE void add_term(const Lanes& weight, const double diagonal, const double off_diagonal,
+                                     const double area_scale, Lanes& cost)
+  {
+    const std::size_t nu = m_of_u->degree(), nv = m_far.size();
+    m_c.resize(m_n);
+    Lanes sum_u = {}, sum_v = {};
+    for(std::size_t i = 0, k = 0; i < nu; ++i)
+      if(i != m_v_in_u) {
+        m_c[i].value = m_link[k].half_cot;
+        sum_u += m_link[k++].half_cot;
+      }
+    for(std::size_t m = 0; m < nv; ++m) {
+      m_c[nu + m].value = m_link[nu - 1 + m].half_cot;
+      sum_v += m_link[nu - 1 + m].half_cot;
+    }
+    m_c[m_v_in_u].value = (1. - weight) * sum_v - weight * sum_u;
+    const Lanes self = m_total_area * diagonal;
+    m_c[nu + nv].value = (1. - weight) * self;
+    m_c[nu + nv + 1].value = weight * self;
+    if(m_full)
+      for(std::size_t k = 0; k + 1 < nu + nv; ++k)
+        m_c[nu + nv + 2 + k].value = m_link[k].area * off_diagonal;
+
+    Lanes norm = {};
+    for(std::size_t i = 0; i < m_n; ++i) {
+      const double* g = m_gram.data() + i * m_n;
+      Lanes row = {};
+      for(std::size_t j = i + 1; j < m_n; ++j)
+        row += m_c[j].value * g[j];
+      norm += m_c[i].value * (m_c[i].value * g[i] + 2. * row);
+    }
+    cost += norm / (m_total_area * (area_scale / 3));
+  }
+
+private:
+  // What the new triangles give to a vertex of the link, and a coefficient of the quadratic form.
+  struct Link_entry
+  {
+    Lanes half_cot, area;
+  };
+  struct Coefficient
+  {
+    Lanes value;
+  };
+
+  // m_far: ring indices, at v, of the neighbours of v alone. m_at_v: for each index in the ring of u that at v (v
+  // itself: the centre), or the row of the products across, counted down from -1.
+  void classify(const Spectral_ring& ring_u, const Spectral_ring& ring_v)
+  {
+    m_far.clear();
+    m_only_u.clear();
+    m_at_v.assign(ring_u.size(), -1);
+    m_at_v[m_v_in_u] = int(ring_v.size());
+    for(std::size_t m = 0; m < ring_v.size(); ++m) {
+      if(m == m_u_in_v)
+        continue;
+      std::size_t i = 0;
+      while(i < ring_u.size() && ring_u[i].vertex != ring_v[m].vertex)
+        ++i;
+      if(i < ring_u.size())
+        m_at_v[i] = int(m);
+      else
+        m_far.push_back(m);
+    }
+    for(std::size_t i = 0; i < ring_u.size(); ++i)
+      if(m_at_v[i] == -1) {
+        m_only_u.push_back(i);
+        m_at_v[i] = -int(m_only_u.size());
+      }
+  }
+
+  // Products of f_i - f_u (and z_i) for i next to u alone with f_m - f_v (and z_m) for m next to v alone.
+  CGAL_SPECTRAL_INLINE void multiply_across(const Spectral_fields& fields, const Spectral_slot u,
+                                            const Spectral_slot v)
+  {
+    const std::size_t length = std::size_t(fields.F.cols());
+    const std::size_t rows = m_only_u.size() + m_far.size();
+    m_scratch.resize((m_full ? 2 : 1) * rows * length);
+    m_a.clear();
+    m_b.clear();
+    double* next = m_scratch.data();
+    for(const std::size_t i : m_only_u)
+      m_a.push_back(difference(fields, fields.rings[u][i].vertex, u, length, next));
+    for(const std::size_t m : m_far)
+      m_b.push_back(difference(fields, fields.rings[v][m].vertex, v, length, next));
+    if(m_full) {
+      for(const std::size_t i : m_only_u)
+        m_a.push_back(z_row(fields, fields.rings[u][i].vertex, length, next));
+      for(const std::size_t m : m_far)
+        m_b.push_back(z_row(fields, fields.rings[v][m].vertex, length, next));
+    }
+    m_across.resize(m_a.size() * m_b.size());
+    spectral_dots_body(m_a.data(), m_a.size(), m_b.data(), m_b.size(), length, m_across.data(), m_b.size());
+  }
+
+  CGAL_SPECTRAL_INLINE static const double* difference(const Spectral_fields& fields, const Spectral_slot s,
+                                                       const Spectral_slot center, const std::size_t length,
+                                                       double*& next)
+  {
+    const double *f = fields.f_row(s), *c = fields.f_row(center);
+    double* result = next;
+    for(std::size_t k = 0; k < length; ++k)
+      result[k] = f[k] - c[k];
+    next += length;
+    return result;
+  }
+
+  CGAL_SPECTRAL_INLINE static const double* z_row(const Spectral_fields& fields, const Spectral_slot s,
+                                                  const std::size_t length, double*& next)
+  {
+    if(fields.has_z_rows())
+      return fields.z_row(s);
+    const double *f = fields.f_row(s), *lambda = fields.lambda.data();
+    double* result = next;
+    for(std::size_t k = 0; k < length; ++k)
+      result[k] = lambda[k] * f[k];
+    next += length;
+    return result;
+  }
+
+  double across(const int row, const std::size_t m, const bool z_of_u, const bool z_of_v) const
+  {
+    const std::size_t i = std::size_t(-row - 1) + (z_of_u ? m_only_u.size() : 0);
+    return m_across[i * m_b.size() + m + (z_of_v ? m_far.size() : 0)];
+  }
+
+  // Order: the ring of u (v at its place), the neighbours of v alone, z_u, z_v, then z of the link. Upper triangle.
+  CGAL_SPECTRAL_INLINE void fill_gram()
+  {
+    const Spectral_ring_products &p = *m_of_u, &q = *m_of_v;
+    const std::size_t nu = p.degree(), nv = m_far.size(), zu = nu + nv, zv = zu + 1;
+    m_n = zv + 1 + (m_full ? nu - 1 + nv : 0);
+    m_gram.resize(m_n * m_n);
+    for(std::size_t i = 0; i < nu; ++i) {
+      for(std::size_t j = i; j < nu; ++j)
+        at(i, j) = p.gg(i, j);
+      for(std::size_t m = 0; m < nv; ++m)
+        at(i, nu + m) = gg_across(i, m);
+      at(i, zu) = p.zg(nu, i);
+      at(i, zv) = p.zg(m_v_in_u, i);
+    }
+    for(std::size_t m = 0; m < nv; ++m) {
+      for(std::size_t l = m; l < nv; ++l)
+        at(nu + m, nu + l) = q.gg(m_far[m], m_far[l]);
+      at(nu + m, zu) = q.zg(m_u_in_v, m_far[m]);
+      at(nu + m, zv) = q.zg(q.degree(), m_far[m]);
+    }
+    at(zu, zu) = p.zz(nu, nu);
+    at(zu, zv) = p.zz(nu, m_v_in_u);
+    at(zv, zv) = q.zz(q.degree(), q.degree());
+    if(m_full)
+      fill_gram_of_z(zu, zv);
+  }
+
+  CGAL_SPECTRAL_INLINE void fill_gram_of_z(const std::size_t zu, const std::size_t zv)
+  {
+    const Spectral_ring_products &p = *m_of_u, &q = *m_of_v;
+    const std::size_t nu = p.degree(), nv = m_far.size(), first_far = zv + nu; // of z_m, m next to v alone
+    const auto column = [&](const std::size_t i) { return zv + 1 + i - (i > m_v_in_u ? 1 : 0); };
+    for(std::size_t i = 0; i < nu; ++i) {
+      if(i == m_v_in_u)
+        continue;
+      const std::size_t zi = column(i);
+      for(std::size_t j = 0; j < nu; ++j)
+        at(j, zi) = p.zg(i, j);
+      for(std::size_t m = 0; m < nv; ++m) {
+        at(nu + m, zi) =
+            m_at_v[i] >= 0 ? q.zg(std::size_t(m_at_v[i]), m_far[m]) : across(m_at_v[i], m, true, false);
+        at(zi, first_far + m) =
+            m_at_v[i] >= 0 ? q.zz(std::size_t(m_at_v[i]), m_far[m]) : across(m_at_v[i], m, true, true);
+      }
+      at(zu, zi) = p.zz(nu, i);
+      at(zv, zi) = p.zz(m_v_in_u, i);
+      for(std::size_t j = i; j < nu; ++j)
+        if(j != m_v_in_u)
+          at(zi, column(j)) = p.zz(i, j);
+    }
+    for(std::size_t m = 0; m < nv; ++m) {
+      const std::size_t zm = first_far + m;
+      for(std::size_t j = 0; j < nu; ++j)
+        at(j, zm) = gz_across(j, m);
+      for(std::size_t l = 0; l < nv; ++l)
+        at(nu + l, zm) = q.zg(m_far[m], m_far[l]);
+      at(zu, zm) = q.zz(m_u_in_v, m_far[m]);
+      at(zv, zm) = q.zz(q.degree(), m_far[m]);
+      for(std::size_t l = m; l < nv; ++l)
+        at(zm, first_far + l) = q.zz(m_far[m], m_far[l]);
+    }
+  }
+
+  // (f_i - f_u) . (f_m - f_v): with f_i - f_u = (f_i - f_v) - (f_u - f_v) where i is next to v as well.
+  double gg_across(const std::size_t i, const std::size_t m) const
+  {
+    const int j = m_at_v[i];
+    if(j < 0)
+      return across(j, m, false, false);
+    const double to_u = m_of_v->gg(m_u_in_v, m_far[m]);
+    return i == m_v_in_u ? -to_u : m_of_v->gg(std::size_t(j), m_far[m]) - to_u;
+  }
+
+  // (f_i - f_u) . z_m
+  double gz_across(const std::size_t i, const std::size_t m) const
+  {
+    const int j = m_at_v[i];
+    if(j < 0)
+      return across(j, m, false, true);
+    const double to_u = m_of_v->zg(m_far[m], m_u_in_v);
+    return i == m_v_in_u ? -to_u : m_of_v->zg(m_far[m], std::size_t(j)) - to_u;
+  }
+
+  double& at(const std::size_t i, const std::size_t j) { return m_gram[i * m_n + j]; }
+
+  const Spectral_ring_products *m_of_u = nullptr, *m_of_v = nullptr;
+  std::size_t m_v_in_u = 0, m_u_in_v = 0;
+  bool m_full = false;
+  std::vector<std::size_t> m_far, m_only_u;
+  std::vector<int> m_at_v;
+  std::vector<double> m_scratch, m_across, m_gram;
+  std::vector<const double*> m_a, m_b;
+  std::size_t m_n = 0;
+  std::vector<Link_entry> m_link;
+  std::vector<Coefficient> m_c;
+  Lanes m_total_area;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_MERGED_ROW_H

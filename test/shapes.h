@@ -1,0 +1,224 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_TEST_SHAPES_H
+#define SPECTRAL_TEST_SHAPES_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+// Meshes with known geometry, as matrices (..._matrices()) and in any MutableFaceGraph (make_...()).
+namespace shapes {
+
+using Matrices = CGAL::Spectral_geometry::Mesh_matrices;
+
+constexpr double pi = 3.14159265358979323846;
+
+inline Matrices matrices(const std::vector<Eigen::Vector3d>& points,
+                         const std::vector<Eigen::Vector3i>& triangles)
+{
+  Matrices result{Eigen::MatrixXd(points.size(), 3), Eigen::MatrixXi(triangles.size(), 3)};
+  for(std::size_t i = 0; i < points.size(); ++i)
+    result.V.row(i) = points[i];
+  for(std::size_t i = 0; i < triangles.size(); ++i)
+    result.T.row(i) = triangles[i];
+  return result;
+}
+
+inline Matrices tetrahedron_matrices()
+{
+  return matrices({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+                  {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
+}
+
+// An icosahedron whose faces are split into four `subdivisions` times, on the sphere: 10 * 4^subdivisions + 2 vertices.
+inline Matrices icosphere_matrices(int subdivisions, double radius = 1.)
+{
+  const double g = 0.5 * (1. + std::sqrt(5.));
+  std::vector<Eigen::Vector3d> points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
+                                         {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
+                                         {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  std::vector<Eigen::Vector3i> triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  for(; subdivisions > 0; --subdivisions) {
+    std::map<std::pair<int, int>, int> midpoints;
+    const auto midpoint = [&](int i, int j) {
+      const auto inserted = midpoints.insert({std::minmax(i, j), static_cast<int>(points.size())});
+      if(inserted.second)
+        points.push_back(points[i].normalized() + points[j].normalized());
+      return inserted.first->second;
+    };
+    std::vector<Eigen::Vector3i> finer;
+    for(const Eigen::Vector3i& t : triangles) {
+      const int a = midpoint(t(0), t(1)), b = midpoint(t(1), t(2)), c = midpoint(t(2), t(0));
+      finer.insert(finer.end(), {{t(0), a, c}, {t(1), b, a}, {t(2), c, b}, {a, b, c}});
+    }
+    triangles.swap(finer);
+  }
+  for(Eigen::Vector3d& p : points)
+    p *= radius / p.norm();
+  return matrices(points, triangles);
+}
+
+// A closed shape without symmetry, star-shaped: five limbs and waves of three lengths on an icosphere.
+inline Matrices bumpy_icosphere_matrices(int subdivisions)
+{
+  const Eigen::Vector3d limbs[] = {
+      {1, 0.2, 0.1}, {-0.8, 0.7, 0.3}, {-0.3, -1, 0.4}, {0.1, 0.4, 1}, {0.4, -0.3, -1}};
+  const double height[] = {1.1, 0.8, 0.9, 0.6, 0.7};
+  Matrices result = icosphere_matrices(subdivisions);
+  for(Eigen::Index i = 0; i < result.V.rows(); ++i) {
+    const Eigen::Vector3d d = result.V.row(i);
+    double r = 1.;
+    for(int k = 0; k < 5; ++k)
+      r += height[k] * std::exp(18. * (d.dot(limbs[k].normalized()) - 1.));
+    r += 0.06 * std::sin(5. * d.x() + 3. * d.y() + 0.5) + 0.03 * std::sin(9. * d.y() - 7. * d.z());
+    r += 0.012 * std::sin(21. * d.z() + 14. * d.x()) * std::cos(17. * d.y());
+    result.V.row(i) *= r;
+  }
+  return result;
+}
+
+// [0, width] x [0, height] in the plane z = 0, nx x ny cells, each cut in two by the same diagonal.
+inline Matrices grid_matrices(int nx, int ny, double width = 1., double height = 1.)
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for(int j = 0; j <= ny; ++j)
+    for(int i = 0; i <= nx; ++i)
+      points.emplace_back(width * i / nx, height * j / ny, 0.);
+  for(int j = 0; j < ny; ++j)
+    for(int i = 0; i < nx; ++i) {
+      const int a = j * (nx + 1) + i, b = a + 1, c = b + nx + 1, d = c - 1;
+      triangles.emplace_back(a, b, c);
+      triangles.emplace_back(a, c, d);
+    }
+  return matrices(points, triangles);
+}
+
+// The grid with its inner vertices moved by up to `amount` cells, in the plane.
+inline Matrices irregular_grid_matrices(int nx, int ny, double amount = 0.25)
+{
+  Matrices result = grid_matrices(nx, ny);
+  for(Eigen::Index v = 0; v < result.V.rows(); ++v) {
+    const double x = result.V(v, 0), y = result.V(v, 1);
+    if(x == 0. || x == 1. || y == 0. || y == 1.)
+      continue;
+    result.V(v, 0) += amount / nx * std::sin(12.9898 * v);
+    result.V(v, 1) += amount / ny * std::sin(78.233 * v + 1.);
+  }
+  return result;
+}
+
+// An equilateral triangle of side 1 in the plane z = 0, cut into n^2 equilateral triangles.
+inline Matrices equilateral_matrices(int n)
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for(int j = 0; j <= n; ++j)
+    for(int i = 0; i + j <= n; ++i)
+      points.emplace_back((i + 0.5 * j) / n, std::sqrt(0.75) * j / n, 0.);
+  for(int j = 0, a = 0; j < n; ++j, ++a)
+    for(int i = 0; i + j < n; ++i, ++a) {
+      const int above = a + n + 1 - j;
+      triangles.emplace_back(a, a + 1, above);
+      if(i + j + 1 < n)
+        triangles.emplace_back(a + 1, above + 1, above);
+    }
+  return matrices(points, triangles);
+}
+
+inline Matrices torus_matrices(int nu, int nv, double major = 1., double minor = 0.4)
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for(int i = 0; i < nu; ++i)
+    for(int j = 0; j < nv; ++j) {
+      const double u = 2. * pi * i / nu, v = 2. * pi * j / nv, r = major + minor * std::cos(v);
+      points.emplace_back(r * std::cos(u), r * std::sin(u), minor * std::sin(v));
+      const int i1 = (i + 1) % nu, j1 = (j + 1) % nv;
+      triangles.emplace_back(i * nv + j, i1 * nv + j, i1 * nv + j1);
+      triangles.emplace_back(i * nv + j, i1 * nv + j1, i * nv + j1);
+    }
+  return matrices(points, triangles);
+}
+
+// `copies` of a mesh as connected components, side by side.
+inline Matrices components_matrices(const Matrices& mesh, int copies)
+{
+  const Eigen::Index n = mesh.V.rows(), m = mesh.T.rows();
+  const double step = 1.5 * (mesh.V.col(0).maxCoeff() - mesh.V.col(0).minCoeff());
+  Matrices result{Eigen::MatrixXd(copies * n, 3), Eigen::MatrixXi(copies * m, 3)};
+  for(int c = 0; c < copies; ++c) {
+    result.V.middleRows(c * n, n) = mesh.V;
+    result.V.col(0).segment(c * n, n).array() += c * step;
+    result.T.middleRows(c * m, m) = mesh.T.array() + static_cast<int>(c * n);
+  }
+  return result;
+}
+
+// Vertices and faces are added in the order of the rows.
+template <class Mesh>
+void make_mesh(Mesh& mesh, const Matrices& from)
+{
+  using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
+  auto points = get(CGAL::vertex_point, mesh);
+  using Point = typename boost::property_traits<decltype(points)>::value_type;
+  std::vector<Vertex> vertex;
+  for(Eigen::Index i = 0; i < from.V.rows(); ++i) {
+    vertex.push_back(add_vertex(mesh));
+    put(points, vertex.back(), Point(from.V(i, 0), from.V(i, 1), from.V(i, 2)));
+  }
+  for(Eigen::Index f = 0; f < from.T.rows(); ++f) {
+    const std::vector<Vertex> corners = {vertex[from.T(f, 0)], vertex[from.T(f, 1)], vertex[from.T(f, 2)]};
+    CGAL::Euler::add_face(corners, mesh);
+  }
+}
+
+template <class Mesh>
+void make_tetrahedron(Mesh& mesh)
+{
+  make_mesh(mesh, tetrahedron_matrices());
+}
+
+template <class Mesh>
+void make_icosphere(Mesh& mesh, int subdivisions, double radius = 1.)
+{
+  make_mesh(mesh, icosphere_matrices(subdivisions, radius));
+}
+
+template <class Mesh>
+void make_bumpy_icosphere(Mesh& mesh, int subdivisions)
+{
+  make_mesh(mesh, bumpy_icosphere_matrices(subdivisions));
+}
+
+template <class Mesh>
+void make_grid(Mesh& mesh, int nx, int ny, double width = 1., double height = 1.)
+{
+  make_mesh(mesh, grid_matrices(nx, ny, width, height));
+}
+
+template <class Mesh>
+void make_torus(Mesh& mesh, int nu, int nv, double major = 1., double minor = 0.4)
+{
+  make_mesh(mesh, torus_matrices(nu, nv, major, minor));
+}
+
+} // namespace shapes
+
+#endif // SPECTRAL_TEST_SHAPES_H

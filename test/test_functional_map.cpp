@@ -1,0 +1,598 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/restriction.h>
+
+#include "catch.h"
+#include "shapes.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace SG = CGAL::Spectral_geometry;
+
+using Catch::Approx;
+using Catch::Matchers::ContainsSubstring;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using SG::Eigenpairs;
+using SG::Laplace_operator;
+using SG::Merge_forest;
+using Sparse = Eigen::SparseMatrix<double>;
+
+namespace {
+
+constexpr double thetas[] = {0., 0.5};
+
+Laplace_operator laplace(const shapes::Matrices& mesh, double theta = 0.)
+{
+  return SG::laplace_operator(mesh.V, mesh.T, theta);
+}
+
+// The coarse vertices are the first of the fine ones.
+Sparse injection(Index coarse, Index fine)
+{
+  Sparse P(coarse, fine);
+  for(Index i = 0; i < coarse; ++i)
+    P.insert(i, i) = 1.;
+  return P;
+}
+
+std::vector<Index> first_indices(Index n)
+{
+  std::vector<Index> indices(n);
+  std::iota(indices.begin(), indices.end(), Index(0));
+  return indices;
+}
+
+enum class Weights { any, binary };
+
+// Merges random slots until `left` are left. One weight out of three is exactly 0 or 1.
+Merge_forest random_forest(Index n, Index left, unsigned seed, Weights weights)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0., 1.);
+  std::vector<Index> alive = first_indices(n);
+  Merge_forest forest(n);
+  while(static_cast<Index>(alive.size()) > left) {
+    std::shuffle(alive.begin(), alive.end(), random);
+    double alpha = uniform(random);
+    if(weights == Weights::binary || alpha < 0.3)
+      alpha = random() % 2;
+    forest.merge(alive.back(), alive.front(), alpha);
+    alive.pop_back();
+  }
+  return forest;
+}
+
+// P = Q_m ... Q_2 Q_1 by sparse products, one matrix with one row less for each merge.
+Sparse product_of_merges(const Merge_forest& forest, Index number_of_merges, std::vector<Index>& slots)
+{
+  slots = first_indices(forest.number_of_slots());
+  Sparse P(forest.number_of_slots(), forest.number_of_slots());
+  P.setIdentity();
+  for(Index m = 0; m < number_of_merges; ++m) {
+    const Merge_forest::Merge merge = forest.merges()[m];
+    Sparse Q(static_cast<Index>(slots.size()) - 1, static_cast<Index>(slots.size()));
+    std::vector<Index> left;
+    for(Index w = 0; w < static_cast<Index>(slots.size()); ++w)
+      if(slots[w] != merge.removed) {
+        Q.insert(static_cast<Index>(left.size()), w) = slots[w] == merge.kept ? 1. - merge.alpha : 1.;
+        if(slots[w] == merge.kept) {
+          const auto v = std::find(slots.begin(), slots.end(), merge.removed) - slots.begin();
+          Q.insert(static_cast<Index>(left.size()), v) = merge.alpha;
+        }
+        left.push_back(slots[w]);
+      }
+    P = Sparse(Q * P);
+    slots = left;
+  }
+  return P;
+}
+
+void check_restriction(const Sparse& P)
+{
+  for(Index column = 0; column < P.cols(); ++column) {
+    Index nonzeros = 0;
+    for(Sparse::InnerIterator it(P, column); it; ++it, ++nonzeros)
+      CHECK(it.value() > 0.);
+    CHECK(nonzeros <= 1);
+  }
+  const VectorXd sums = P * VectorXd::Ones(P.cols());
+  CHECK((sums.array() - 1.).abs().maxCoeff() < 1e-13);
+}
+
+} // namespace
+
+TEST_CASE("restriction equals the product of the matrices of all merges, after any number of them")
+{
+  for(unsigned seed = 1; seed <= 8; ++seed) {
+    const Merge_forest forest = random_forest(60, seed, seed, Weights::any);
+    for(const Index m : {Index(0), Index(1), Index(17), forest.number_of_merges()}) {
+      std::vector<Index> slots;
+      const Sparse expected = product_of_merges(forest, m, slots);
+      CHECK(forest.kept_slots(m) == slots);
+      const Sparse P = forest.restriction(slots, m);
+      check_restriction(P);
+      CHECK(P.rows() == 60 - m);
+      CHECK((MatrixXd(P) - MatrixXd(expected)).cwiseAbs().maxCoeff() < 1e-15);
+    }
+  }
+}
+
+TEST_CASE("restriction rows follow the order of the list of slots")
+{
+  const Merge_forest forest = random_forest(40, 9, 5, Weights::any);
+  std::vector<Index> slots = forest.kept_slots();
+  const MatrixXd P = forest.restriction(slots);
+  std::reverse(slots.begin(), slots.end());
+  CHECK(MatrixXd(forest.restriction(slots)) == MatrixXd(P.colwise().reverse()));
+  const std::vector<Index> map = forest.vertex_map(slots);
+  for(Index row = 0; row < 9; ++row)
+    CHECK(map[slots[row]] == row);
+}
+
+TEST_CASE("vertex map is total, agrees with the restriction, and binary rows hold exactly one 1")
+{
+  for(const Weights weights : {Weights::any, Weights::binary}) {
+    const Merge_forest forest = random_forest(200, 25, 3, weights);
+    const std::vector<Index> slots = forest.kept_slots();
+    const Sparse P = forest.restriction(slots);
+    const std::vector<Index> map = forest.vertex_map(slots);
+    REQUIRE(map.size() == 200);
+    CHECK(*std::min_element(map.begin(), map.end()) >= 0);
+    CHECK(*std::max_element(map.begin(), map.end()) < 25);
+    for(Index column = 0; column < P.cols(); ++column)
+      for(Sparse::InnerIterator it(P, column); it; ++it)
+        CHECK(it.row() == map[column]);
+    CHECK(P.nonZeros() < 200); // merges with alpha 0 or 1 leave empty columns, but no hole in the map
+    if(weights == Weights::binary) {
+      CHECK(P.nonZeros() == P.rows());
+      CHECK((MatrixXd(P).rowwise().maxCoeff().array() == 1.).all());
+    }
+  }
+}
+
+TEST_CASE("restriction of a log of a hundred thousand merges in one chain")
+{
+  const Index n = 100000;
+  Merge_forest forest(n);
+  for(Index i = 0; i + 1 < n; ++i)
+    forest.merge(i, i + 1, 1. - 1. / static_cast<double>(i + 2)); // the mean of all so far
+  const Sparse P = forest.restriction(forest.kept_slots());
+  CHECK(P.nonZeros() == n);
+  CHECK(P.coeff(0, 0) == Approx(1. / n).epsilon(1e-9));
+  CHECK(P.coeff(0, n - 1) == Approx(1. / n).epsilon(1e-9));
+}
+
+TEST_CASE("merge forest rejects nonsense and stays as it was")
+{
+  Merge_forest forest(4);
+  forest.merge(1, 0, 0.25);
+  CHECK_THROWS_WITH(forest.merge(1, 2, 0.5), ContainsSubstring("slot 1 has been removed"));
+  CHECK_THROWS_WITH(forest.merge(2, 1, 0.5), ContainsSubstring("slot 1 has been removed"));
+  CHECK_THROWS_WITH(forest.merge(2, 2, 0.5), ContainsSubstring("into itself"));
+  CHECK_THROWS_WITH(forest.merge(4, 2, 0.5), ContainsSubstring("slot 4 is not one of the 4"));
+  CHECK_THROWS_AS(forest.merge(2, -1, 0.5), std::invalid_argument);
+  CHECK_THROWS_AS(forest.merge(2, 3, 1.5), std::invalid_argument);
+  CHECK_THROWS_AS(forest.merge(2, 3, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  CHECK(forest.number_of_merges() == 1);
+  CHECK(forest.is_alive(2));
+  CHECK_FALSE(forest.is_alive(1));
+  CHECK_THROWS_WITH(forest.restriction({0, 1, 2}), ContainsSubstring("slot 1"));
+  CHECK_THROWS_WITH(forest.restriction({0, 2}), ContainsSubstring("slot 3 is left but has no row"));
+  CHECK_THROWS_WITH(forest.restriction({0, 2, 3, 2}), ContainsSubstring("twice"));
+  CHECK_THROWS_AS(forest.restriction({0, 2, 7}), std::invalid_argument);
+  CHECK_THROWS_AS(forest.vertex_map({0, 2, 3}, 2), std::invalid_argument);
+  CHECK_THROWS_AS(Merge_forest(-1), std::invalid_argument);
+  CHECK(MatrixXd(forest.restriction({3, 0, 2})).row(1) == Eigen::RowVector4d(0.75, 0.25, 0., 0.));
+  CHECK(Merge_forest().restriction({}).size() == 0);
+}
+
+namespace {
+
+// The closest point of a triangle by the regions of its plane (Ericson 2005, section 5.1.5).
+Vector3d closest_by_regions(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+  const Vector3d ab = b - a, ac = c - a;
+  const double d1 = ab.dot(p - a), d2 = ac.dot(p - a), d3 = ab.dot(p - b), d4 = ac.dot(p - b),
+               d5 = ab.dot(p - c), d6 = ac.dot(p - c);
+  if(d1 <= 0 && d2 <= 0)
+    return a;
+  if(d3 >= 0 && d4 <= d3)
+    return b;
+  if(d6 >= 0 && d5 <= d6)
+    return c;
+  const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
+  if(vc <= 0 && d1 >= 0 && d3 <= 0)
+    return a + d1 / (d1 - d3) * ab;
+  if(vb <= 0 && d2 >= 0 && d6 <= 0)
+    return a + d2 / (d2 - d6) * ac;
+  if(va <= 0 && d4 >= d3 && d5 >= d6)
+    return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
+  return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
+}
+
+MatrixXd random_points(Index n, double extent, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-extent, extent);
+  return MatrixXd::NullaryExpr(n, 3, [&]() { return uniform(random); });
+}
+
+void check_interpolation(const Sparse& W)
+{
+  const VectorXd sums = W * VectorXd::Ones(W.cols());
+  CHECK((sums.array() - 1.).abs().maxCoeff() < 1e-14);
+  CHECK(MatrixXd(W).minCoeff() >= 0.);
+  CHECK((MatrixXd(W).array() != 0.).rowwise().count().maxCoeff() <= 3);
+}
+
+} // namespace
+
+TEST_CASE("closest points equal those of a search of all faces")
+{
+  const shapes::Matrices surface = shapes::bumpy_icosphere_matrices(2);
+  const MatrixXd points = random_points(500, 2., 7);
+  const Sparse W = SG::closest_point_interpolation(points, surface);
+  check_interpolation(W);
+  const MatrixXd found = W * surface.V;
+  for(Index i = 0; i < points.rows(); ++i) {
+    const Vector3d p = points.row(i);
+    double nearest = std::numeric_limits<double>::infinity();
+    for(Index f = 0; f < surface.T.rows(); ++f) {
+      const Vector3d a = surface.V.row(surface.T(f, 0)), b = surface.V.row(surface.T(f, 1)),
+                     c = surface.V.row(surface.T(f, 2));
+      nearest = std::min(nearest, (closest_by_regions(p, a, b, c) - p).norm());
+    }
+    CHECK((found.row(i).transpose() - p).norm() == Approx(nearest).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("interpolation at the vertices of the surface is the identity")
+{
+  const shapes::Matrices surface = shapes::bumpy_icosphere_matrices(2);
+  CHECK(MatrixXd(SG::closest_point_interpolation(surface.V, surface)).isIdentity(0.));
+}
+
+TEST_CASE("interpolation of a linear function at points of a plane surface is exact")
+{
+  shapes::Matrices surface = shapes::irregular_grid_matrices(7, 5);
+  surface.V.rowwise() += Eigen::RowVector3d(1e3, -2e3, 5e2);
+  MatrixXd points = random_points(200, 0.5, 3);
+  points.col(2).setZero();
+  points.rowwise() += Eigen::RowVector3d(1e3 + 0.5, -2e3 + 0.5, 5e2);
+  const Sparse W = SG::closest_point_interpolation(points, surface);
+  check_interpolation(W);
+  CHECK((W * surface.V - points).cwiseAbs().maxCoeff() < 1e-11);
+}
+
+TEST_CASE("faces without area count as their edges")
+{
+  // a segment, a point and a proper triangle; then the segment alone
+  shapes::Matrices surface =
+      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {0, 5, 0}, {1, 5, 0}, {0, 6, 0}},
+                       {{0, 1, 2}, {3, 3, 3}, {4, 5, 6}});
+  MatrixXd points(5, 3), expected(5, 3); // the last is next to the edge from the third corner to the first
+  points << 2, 1, 1, -1, 0, 0, 9, 10, 9, 0.25, 5.25, 4, -1, 5.5, 0;
+  expected << 2, 0, 0, 0, 0, 0, 9, 9, 9, 0.25, 5.25, 0, 0, 5.5, 0;
+  const Sparse W = SG::closest_point_interpolation(points, surface);
+  check_interpolation(W);
+  CHECK((W * surface.V - expected).cwiseAbs().maxCoeff() < 1e-14);
+  surface.T = surface.T.topRows(1).eval();
+  CHECK(
+      (SG::closest_point_interpolation(points.topRows(1), surface) * surface.V - expected.topRows(1)).norm() <
+      1e-14);
+}
+
+TEST_CASE("closest point of a needle lies on the needle")
+{
+  // The normal of a needle of width 1e-13 is rounding: a projection along it lands anywhere in space.
+  const shapes::Matrices surface =
+      shapes::matrices({{0.1, 0.2, 0.3}, {1.1, 1.3, 0.9}, {0.6, 0.75 + 1e-13, 0.6}}, {{0, 1, 2}});
+  const MatrixXd points = random_points(100, 2., 1);
+  const MatrixXd found = SG::closest_point_interpolation(points, surface) * surface.V;
+  for(Index i = 0; i < points.rows(); ++i) {
+    const Vector3d a = surface.V.row(0), b = surface.V.row(1), p = points.row(i);
+    const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.);
+    CHECK((found.row(i).transpose() - a - s * (b - a)).norm() < 1e-7);
+    CHECK((found.row(i).transpose() - p).norm() == Approx((a + s * (b - a) - p).norm()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("interpolation rejects what has no closest point")
+{
+  shapes::Matrices surface = shapes::tetrahedron_matrices();
+  MatrixXd points = MatrixXd::Zero(2, 3);
+  CHECK(SG::closest_point_interpolation(MatrixXd(0, 3), surface).rows() == 0);
+  CHECK_THROWS_WITH(SG::closest_point_interpolation(MatrixXd::Zero(2, 2), surface),
+                    ContainsSubstring("2 columns"));
+  points(1, 2) = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH(SG::closest_point_interpolation(points, surface), ContainsSubstring("point 1"));
+  points.setZero();
+  surface.T(2, 1) = 4;
+  CHECK_THROWS_WITH(SG::closest_point_interpolation(points, surface), ContainsSubstring("face 2"));
+  surface.T.resize(0, 3);
+  CHECK_THROWS_WITH(SG::closest_point_interpolation(points, surface), ContainsSubstring("no face"));
+}
+
+TEST_CASE("identity has the identity as functional map and both norms zero")
+{
+  for(const double theta : thetas) {
+    const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), theta);
+    const Eigenpairs pairs = SG::eigenpairs(op, 45);
+    const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, pairs, op, pairs, injection(642, 642), 30);
+    CHECK(e.C.isIdentity(1e-10));
+    CHECK(e.norm_L < 1e-7);
+    CHECK(e.norm_D < 1e-10);
+    CHECK(e.norm_D_extended < 1e-10);
+    CHECK(e.errors.modes == 29); // the zero is skipped
+    CHECK(e.errors.max < 1e-12);
+    CHECK(e.errors_beyond.modes == 15);
+    CHECK(e.extended_modes == 33);
+    CHECK(e.area_ratio == 1.);
+    CHECK(e.mass == (theta == 0. ? "lumped" : "averaged"));
+  }
+}
+
+TEST_CASE("a permutation of the vertices loses nothing")
+{
+  const shapes::Matrices fine = shapes::bumpy_icosphere_matrices(2);
+  const Index n = fine.V.rows();
+  std::vector<Index> order = first_indices(n);
+  std::shuffle(order.begin(), order.end(), std::mt19937(2));
+  shapes::Matrices coarse = fine;
+  for(Index i = 0; i < n; ++i)
+    coarse.V.row(order[i]) = fine.V.row(i);
+  coarse.T = fine.T.unaryExpr([&](int v) { return static_cast<int>(order[v]); });
+  Sparse P(n, n);
+  for(Index i = 0; i < n; ++i)
+    P.insert(order[i], i) = 1.;
+  for(const double theta : thetas) {
+    const Laplace_operator A = laplace(fine, theta), B = laplace(coarse, theta);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(A, SG::eigenpairs(A, 25), B, SG::eigenpairs(B, 25), P, 25);
+    CHECK(e.C.cwiseAbs().isIdentity(1e-8)); // signs of eigenvectors depend on the order of the vertices
+    CHECK(e.norm_L < 1e-7);
+    CHECK(e.norm_D < 1e-9);
+  }
+}
+
+TEST_CASE("functional map between two tessellations of a sphere is block-diagonal")
+{
+  const shapes::Matrices fine = shapes::icosphere_matrices(4);
+  shapes::Matrices coarse = shapes::icosphere_matrices(3);
+  coarse.V *= Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Sparse P = SG::closest_point_interpolation(coarse.V, fine);
+  const Laplace_operator A = laplace(fine, 0.5), B = laplace(coarse, 0.5);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(A, SG::eigenpairs(A, 25), B, SG::eigenpairs(B, 25), P, 25);
+  for(Index l = 0; l < 5; ++l) {
+    const Index first = l * l, size = 2 * l + 1;
+    const MatrixXd block = e.C.block(first, first, size, size);
+    CHECK((block.transpose() * block).isIdentity(0.05));
+    MatrixXd off = e.C.middleCols(first, size);
+    off.middleRows(first, size).setZero();
+    CHECK(off.cwiseAbs().maxCoeff() < 0.01);
+  }
+  CHECK(e.errors.max < 0.005);
+  // Five exact multiplicities, but nothing like a diagonal: the map is as good as the identity for both norms.
+  CHECK(e.norm_L < 3.);
+  CHECK(e.norm_D < 0.2);
+  CHECK((e.C - MatrixXd::Identity(25, 25)).norm() > 1.);
+}
+
+TEST_CASE("norms at unit area do not depend on scale, and equal those of meshes that were scaled")
+{
+  const shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3),
+                         coarse = shapes::bumpy_icosphere_matrices(2);
+  const Index K = 20, N = coarse.V.rows();
+  const Sparse P = injection(N, fine.V.rows());
+  const auto evaluate = [&](double fine_scale, double coarse_scale) {
+    shapes::Matrices f = fine, c = coarse;
+    f.V *= fine_scale;
+    c.V *= coarse_scale;
+    const Laplace_operator A = laplace(f), B = laplace(c);
+    return SG::evaluate_spectrum(A, SG::eigenpairs(A, 30), B, SG::eigenpairs(B, 30), P, K);
+  };
+  const SG::Spectral_evaluation e = evaluate(1., 1.);
+  CHECK(e.norm_L > 1.);
+  const double unit_fine = 1. / std::sqrt(e.fine_area), unit_coarse = 1. / std::sqrt(e.coarse_area);
+  const SG::Spectral_evaluation scaled = evaluate(100., 100.), shrunk = evaluate(1., 0.9),
+                                unit = evaluate(unit_fine, unit_coarse),
+                                half = evaluate(unit_fine, unit_fine);
+  for(const SG::Spectral_evaluation& s : {scaled, shrunk, unit}) {
+    CHECK(s.norm_L == Approx(e.norm_L).epsilon(1e-8));
+    CHECK(s.norm_D == Approx(e.norm_D).epsilon(1e-8));
+    CHECK(s.norm_D_extended == Approx(e.norm_D_extended).epsilon(1e-8));
+    CHECK(s.errors.mean == Approx(e.errors.mean).epsilon(1e-8));
+    CHECK((s.C - e.C).norm() < 1e-8);
+  }
+  // at unit area there is nothing to scale
+  CHECK(unit.norm_L_input_scale == Approx(e.norm_L).epsilon(1e-8));
+  CHECK(unit.norm_D_input_scale == Approx(e.norm_D).epsilon(1e-8));
+  CHECK(half.norm_L_input_scale == Approx(e.norm_L_common_scale).epsilon(1e-8));
+  CHECK(scaled.norm_L_input_scale == Approx(1e-4 * e.norm_L_input_scale).epsilon(1e-8));
+  CHECK(scaled.norm_L_common_scale == Approx(e.norm_L_common_scale).epsilon(1e-8));
+  // unit area hides shrinking, the figures at input scale and the area ratio show it
+  CHECK(shrunk.area_ratio == Approx(0.81 * e.area_ratio));
+  CHECK(shrunk.errors_input_scale.mean > e.errors_input_scale.mean + 0.1);
+  CHECK(shrunk.norm_L_common_scale > e.norm_L_common_scale + 1.);
+}
+
+TEST_CASE("the metric is the commutativity plus what leaves the truncated basis")
+{
+  const shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3),
+                         coarse = shapes::bumpy_icosphere_matrices(2);
+  const Index K = 20, n = fine.V.rows(), N = coarse.V.rows();
+  const Merge_forest forest = random_forest(n, N, 4, Weights::any); // any P will do, this one is awful
+  for(const Sparse& P : {injection(N, n), forest.restriction(forest.kept_slots())})
+    for(const double theta : thetas) {
+      const Laplace_operator A = laplace(fine, theta), B = laplace(coarse, theta);
+      const Eigenpairs f = SG::eigenpairs(A, K), c = SG::eigenpairs(B, N);
+      const MatrixXd Z = f.vectors * f.values.asDiagonal();
+      const double E = SG::restriction_energy(B, P, f.vectors, Z);
+      const MatrixXd C = SG::functional_map(c.vectors, B.B, P, f.vectors);
+      const MatrixXd commutator = C * f.values.asDiagonal() - c.values.asDiagonal() * C;
+      const MatrixXd weak = B.B * (P * Z) - B.L * (P * f.vectors);
+      const double E_B = (weak.array() * MatrixXd(B.B).llt().solve(weak).array()).sum();
+      CHECK(commutator.squaredNorm() == Approx(E_B).epsilon(1e-7));
+      const double norm_L = SG::laplacian_commutativity_norm(C.topRows(K), f.values, c.values.head(K));
+      CHECK(norm_L * norm_L * C.topRows(K).squaredNorm() + commutator.bottomRows(N - K).squaredNorm() ==
+            Approx(E_B).epsilon(1e-7));
+      if(theta == 0.)
+        CHECK(E == Approx(E_B).epsilon(1e-10));
+      CHECK(E <= E_B * (1. + 1e-12));
+      CHECK(E_B <= E / (1. - 0.75 * theta));
+      CHECK(norm_L <= std::sqrt(E / (1. - 0.75 * theta)) / C.topRows(K).norm());
+    }
+}
+
+TEST_CASE("norms of a map of two modes by hand")
+{
+  MatrixXd C(3, 2);
+  C << 1., 2., 0., 1., 2., 0.;
+  const Eigen::Vector2d fine(0., 3.);
+  const Vector3d coarse(0., 2., 4.);
+  // C Lambda - Lambda~ C = [0 6; 0 1; -8 0], C^T C - Id = [4 2; 2 4]
+  CHECK(SG::laplacian_commutativity_norm(C, fine, coarse) == Approx(std::sqrt(101. / 10.)));
+  CHECK(SG::orthonormality_norm(C) == Approx(std::sqrt(40.)));
+  CHECK(SG::unit_area_functional_map(C, 8., 2.) == MatrixXd(2. * C));
+  CHECK_THROWS_AS(SG::laplacian_commutativity_norm(C, coarse, fine), std::invalid_argument);
+  CHECK_THROWS_AS(SG::laplacian_commutativity_norm(0. * C, fine, coarse), std::invalid_argument);
+  CHECK_THROWS_AS(SG::unit_area_functional_map(C, 0., 1.), std::invalid_argument);
+}
+
+TEST_CASE("relative errors skip the zeros and the modes that are not there")
+{
+  VectorXd fine(5), coarse(4);
+  fine << 0., 1e-12, 2., 4., 8.;
+  coarse << 1e-13, 0., 1.8, 5.;
+  const Index zeros = SG::number_of_zero_eigenvalues(fine, 1.);
+  CHECK(zeros == 2);
+  const SG::Eigenvalue_errors e = SG::eigenvalue_errors(fine, coarse, 0, 5, zeros);
+  CHECK(e.modes == 2);
+  CHECK(e.mean == Approx((0.1 + 0.25) / 2));
+  CHECK(e.max == Approx(0.25));
+  CHECK(SG::eigenvalue_errors(fine, coarse, 4, 7, zeros).modes == 0);
+  CHECK(std::isnan(SG::eigenvalue_errors(fine, coarse, 4, 7, zeros).mean));
+}
+
+TEST_CASE("evaluation skips one zero for each component")
+{
+  const Laplace_operator op = laplace(shapes::components_matrices(shapes::bumpy_icosphere_matrices(2), 3));
+  const Eigenpairs pairs = SG::eigenpairs(op, 20);
+  const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, pairs, op, pairs, injection(486, 486), 20);
+  CHECK(e.fine_zeros == 3);
+  CHECK(e.coarse_zeros == 3);
+  CHECK(e.errors.modes == 17);
+  CHECK(e.errors_beyond.modes == 0);
+}
+
+TEST_CASE("a coarse mesh with fewer vertices than K is judged with as many modes as it has")
+{
+  const Laplace_operator A = laplace(shapes::bumpy_icosphere_matrices(2));
+  const Laplace_operator B = laplace(shapes::bumpy_icosphere_matrices(0));
+  const Eigenpairs fine = SG::eigenpairs(A, 20);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(A, fine, B, SG::eigenpairs(B, 12), injection(12, 162), 20);
+  CHECK(e.requested_modes == 20);
+  CHECK(e.judged_modes == 12);
+  CHECK(e.extended_modes == 12);
+  CHECK(e.errors.modes == 11);
+  CHECK(std::isfinite(e.norm_L));
+  CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, B, SG::eigenpairs(B, 11), injection(12, 162), 20),
+                    ContainsSubstring("the coarse mesh has 11 eigenpairs, compute at least 12"));
+  CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, A, fine, injection(162, 162), 21),
+                    ContainsSubstring("the fine mesh has 20 eigenpairs"));
+  CHECK_THROWS_AS(SG::evaluate_spectrum(A, fine, A, fine, injection(162, 162), 0), std::invalid_argument);
+  CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, A, fine, injection(12, 162), 10),
+                    ContainsSubstring("rows of P"));
+}
+
+TEST_CASE("modes that change places at K are lost for K coarse modes but not for 1.1 K")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(2));
+  const Eigenpairs fine = SG::eigenpairs(op, 11);
+  Eigenpairs coarse = fine;
+  coarse.vectors.col(9).swap(coarse.vectors.col(10));
+  const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, fine, op, coarse, injection(162, 162), 10);
+  CHECK(e.norm_D == Approx(1.));
+  CHECK(e.norm_D_extended < 1e-10);
+}
+
+TEST_CASE("floors are those of plane waves on the equilateral lattice")
+{
+  CHECK(SG::commutativity_floor(0., 100, 600) == Approx(5.1 * 1e4 / 600).epsilon(0.005));
+  CHECK(SG::orthonormality_floor(0.5, 100, 600) == Approx(0.87).epsilon(0.005));
+  CHECK(SG::orthonormality_floor(0., 100, 600) == 0.);
+  // Symbols by sums over the six edges, eigenvalues 4 pi k, directions averaged.
+  const Index K = 100, N = 20000;
+  const double h = std::sqrt(2. / (std::sqrt(3.) * N)), M = 1. / N;
+  for(const double theta : {0., 0.25, 0.5, 1.}) {
+    double commutativity = 0., orthonormality = 0.;
+    const int directions = 12;
+    for(Index k = 1; k <= K; ++k) {
+      const double lambda = 4. * shapes::pi * k;
+      for(int d = 0; d < directions; ++d) {
+        double L = 0., cosines = 0.;
+        for(int edge = 0; edge < 6; ++edge) {
+          const double phase =
+              std::sqrt(lambda) * h * std::cos(shapes::pi * (edge / 3. + d / (3. * directions)));
+          L += (1. - std::cos(phase)) / std::sqrt(3.);
+          cosines += std::cos(phase);
+        }
+        const double B = M * ((1. - theta) + theta * (0.5 + cosines / 12.));
+        commutativity += std::pow(L / B - lambda, 2) / directions;
+        orthonormality += std::pow(B / M - 1., 2) / directions;
+      }
+    }
+    CHECK(SG::commutativity_floor(theta, K, N) == Approx(std::sqrt(commutativity / K)).epsilon(0.03));
+    CHECK(SG::orthonormality_floor(theta, K, N) == Approx(std::sqrt(orthonormality)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("a nested icosphere comes close to the floors")
+{
+  const shapes::Matrices fine = shapes::icosphere_matrices(5), coarse = shapes::icosphere_matrices(3);
+  const double norm_L[] = {71., 8.1}, norm_D[] = {0.13, 0.70};
+  for(int i = 0; i < 2; ++i) {
+    const Laplace_operator A = laplace(fine, thetas[i]), B = laplace(coarse, thetas[i]);
+    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
+        A, SG::eigenpairs(A, 100), B, SG::eigenpairs(B, 110), injection(642, 10242), 100);
+    CHECK(e.norm_L == Approx(norm_L[i]).epsilon(0.02));
+    CHECK(e.norm_D == Approx(norm_D[i]).epsilon(0.05));
+    CHECK(e.floor_norm_L == Approx(e.norm_L).epsilon(0.4));
+  }
+}
+
+TEST_CASE("prolongation through the spectrum inverts the restriction and keeps constants")
+{
+  for(const double theta : thetas) {
+    shapes::Matrices coarse = shapes::bumpy_icosphere_matrices(3);
+    const Laplace_operator A = laplace(coarse, theta);
+    coarse.V *= 0.5; // the same shape, smaller: the identity for all that is scaled to unit area
+    const Laplace_operator B = laplace(coarse, theta);
+    const Eigenpairs f = SG::eigenpairs(A, 12), c = SG::eigenpairs(B, 12);
+    const Sparse P = injection(642, 642);
+    const SG::Spectral_evaluation e = SG::evaluate_spectrum(A, f, B, c, P, 12);
+    const MatrixXd functions = f.vectors * MatrixXd::Random(12, 3);
+    CHECK((SG::prolong_through_spectrum(A, f, B, c, e.C, P * functions) - functions).norm() <
+          1e-8 * functions.norm());
+    const MatrixXd one = MatrixXd::Ones(642, 1);
+    CHECK((SG::prolong_through_spectrum(A, f, B, c, e.C, one) - one).norm() < 1e-8);
+    CHECK_THROWS_AS(SG::prolong_through_spectrum(A, f, B, c, e.C, MatrixXd::Ones(12, 1)),
+                    std::invalid_argument);
+  }
+}

@@ -1,0 +1,471 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "catch.h"
+#include "shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace SG = CGAL::Spectral_geometry;
+
+using Catch::Approx;
+using Catch::Matchers::ContainsSubstring;
+using Point = CGAL::Simple_cartesian<double>::Point_3;
+using Surface_mesh = CGAL::Surface_mesh<Point>;
+using SG::Eigenpairs;
+using SG::Laplace_operator;
+
+namespace {
+
+constexpr double thetas[] = {0., 0.5};
+
+Laplace_operator laplace(const shapes::Matrices& mesh, double theta = 0.)
+{
+  return SG::laplace_operator(mesh.V, mesh.T, theta);
+}
+
+double area(const shapes::Matrices& mesh)
+{
+  double sum = 0.;
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    const Eigen::Vector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
+                          r = mesh.V.row(mesh.T(f, 2));
+    sum += 0.5 * (q - p).cross(r - p).norm();
+  }
+  return sum;
+}
+
+double orthonormality_error(const Laplace_operator& op, const Eigenpairs& pairs)
+{
+  const Eigen::MatrixXd gram = pairs.vectors.transpose() * (op.B * pairs.vectors);
+  return (gram - Eigen::MatrixXd::Identity(pairs.size(), pairs.size())).cwiseAbs().maxCoeff();
+}
+
+// The pairs are eigenpairs, orthonormal, in order, and their signs follow the documented rule.
+void check_pairs(const Laplace_operator& op, const Eigenpairs& pairs, double tolerance = 1e-8)
+{
+  CHECK(orthonormality_error(op, pairs) < 1e-10);
+  CHECK(pairs.residuals.maxCoeff() < tolerance);
+  CHECK(pairs.values.minCoeff() >= 0.);
+  CHECK(std::is_sorted(pairs.values.data(), pairs.values.data() + pairs.size()));
+  for(Eigen::Index k = 0; k < pairs.size(); ++k) {
+    const Eigen::VectorXd phi = pairs.vectors.col(k);
+    const Eigen::VectorXd r = op.L * phi - pairs.values(k) * (op.B * phi);
+    const double s = 4. * shapes::pi / op.mass.sum();
+    const double norm = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values(k) + s);
+    CHECK(pairs.residuals(k) == Approx(norm).margin(1e-14));
+    Eigen::Index i = 0;
+    while(std::abs(phi(i)) < 0.618 * phi.cwiseAbs().maxCoeff())
+      ++i;
+    CHECK(phi(i) > 0.);
+  }
+}
+
+double mean_error(const Eigenpairs& pairs, const std::vector<double>& exact)
+{
+  double sum = 0.;
+  for(Eigen::Index k = 1; k < pairs.size(); ++k)
+    sum += std::abs(pairs.values(k) / exact[k] - 1.);
+  return sum / (pairs.size() - 1);
+}
+
+} // namespace
+
+TEST_CASE("The Laplacian is symmetric, semidefinite and its rows sum to zero")
+{
+  for(const shapes::Matrices& mesh :
+      {shapes::bumpy_icosphere_matrices(2), shapes::irregular_grid_matrices(9, 7),
+       shapes::tetrahedron_matrices()}) {
+    const Laplace_operator op = laplace(mesh);
+    const Eigen::MatrixXd L = op.L;
+    CHECK(L == L.transpose());
+    CHECK((op.L * Eigen::VectorXd::Ones(L.rows())).cwiseAbs().maxCoeff() < 1e-12 * L.cwiseAbs().maxCoeff());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(L);
+    CHECK(solver.eigenvalues()(0) > -1e-12);
+    CHECK(solver.eigenvalues()(1) > 1e-3); // connected: one constant only
+  }
+}
+
+TEST_CASE("Off-diagonal entries are half the sum of the opposite cotangents")
+{
+  const Laplace_operator op = laplace(shapes::tetrahedron_matrices());
+  CHECK(op.L.coeff(0, 1) == Approx(-1. / std::sqrt(3.)));
+  CHECK(op.L.coeff(0, 0) == Approx(std::sqrt(3.)));
+  const Laplace_operator square = laplace(shapes::grid_matrices(1, 1));
+  CHECK(square.L.coeff(0, 1) == Approx(-0.5));
+  CHECK(square.L.coeff(0, 3) == Approx(0.).margin(1e-15)); // the diagonal faces two right angles
+}
+
+TEST_CASE("Linear functions are harmonic in the interior of a planar mesh")
+{
+  const shapes::Matrices mesh = shapes::irregular_grid_matrices(12, 10);
+  const Eigen::MatrixXd LV = laplace(mesh).L * mesh.V;
+  for(Eigen::Index v = 0; v < LV.rows(); ++v) {
+    const double x = mesh.V(v, 0), y = mesh.V(v, 1);
+    if(x > 0. && x < 1. && y > 0. && y < 1.)
+      CHECK(LV.row(v).cwiseAbs().maxCoeff() < 1e-13);
+  }
+}
+
+TEST_CASE("The Dirichlet energy of a linear function on a square is its area times the squared slope")
+{
+  const shapes::Matrices mesh = shapes::irregular_grid_matrices(8, 8);
+  const Eigen::VectorXd f = 3. * mesh.V.col(0) - 4. * mesh.V.col(1);
+  CHECK(f.dot(laplace(mesh).L * f) == Approx(25.));
+}
+
+TEST_CASE("Masses sum to the area and are the row sums of B, lumped, averaged and consistent")
+{
+  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(3);
+  const Eigen::VectorXd lumped = laplace(mesh).mass;
+  for(const double theta : {0., 0.5, 1.}) {
+    const Laplace_operator op = laplace(mesh, theta);
+    CHECK(op.theta == theta);
+    CHECK(op.mass.sum() == Approx(area(mesh)));
+    CHECK((op.B * Eigen::VectorXd::Ones(op.B.cols()) - op.mass).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK((op.mass - lumped).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK(op.B.nonZeros() == (theta > 0. ? op.L.nonZeros() : op.B.rows()));
+  }
+  CHECK(SG::mass_blend(SG::Mass::lumped) == 0.);
+  CHECK(SG::mass_blend(SG::Mass::averaged) == 0.5);
+  CHECK(SG::mass_name(SG::Mass::averaged) == std::string("averaged"));
+}
+
+TEST_CASE("The consistent mass integrates products of linear functions exactly")
+{
+  const shapes::Matrices mesh = shapes::irregular_grid_matrices(6, 5);
+  const Eigen::VectorXd x = mesh.V.col(0), y = mesh.V.col(1);
+  const Laplace_operator op = laplace(mesh, 1.);
+  CHECK(x.dot(op.B * x) == Approx(1. / 3.));
+  CHECK(x.dot(op.B * y) == Approx(1. / 4.));
+}
+
+TEST_CASE("Another lumping is a choice of corner masses")
+{
+  const shapes::Matrices mesh = shapes::icosphere_matrices(1);
+  Eigen::MatrixXd corner_masses = SG::barycentric_corner_masses(mesh.V, mesh.T);
+  CHECK(corner_masses.sum() == Approx(area(mesh)));
+  corner_masses *= 2.;
+  const Laplace_operator doubled = SG::laplace_operator(mesh.V, mesh.T, corner_masses, 0.);
+  CHECK((doubled.mass - 2. * laplace(mesh).mass).cwiseAbs().maxCoeff() < 1e-14);
+  CHECK_THROWS_WITH(SG::laplace_operator(mesh.V, mesh.T, corner_masses.topRows(3), 0.),
+                    ContainsSubstring("corner masses"));
+}
+
+TEST_CASE("The Laplacian does not depend on scale, the mass is an area, at any magnitude of coordinates")
+{
+  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
+  const Laplace_operator op = laplace(mesh);
+  for(const double scale : {1e-140, 1e-5, 1e7, 1e140}) {
+    shapes::Matrices scaled = mesh;
+    scaled.V *= scale;
+    const Laplace_operator other = laplace(scaled);
+    CHECK((other.L - op.L).norm() < 1e-12 * op.L.norm());
+    CHECK((other.mass / scale / scale - op.mass).cwiseAbs().maxCoeff() < 1e-13);
+    const Eigenpairs pairs = SG::eigenpairs(other, 10);
+    CHECK(orthonormality_error(other, pairs) < 1e-10);
+    CHECK(pairs.values(9) * scale * scale == Approx(SG::eigenpairs(op, 10).values(9)));
+  }
+}
+
+TEST_CASE("Zero-area faces contribute nothing, exact or degenerate to rounding")
+{
+  // A square of two triangles, one diagonal of which is doubled by a face without area.
+  shapes::Matrices mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                                           {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
+  shapes::Matrices without = mesh;
+  without.T.conservativeResize(3, 3);
+  CHECK((Eigen::MatrixXd(laplace(mesh).L) - Eigen::MatrixXd(laplace(without).L)).norm() == 0.);
+  CHECK((laplace(mesh).mass - laplace(without).mass).norm() == 0.);
+
+  // Collinear on a slanted line, no coordinate is exact.
+  const Eigen::Vector3d p(0.1, 0.7, 0.3), d(0.3, 0.1, 0.7);
+  const SG::Triangle_cotangents t = SG::triangle_cotangents(p, p + d / 3., p + d);
+  CHECK(t.area == 0.);
+  CHECK(t.cot == Eigen::Vector3d::Zero());
+}
+
+TEST_CASE("A mesh and its matrices give the same operators, for every mesh type and kernel")
+{
+  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
+  Surface_mesh surface_mesh;
+  CGAL::Polyhedron_3<CGAL::Simple_cartesian<double>> polyhedron;
+  CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3> exact;
+  shapes::make_mesh(surface_mesh, mesh);
+  shapes::make_mesh(polyhedron, mesh);
+  shapes::make_mesh(exact, mesh);
+  CHECK(SG::mesh_matrices(surface_mesh).V == mesh.V);
+  CHECK(SG::mesh_matrices(polyhedron).V == mesh.V);
+  CHECK(SG::mesh_matrices(exact).V == mesh.V);
+  const Eigen::MatrixXd L = laplace(mesh, 0.5).L, B = laplace(mesh, 0.5).B;
+  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(surface_mesh, SG::Mass::averaged).L).isApprox(L, 1e-14));
+  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(polyhedron, SG::Mass::averaged).L).isApprox(L, 1e-14));
+  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(exact, SG::Mass::averaged).B).isApprox(B, 1e-14));
+}
+
+TEST_CASE("Removed vertices and faces are skipped, a vertex point map is respected")
+{
+  Surface_mesh mesh;
+  shapes::make_grid(mesh, 3, 3);
+  CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
+  REQUIRE(mesh.has_garbage() == true);
+  auto doubled = mesh.add_property_map<Surface_mesh::Vertex_index, Point>("v:doubled").first;
+  for(const auto v : vertices(mesh))
+    doubled[v] = Point(2. * mesh.point(v).x(), 2. * mesh.point(v).y(), 0.);
+  const Laplace_operator op =
+      SG::cotangent_laplacian(mesh, SG::Mass::lumped, CGAL::parameters::vertex_point_map(doubled));
+  CHECK(op.mass.size() == 16);
+  CHECK(op.mass.sum() == Approx(4. * 17. / 18.));
+}
+
+TEST_CASE("Residuals and orthonormality of eigenpairs in either mass")
+{
+  for(const shapes::Matrices& mesh :
+      {shapes::bumpy_icosphere_matrices(3), shapes::irregular_grid_matrices(25, 20)})
+    for(const double theta : thetas) {
+      const Laplace_operator op = laplace(mesh, theta);
+      const Eigenpairs pairs = SG::eigenpairs(op, 40);
+      check_pairs(op, pairs);
+      CHECK(pairs.complete);
+      CHECK(pairs.solver.find("spectra+") == 0);
+      CHECK(pairs.values(0) * op.mass.sum() < 1e-10);
+      CHECK(pairs.values(1) * op.mass.sum() > 1.);
+    }
+}
+
+TEST_CASE("A sphere's spectrum is l(l+1) with multiplicity 2l+1")
+{
+  for(const double theta : thetas) {
+    const double radius = 3.;
+    const Laplace_operator op = laplace(shapes::icosphere_matrices(4, radius), theta);
+    const Eigenpairs pairs = SG::eigenpairs(op, 36);
+    check_pairs(op, pairs);
+    CHECK(pairs.complete);
+    for(int l = 1, k = 1; l < 6; k += 2 * l + 1, ++l)
+      for(int i = 0; i < 2 * l + 1; ++i)
+        CHECK(pairs.values(k + i) * radius * radius == Approx(l * (l + 1)).epsilon(theta > 0. ? 0.01 : 0.02));
+    // The symmetry of the icosahedron makes three copies exact.
+    CHECK(pairs.values(3) - pairs.values(1) < 1e-9 * pairs.values(1));
+  }
+}
+
+TEST_CASE("A square's Neumann spectrum is pi^2 (i^2 + j^2)")
+{
+  const Laplace_operator op = laplace(shapes::grid_matrices(60, 60), 0.5);
+  const Eigenpairs pairs = SG::eigenpairs(op, 15);
+  std::vector<double> exact;
+  for(int i = 0; i < 6; ++i)
+    for(int j = 0; j < 6; ++j)
+      exact.push_back(shapes::pi * shapes::pi * (i * i + j * j));
+  std::sort(exact.begin(), exact.end());
+  for(int k = 0; k < 15; ++k)
+    CHECK(pairs.values(k) == Approx(exact[k]).epsilon(0.01).margin(1e-9));
+}
+
+TEST_CASE("On equilateral triangles the averaged mass is far more accurate than the lumped one")
+{
+  // Lame's closed form for the equilateral triangle with Neumann condition: 16 pi^2 / 9 (i^2 + ij + j^2).
+  std::vector<double> exact;
+  for(int i = 0; i < 12; ++i)
+    for(int j = 0; j < 12; ++j)
+      exact.push_back(16. * shapes::pi * shapes::pi / 9. * (i * i + i * j + j * j));
+  std::sort(exact.begin(), exact.end());
+  const shapes::Matrices mesh = shapes::equilateral_matrices(40);
+  const double lumped = mean_error(SG::eigenpairs(laplace(mesh), 40), exact);
+  const double averaged = mean_error(SG::eigenpairs(laplace(mesh, 0.5), 40), exact);
+  CHECK(lumped > 0.005);
+  CHECK(averaged < 0.02 * lumped);
+}
+
+TEST_CASE("Copies of eigenvalues on several components are all found")
+{
+  const shapes::Matrices mesh = shapes::components_matrices(shapes::icosphere_matrices(3), 3);
+  for(const double theta : thetas) {
+    const Laplace_operator op = laplace(mesh, theta);
+    const Eigenpairs pairs = SG::eigenpairs(op, 48); // three times 1 + 3 + 5 + 7
+    check_pairs(op, pairs);
+    CHECK(pairs.complete);
+    const Eigenpairs single = SG::eigenpairs(laplace(shapes::icosphere_matrices(3), theta), 16);
+    for(Eigen::Index k = 0; k < 48; ++k)
+      CHECK(pairs.values(k) == Approx(single.values(k / 3)).epsilon(1e-8).margin(1e-10));
+  }
+}
+
+TEST_CASE("A kernel larger than K is returned as such")
+{
+  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
+  const Eigenpairs pairs = SG::eigenpairs(op, 7);
+  check_pairs(op, pairs);
+  CHECK(pairs.values.maxCoeff() * op.mass.sum() < 1e-9);
+}
+
+TEST_CASE("Eigenpairs that the iteration has missed are counted and found")
+{
+  const Laplace_operator op = laplace(shapes::icosphere_matrices(3));
+  const std::function<bool(double)> silent;
+  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+  SG::internal::Lanczos_eigenpairs lanczos(problem, 1e-10, 100);
+  const SG::internal::Ritz_pairs all = lanczos.compute(25);
+  for(const std::vector<int>& dropped : {std::vector<int>{0}, {2}, {5, 7, 13}, {1, 2, 3}}) {
+    SG::internal::Ritz_pairs pairs{Eigen::VectorXd(20), Eigen::MatrixXd(all.vectors.rows(), 20)};
+    for(int k = 0, from = 0; k < 20; ++from)
+      if(std::find(dropped.begin(), dropped.end(), from) == dropped.end()) {
+        pairs.values(k) = all.values(from);
+        pairs.vectors.col(k++) = all.vectors.col(from);
+      }
+    CHECK(lanczos.complete(pairs));
+    CHECK((pairs.values - all.values.head(20)).cwiseAbs().maxCoeff() < 1e-8);
+    const Eigen::MatrixXd gram = pairs.vectors.transpose() * op.B * pairs.vectors;
+    CHECK((gram - Eigen::MatrixXd::Identity(20, 20)).cwiseAbs().maxCoeff() < 1e-9);
+  }
+}
+
+TEST_CASE("The dense path agrees with the iteration, and takes K up to n")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
+  const std::function<bool(double)> silent;
+  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+  const SG::internal::Ritz_pairs dense = SG::internal::dense_eigenpairs(problem, 30);
+  const Eigenpairs pairs = SG::eigenpairs(op, 30);
+  CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(29));
+  const Eigen::MatrixXd product = dense.vectors.transpose() * op.B * pairs.vectors;
+  CHECK((product.cwiseAbs() - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff() < 1e-6);
+
+  const Laplace_operator small = laplace(shapes::icosphere_matrices(1));
+  const Eigenpairs all = SG::eigenpairs(small, 42);
+  CHECK(all.solver == "dense");
+  CHECK(all.complete);
+  check_pairs(small, all);
+}
+
+TEST_CASE("The Cholesky wrapper solves for many columns at once")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
+  const Eigen::SparseMatrix<double> A = op.L + op.B;
+  SG::internal::Cholesky cholesky(A);
+  for(const int columns : {1, 3, 37}) {
+    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), columns);
+    Eigen::MatrixXd x(A.rows(), columns);
+    cholesky.solve(b, x);
+    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> reference(A);
+    CHECK((x - reference.solve(b)).norm() < 1e-10 * x.norm());
+  }
+  CHECK_THROWS_AS(SG::internal::Cholesky(op.L - op.B), std::runtime_error);
+  CHECK(SG::internal::number_of_negative_eigenvalues(A) == 0);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(op.L - op.B));
+  CHECK(SG::internal::number_of_negative_eigenvalues(op.L - op.B) ==
+        (solver.eigenvalues().array() < 0.).count());
+}
+
+TEST_CASE("Eigenpairs are the same in every run")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  CHECK(SG::eigenpairs(op, 20).vectors == SG::eigenpairs(op, 20).vectors);
+}
+
+TEST_CASE("Progress is reported in [0, 1] and can cancel")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  std::vector<double> fractions;
+  SG::Eigenpairs_options options;
+  options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
+  SG::eigenpairs(op, 20, options);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.front() == 0.);
+  CHECK(fractions.back() == 1.);
+  options.progress = [](double fraction) { return fraction < 0.5; };
+  CHECK_THROWS_AS(SG::eigenpairs(op, 20, options), SG::Cancelled);
+}
+
+TEST_CASE("Bad meshes are refused by the name of the first offender")
+{
+  shapes::Matrices mesh = shapes::grid_matrices(4, 4);
+  SECTION("a coordinate that is not a number")
+  {
+    mesh.V(7, 1) = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 7 "));
+    Surface_mesh graph;
+    shapes::make_mesh(graph, mesh);
+    CHECK_THROWS_WITH(SG::mesh_matrices(graph), ContainsSubstring("vertex 7 "));
+  }
+  SECTION("a face that is not a triangle")
+  {
+    Surface_mesh graph;
+    shapes::make_grid(graph, 4, 4);
+    const auto first = faces(graph).begin();
+    CGAL::Euler::join_face(halfedge(*first, graph), graph);
+    CHECK_THROWS_WITH(SG::mesh_matrices(graph),
+                      ContainsSubstring("face 0 ") && ContainsSubstring("triangulate"));
+  }
+  SECTION("an isolated vertex")
+  {
+    mesh.V.conservativeResize(26, 3);
+    mesh.V.row(25).setConstant(0.5);
+    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
+  }
+  SECTION("a vertex with only zero-area faces")
+  {
+    mesh.T(0, 1) = mesh.T(0, 0) = 0;
+    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 3 ") && ContainsSubstring("zero area"));
+  }
+  SECTION("a needle")
+  {
+    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("face 1 ") && ContainsSubstring("needle"));
+  }
+  SECTION("an area that overflows")
+  {
+    mesh.V *= 1e160;
+    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("face 0 "));
+  }
+  SECTION("indices")
+  {
+    shapes::Matrices bad = mesh;
+    bad.T(5, 2) = 25;
+    CHECK_THROWS_WITH(laplace(bad), ContainsSubstring("face 5 ") && ContainsSubstring("0..24"));
+    bad = mesh;
+    bad.T(6, 0) = bad.T(6, 1);
+    CHECK_THROWS_WITH(laplace(bad), ContainsSubstring("face 6 ") && ContainsSubstring("twice"));
+    CHECK_THROWS_AS(SG::laplace_operator(mesh.V, Eigen::MatrixXi(0, 3)), std::invalid_argument);
+    CHECK_THROWS_AS(SG::laplace_operator(mesh.V, mesh.T, 1.5), std::invalid_argument);
+  }
+}
+
+TEST_CASE("Bad requests for eigenpairs are refused")
+{
+  const Laplace_operator op = laplace(shapes::icosphere_matrices(1));
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 43), ContainsSubstring("between 1 and") && ContainsSubstring("43"));
+  CHECK_THROWS_AS(SG::eigenpairs(op, 0), std::invalid_argument);
+  CHECK_THROWS_AS(SG::eigenpairs(op, -3), std::invalid_argument);
+  SG::Eigenpairs_options options;
+  options.tolerance = 0.;
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 5, options), ContainsSubstring("tolerance"));
+  Laplace_operator broken = op;
+  broken.mass.conservativeResize(7);
+  CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
+  broken = op;
+  broken.mass(3) = 0.;
+  CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
+}
+
+TEST_CASE("An iteration that may not restart takes a larger space")
+{
+  const Laplace_operator op = laplace(shapes::icosphere_matrices(4));
+  SG::Eigenpairs_options options;
+  options.maximum_iterations = 1;
+  const Eigenpairs pairs = SG::eigenpairs(op, 50, options);
+  check_pairs(op, pairs);
+  CHECK(pairs.complete);
+}
