@@ -133,9 +133,9 @@ eigenvalue
 modes is 5.1 K^2/N for the lumped mass (theta = 0); the averaged mass (theta = 1/2) cancels it and leaves 2.2
 K^3/N^2. The two terms are combined by their squares.
 
-An estimate to read a result by, not a bound: a mesh can fall below it by distorting the surface, and real
-surfaces stay above it. A subdivided icosphere of 642 vertices out of 10,242 at K = 100: 71 for 79 (lumped),
-8.1 for 5.3 (averaged).
+An estimate to read a result by, not a bound: irregular meshes stay above it, a mesh that distorts the surface
+on purpose can fall below, and so does a sphere. A subdivided icosphere of 642 vertices out of 10,242 at K =
+100 has 71 for 79 (lumped) and 8.1 for 5.3 (averaged).
 
 @param theta weight of the consistent mass, 0 lumped, 1/2 averaged
 @param K number of modes, at least 1
@@ -395,8 +395,8 @@ carries functions from the coarse mesh back to the fine one through the spectrum
 It inverts the restriction on the span of the first eigenvectors as far as `C` is orthonormal; what `g` has
 outside of the span of \f$ \widetilde\Phi \f$ is lost. In matrices at input scale and the map \f$ C \f$ at
 unit area it reads \f$ \sqrt{A/\widetilde A} \; \Phi C^\top \widetilde\Phi^\top \widetilde B g \f$. Unit area
-matters: on a connected surface constants then stay as they are, while \f$ C^\top \f$ at input scale would
-multiply them by \f$ \widetilde A / A \f$.
+matters: the mean of a constant is then kept exactly on a connected surface, while \f$ C^\top \f$ at input
+scale would multiply it by \f$ \widetilde A / A \f$.
 
 @param fine, fine_pairs operator and eigenpairs of the fine mesh, at least as many as `C` has columns
 @param coarse, coarse_pairs the same for the coarse mesh, at least as many as `C` has rows

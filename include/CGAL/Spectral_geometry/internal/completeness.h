@@ -53,6 +53,19 @@ inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& v
   return false;
 }
 
+// Whether a group of equal values is so large that a block of eight start vectors may have missed copies. Fewer copies than
+// start vectors are found with probability one; half of that leaves a margin for those that converge late.
+inline bool may_be_incomplete(const Eigen_problem& problem, const Eigen::VectorXd& values)
+{
+  Eigen::Index group = 1;
+  for(Eigen::Index k = 1; k < values.size(); ++k) {
+    group = values(k) - values(k - 1) < 1e-5 * (values(k) + problem.shift()) ? group + 1 : 1;
+    if(group > 4)
+      return true;
+  }
+  return false;
+}
+
 // Merges eigenpairs into a known set of K and keeps the first K.
 inline void merge(Ritz_pairs& pairs, const Ritz_pairs& more)
 {

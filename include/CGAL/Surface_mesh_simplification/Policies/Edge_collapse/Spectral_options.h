@@ -54,7 +54,7 @@ struct Spectral_progress
  */
 struct Spectral_options
 {
-  /// K, the number of eigenvectors that are preserved, the constant one included. In [1, n].
+  /// K, the number of eigenvectors that are preserved, the constant one included. In [1, n - 1].
   /// The target size should be at least 3 K (section 4.3 of the paper). Ignored when `signals` or
   /// `eigenpairs` are given: they bring their own number of columns.
   Eigen::Index number_of_eigenvectors = 100;

@@ -63,6 +63,10 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
     throw std::invalid_argument("Spectral_options: the eigenvectors have " +
                                 to_string(options.eigenpairs->vectors.rows()) + " rows, but the mesh has " +
                                 to_string(n) + " vertices; give the eigenpairs of this mesh.");
+  if(options.eigenpairs && options.eigenpairs->values.size() != options.eigenpairs->vectors.cols())
+    throw std::invalid_argument(
+        "Spectral_options: there are " + to_string(options.eigenpairs->values.size()) + " eigenvalues for " +
+        to_string(options.eigenpairs->vectors.cols()) + " eigenvectors; give one for each.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +

@@ -69,6 +69,8 @@ public:
     m_fields.theta = theta;
     m_fields.area_scale = area_scale;
     m_parameters = parameters;
+    m_for_each_kernel = Spectral_for_each<Spectral_collapse_kernel>(parameters.threads);
+    m_for_each_builder = Spectral_for_each<Spectral_ring_product_builder>(parameters.threads);
     m_forest = Spectral_geometry::Merge_forest(F.rows());
     m_candidates.resize(std::size_t(F.rows()));
   }
@@ -90,14 +92,17 @@ public:
     m_fields.R.resize(n, m_fields.F.cols());
     m_fields.mass = Eigen::VectorXd::Zero(n);
     m_fields.E = Eigen::VectorXd::Zero(n);
-    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
+    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w) {
+      m_fields.rings.link_back(w);
       m_fields.rings.update_triangles(w, position());
+    }
     for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
       update_row(w);
     m_products.resize(std::size_t(n));
-    m_builders.resize(1);
-    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
-      m_builders.front().compute(m_fields, w, m_products[w]);
+    m_for_each_builder(std::size_t(n), 1024,
+                       [this](const std::size_t w, Spectral_ring_product_builder& builder) {
+                         builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+                       });
     m_total = m_fields.E.sum();
     m_candidates.clear();
   }
@@ -316,17 +321,16 @@ private:
           m_marks[e.vertex] = m_mark;
           m_around.push_back(e.vertex);
         }
-    spectral_for_each(m_around.size(), m_parameters.threads, m_builders,
-                      [&](const std::size_t i, Spectral_ring_product_builder& builder) {
-                        const Spectral_slot c = m_around[i];
-                        const Spectral_ring& ring = rings[c];
-                        if(i == 0 || ring.size() != m_products[c].degree())
-                          return builder.compute(m_fields, c, m_products[c]);
-                        const std::size_t moved = i < inner ? rings.find(c, kept) : ring.size();
-                        builder.update(m_fields, c, m_products[c], moved, [&](const std::size_t j) {
-                          return m_marks[j < ring.size() ? ring[j].vertex : c] == mark_of_inner;
-                        });
-                      });
+    m_for_each_builder(m_around.size(), 6, [&](const std::size_t i, Spectral_ring_product_builder& builder) {
+      const Spectral_slot c = m_around[i];
+      const Spectral_ring& ring = rings[c];
+      if(i == 0 || ring.size() != m_products[c].degree())
+        return builder.compute(m_fields, c, m_products[c]);
+      const std::size_t moved = i < inner ? rings.find(c, kept) : ring.size();
+      builder.update(m_fields, c, m_products[c], moved, [&](const std::size_t j) {
+        return m_marks[j < ring.size() ? ring[j].vertex : c] == mark_of_inner;
+      });
+    });
   }
 
   double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
@@ -394,10 +398,9 @@ private:
   {
     m_number_of_evaluations += m_batch.size();
     m_results.resize(m_batch.size());
-    spectral_for_each(m_batch.size(), m_parameters.threads, m_kernels,
-                      [this](const std::size_t i, Spectral_collapse_kernel& kernel) {
-                        m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, kernel);
-                      });
+    m_for_each_kernel(m_batch.size(), 8, [this](const std::size_t i, Spectral_collapse_kernel& kernel) {
+      m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, kernel);
+    });
     for(std::size_t i = 0; i < m_batch.size(); ++i)
       m_candidates.insert(m_batch[i].first, m_results[i]);
   }
@@ -410,9 +413,9 @@ private:
   Spectral_candidates m_candidates;
 
   Spectral_collapse_kernel m_kernel;
-  std::vector<Spectral_collapse_kernel> m_kernels;
+  Spectral_for_each<Spectral_collapse_kernel> m_for_each_kernel;
   std::vector<Spectral_ring_products> m_products;
-  std::vector<Spectral_ring_product_builder> m_builders;
+  Spectral_for_each<Spectral_ring_product_builder> m_for_each_builder;
   std::vector<Spectral_slot> m_around;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;

@@ -64,8 +64,9 @@ public:
     m_u = u;
     m_v = v;
     m_v_in_u = fields.rings.find(u, v);
-    m_u_in_v = fields.rings.find(v, u);
-    CGAL_assertion(m_v_in_u < fields.rings[u].size() && m_u_in_v < fields.rings[v].size());
+    CGAL_assertion(m_v_in_u < fields.rings[u].size());
+    m_u_in_v = fields.rings[u][m_v_in_u].back;
+    CGAL_assertion(fields.rings[v][m_u_in_v].vertex == u);
     const Topology topology = check_topology();
     if(topology == Topology::collapsible) {
 #ifdef CGAL_SPECTRAL_DISPATCH
@@ -189,29 +190,32 @@ private:
     m_before = m_fields->E[m_u] + m_fields->E[m_v];
     m_link_of_u.assign(rings[m_u].size(), -1);
     m_link_of_v.assign(rings[m_v].size(), -1);
-    for(std::size_t i = 0; i < rings[m_u].size(); ++i)
+    const Spectral_ring &ring_u = rings[m_u], &ring_v = rings[m_v];
+    for(std::size_t i = 0; i < ring_u.size(); ++i)
       if(i != m_v_in_u) {
         m_link_of_u[i] = int(m_link.size());
-        add_to_link(rings[m_u][i].vertex).in_u = int(i);
+        Link_vertex& w = add_to_link(ring_u[i].vertex);
+        w.in_u = int(i);
+        w.u_in = int(ring_u[i].back);
       }
-    const std::size_t size_u = m_link.size();
-    for(std::size_t i = 0; i < rings[m_v].size(); ++i) {
-      const Spectral_slot s = rings[m_v][i].vertex;
+    // By the link condition a vertex next to both makes a face with the edge.
+    const std::size_t beside[2] = {Spectral_rings::next(ring_u, m_v_in_u),
+                                   Spectral_rings::prev(ring_u, m_v_in_u)};
+    for(std::size_t i = 0; i < ring_v.size(); ++i) {
+      const Spectral_slot s = ring_v[i].vertex;
       if(s == m_u)
         continue;
-      std::size_t k = 0;
-      while(k < size_u && m_link[k].slot != s)
-        ++k;
-      if(k == size_u) {
-        k = m_link.size();
+      int k = int(m_link.size());
+      if(ring_u[beside[0]].vertex == s)
+        k = m_link_of_u[beside[0]];
+      else if(ring_u[beside[1]].vertex == s)
+        k = m_link_of_u[beside[1]];
+      else
         add_to_link(s);
-      }
-      m_link_of_v[i] = int(k);
+      m_link_of_v[i] = k;
       m_link[k].in_v = int(i);
-      m_link[k].v_in = int(rings.find(s, m_v));
+      m_link[k].v_in = int(ring_v[i].back);
     }
-    for(std::size_t k = 0; k < size_u; ++k)
-      m_link[k].u_in = int(rings.find(m_link[k].slot, m_u));
   }
 
   Link_vertex& add_to_link(const Spectral_slot s)
@@ -399,11 +403,11 @@ private:
       // Half of 1 / |cross|, so that the products are half cotangents. cot a + cot b + cot x < bound.
       const Lanes sum = a_b - a_ab + b_ab;
       const Lanes bound = sum * sum * (1 / (degenerate_cotangent * degenerate_cotangent));
-      Lanes half;
-      spectral_inverse_sqrt(half, square, bound);
+      Lanes half, failed = {};
+      spectral_inverse_sqrt(half, square, bound, failed);
       half *= Lanes{0.5, 0.5, 0.5, 0.5};
-      for(int s = 0; s < max_samples; ++s)
-        invalid[s] += half[s] == 0 && !o.degenerate ? 1. : 0.;
+      if(!o.degenerate)
+        invalid += failed;
       const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
       add_new_entries(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
       add_new_entries(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
@@ -454,8 +458,7 @@ private:
       norm += c[i] * (c[i] * w.gram[i][i] + 2. * row);
     }
     const Lanes mass = m_fields->mass[w.slot] + (fresh.area - w.old_area) * (m_fields->area_scale / 3);
-    for(int s = 0; s < max_samples; ++s)
-      invalid[s] += mass[s] > 0 ? 0. : 1.;
+    spectral_require_positive(mass, invalid);
     cost += norm / mass;
   }
 

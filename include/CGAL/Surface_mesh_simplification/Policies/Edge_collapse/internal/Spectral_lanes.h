@@ -90,23 +90,45 @@ CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// result = 1 / sqrt(x) where x > bound, else 0.
+/// result = 1 / sqrt(x) where x > bound, else 0; adds 1 to `failed` where the result is 0.
 CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Spectral_lanes& x,
-                                                const Spectral_lanes& bound)
+                                                const Spectral_lanes& bound, Spectral_lanes& failed)
 {
 #ifdef CGAL_SPECTRAL_DISPATCH
   // The halves are SSE2, which every x86_64 has; the AVX2 variant of the caller turns them into VEX code.
-  const __m128d low = _mm_sqrt_pd(_mm_set_pd(x[1], x[0])), high = _mm_sqrt_pd(_mm_set_pd(x[3], x[2]));
+  __m128d half[2];
+  std::memcpy(half, &x, sizeof(x));
+  half[0] = _mm_sqrt_pd(half[0]);
+  half[1] = _mm_sqrt_pd(half[1]);
   Spectral_lanes root;
-  std::memcpy(&root, &low, sizeof(low));
-  std::memcpy(reinterpret_cast<char*>(&root) + sizeof(low), &high, sizeof(high));
-  result = 1. / root;
+  std::memcpy(&root, half, sizeof(root));
+#else
+  Spectral_lanes root;
+  for(int i = 0; i < 4; ++i)
+    root[i] = std::sqrt(x[i]);
+#endif
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+  const Spectral_lanes one = {1, 1, 1, 1}, zero = {};
+  result = x > bound ? one / root : zero;
+  failed += x > bound ? zero : one;
+#else
+  for(int i = 0; i < 4; ++i) {
+    result[i] = x[i] > bound[i] ? 1 / root[i] : 0;
+    failed[i] += x[i] > bound[i] ? 0 : 1;
+  }
+#endif
+}
+
+/// Adds 1 to `failed` where x is not positive.
+CGAL_SPECTRAL_INLINE void spectral_require_positive(const Spectral_lanes& x, Spectral_lanes& failed)
+{
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+  const Spectral_lanes one = {1, 1, 1, 1}, zero = {};
+  failed += x > zero ? zero : one;
 #else
   for(int i = 0; i < 4; ++i)
-    result[i] = 1 / std::sqrt(x[i]);
+    failed[i] += x[i] > 0 ? 0 : 1;
 #endif
-  for(int i = 0; i < 4; ++i)
-    result[i] = x[i] > bound[i] ? result[i] : 0.;
 }
 
 /// Whether the machine runs functions marked CGAL_SPECTRAL_AVX2.

@@ -120,14 +120,17 @@ private:
     m_only_u.clear();
     m_at_v.assign(ring_u.size(), -1);
     m_at_v[m_v_in_u] = int(ring_v.size());
+    // A vertex next to both makes a face with the edge, so it is next to v in the ring of u.
+    const std::size_t beside[2] = {Spectral_rings::next(ring_u, m_v_in_u),
+                                   Spectral_rings::prev(ring_u, m_v_in_u)};
     for(std::size_t m = 0; m < ring_v.size(); ++m) {
+      const Spectral_slot s = ring_v[m].vertex;
       if(m == m_u_in_v)
         continue;
-      std::size_t i = 0;
-      while(i < ring_u.size() && ring_u[i].vertex != ring_v[m].vertex)
-        ++i;
-      if(i < ring_u.size())
-        m_at_v[i] = int(m);
+      if(ring_u[beside[0]].vertex == s)
+        m_at_v[beside[0]] = int(m);
+      else if(ring_u[beside[1]].vertex == s)
+        m_at_v[beside[1]] = int(m);
       else
         m_far.push_back(m);
     }
@@ -142,36 +145,32 @@ private:
   CGAL_SPECTRAL_INLINE void multiply_across(const Spectral_fields& fields, const Spectral_slot u,
                                             const Spectral_slot v)
   {
-    const std::size_t length = std::size_t(fields.F.cols());
-    const std::size_t rows = m_only_u.size() + m_far.size();
-    m_scratch.resize((m_full ? 2 : 1) * rows * length);
+    const std::size_t length = std::size_t(fields.F.cols()), na = m_only_u.size(), nb = m_far.size();
+    const std::size_t stride = m_full ? 2 * nb : nb;
     m_a.clear();
     m_b.clear();
+    m_a.reserve(2 * na); // lists point into both
+    m_b.reserve(2 * nb);
+    for(const std::size_t i : m_only_u)
+      m_a.push_back(fields.f_row(fields.rings[u][i].vertex));
+    for(const std::size_t m : m_far)
+      m_b.push_back(fields.f_row(fields.rings[v][m].vertex));
+    m_across.resize((m_full ? 2 : 1) * na * stride);
+    m_stride = stride;
+    const Spectral_row_list a{m_a.data(), na, fields.f_row(u)}, b{m_b.data(), nb, fields.f_row(v)};
+    spectral_dots<true, true>(a, b, length, m_across.data(), stride);
+    if(!m_full)
+      return;
+    m_scratch.resize((na + nb) * length);
     double* next = m_scratch.data();
     for(const std::size_t i : m_only_u)
-      m_a.push_back(difference(fields, fields.rings[u][i].vertex, u, length, next));
+      m_a.push_back(z_row(fields, fields.rings[u][i].vertex, length, next));
     for(const std::size_t m : m_far)
-      m_b.push_back(difference(fields, fields.rings[v][m].vertex, v, length, next));
-    if(m_full) {
-      for(const std::size_t i : m_only_u)
-        m_a.push_back(z_row(fields, fields.rings[u][i].vertex, length, next));
-      for(const std::size_t m : m_far)
-        m_b.push_back(z_row(fields, fields.rings[v][m].vertex, length, next));
-    }
-    m_across.resize(m_a.size() * m_b.size());
-    spectral_dots_body(m_a.data(), m_a.size(), m_b.data(), m_b.size(), length, m_across.data(), m_b.size());
-  }
-
-  CGAL_SPECTRAL_INLINE static const double* difference(const Spectral_fields& fields, const Spectral_slot s,
-                                                       const Spectral_slot center, const std::size_t length,
-                                                       double*& next)
-  {
-    const double *f = fields.f_row(s), *c = fields.f_row(center);
-    double* result = next;
-    for(std::size_t k = 0; k < length; ++k)
-      result[k] = f[k] - c[k];
-    next += length;
-    return result;
+      m_b.push_back(z_row(fields, fields.rings[v][m].vertex, length, next));
+    const Spectral_row_list za{m_a.data() + na, na}, zb{m_b.data() + nb, nb};
+    spectral_dots<true, false>(a, zb, length, m_across.data() + nb, stride);
+    spectral_dots<false, true>(za, b, length, m_across.data() + na * stride, stride);
+    spectral_dots<false, false>(za, zb, length, m_across.data() + na * stride + nb, stride);
   }
 
   CGAL_SPECTRAL_INLINE static const double* z_row(const Spectral_fields& fields, const Spectral_slot s,
@@ -190,7 +189,7 @@ private:
   double across(const int row, const std::size_t m, const bool z_of_u, const bool z_of_v) const
   {
     const std::size_t i = std::size_t(-row - 1) + (z_of_u ? m_only_u.size() : 0);
-    return m_across[i * m_b.size() + m + (z_of_v ? m_far.size() : 0)];
+    return m_across[i * m_stride + m + (z_of_v ? m_far.size() : 0)];
   }
 
   // Order: the ring of u (v at its place), the neighbours of v alone, z_u, z_v, then z of the link. Upper triangle.
@@ -286,7 +285,7 @@ private:
   std::vector<int> m_at_v;
   std::vector<double> m_scratch, m_across, m_gram;
   std::vector<const double*> m_a, m_b;
-  std::size_t m_n = 0;
+  std::size_t m_n = 0, m_stride = 0;
   std::vector<Link_entry> m_link;
   std::vector<Coefficient> m_c;
   Lanes m_total_area;

@@ -18,31 +18,54 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
-// out[i * stride + j] = a_i . b_j. Two rows by three keep six sums in registers for five loads.
-template <int M, int N>
-CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const double* const* b,
-                                             const std::size_t length, double* out, const std::size_t stride)
+/// Rows a_i, or a_i - center where there is a center.
+struct Spectral_row_list
 {
-  // Written out so that the sums live in registers: compilers keep small arrays in memory here.
+  const double* const* rows;
+  std::size_t size;
+  const double* center = nullptr;
+};
+
+// out[i * stride + j] = a_i . b_j for M rows and N columns; two by three keep six sums in registers for five
+// loads. Written out, because compilers keep small arrays of vectors in memory.
+template <int M, int N, bool CenterA, bool CenterB>
+CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const double* ca, const double* const* b,
+                                             const double* cb, const std::size_t length, double* out,
+                                             const std::size_t stride)
+{
   const double *a0 = a[0], *a1 = a[M - 1], *b0 = b[0], *b1 = b[N > 1 ? 1 : 0], *b2 = b[N - 1];
   Spectral_lanes s00 = {}, s01 = {}, s02 = {}, s10 = {}, s11 = {}, s12 = {};
   for(std::size_t k = 0; k < length; k += 4) {
-    Spectral_lanes x0, x1, y;
+    Spectral_lanes x0, x1, y, c = {}, d = {};
     spectral_load(x0, a0 + k);
     if(M > 1)
       spectral_load(x1, a1 + k);
+    if(CenterA) {
+      spectral_load(c, ca + k);
+      x0 -= c;
+      if(M > 1)
+        x1 -= c;
+    }
+    if(CenterB)
+      spectral_load(d, cb + k);
     spectral_load(y, b0 + k);
+    if(CenterB)
+      y -= d;
     s00 += x0 * y;
     if(M > 1)
       s10 += x1 * y;
     if(N > 1) {
       spectral_load(y, b1 + k);
+      if(CenterB)
+        y -= d;
       s01 += x0 * y;
       if(M > 1)
         s11 += x1 * y;
     }
     if(N > 2) {
       spectral_load(y, b2 + k);
+      if(CenterB)
+        y -= d;
       s02 += x0 * y;
       if(M > 1)
         s12 += x1 * y;
@@ -62,32 +85,30 @@ CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const doubl
   }
 }
 
-/// out[i * stride + j] = a_i . b_j for m rows a and n rows b of the given padded length.
-CGAL_SPECTRAL_INLINE void spectral_dots_body(const double* const* a, const std::size_t m,
-                                             const double* const* b, const std::size_t n,
-                                             const std::size_t length, double* out, const std::size_t stride)
+template <int M, bool CenterA, bool CenterB>
+CGAL_SPECTRAL_INLINE void spectral_dot_rows(const double* const* a, const double* ca,
+                                            const Spectral_row_list& b, const std::size_t length, double* out,
+                                            const std::size_t stride)
 {
-  for(std::size_t j = 0; j < n;) {
-    const std::size_t columns = n - j >= 3 ? 3 : n - j;
-    for(std::size_t i = 0; i < m;) {
-      const std::size_t rows = m - i >= 2 ? 2 : 1;
-      double* block = out + i * stride + j;
-      if(rows == 2 && columns == 3)
-        spectral_dot_block<2, 3>(a + i, b + j, length, block, stride);
-      else if(rows == 2 && columns == 2)
-        spectral_dot_block<2, 2>(a + i, b + j, length, block, stride);
-      else if(rows == 2)
-        spectral_dot_block<2, 1>(a + i, b + j, length, block, stride);
-      else if(columns == 3)
-        spectral_dot_block<1, 3>(a + i, b + j, length, block, stride);
-      else if(columns == 2)
-        spectral_dot_block<1, 2>(a + i, b + j, length, block, stride);
-      else
-        spectral_dot_block<1, 1>(a + i, b + j, length, block, stride);
-      i += rows;
-    }
-    j += columns;
-  }
+  std::size_t j = 0;
+  for(; j + 3 <= b.size; j += 3)
+    spectral_dot_block<M, 3, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+  if(b.size - j == 2)
+    spectral_dot_block<M, 2, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+  else if(b.size - j == 1)
+    spectral_dot_block<M, 1, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+}
+
+/// out[i * stride + j] = a_i . b_j for rows of the given padded length.
+template <bool CenterA, bool CenterB>
+CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectral_row_list& b,
+                                        const std::size_t length, double* out, const std::size_t stride)
+{
+  std::size_t i = 0;
+  for(; i + 2 <= a.size; i += 2)
+    spectral_dot_rows<2, CenterA, CenterB>(a.rows + i, a.center, b, length, out + i * stride, stride);
+  if(i < a.size)
+    spectral_dot_rows<1, CenterA, CenterB>(a.rows + i, a.center, b, length, out + i * stride, stride);
 }
 
 /*!
@@ -156,7 +177,8 @@ public:
     return m_data[rz_offset() + (m_full ? i * (m_degree + 1) + j : 0)];
   }
 
-  double* g_rows() { return m_data.data(); } ///< 3 d + 2 rows of d: gg, zg, rg
+  double* g_rows() { return m_data.data(); } ///< rows of d, as those of zg and rg
+  double* zg_rows() { return m_data.data() + m_degree * m_degree; }
   double* rg_row(const std::size_t i) { return m_data.data() + (2 * m_degree + 1 + i) * m_degree; }
   double* zz_rows() { return m_data.data() + zz_offset(); }
   double* rz_rows() { return m_data.data() + rz_offset(); }
@@ -218,116 +240,141 @@ private:
   CGAL_SPECTRAL_INLINE void compute_body(const Spectral_fields& fields, const Spectral_slot c,
                                          Spectral_ring_products& products)
   {
-    const Spectral_ring& ring = fields.rings[c];
-    const std::size_t d = ring.size(), length = std::size_t(fields.F.cols());
+    const std::size_t d = fields.rings[c].size(), length = std::size_t(fields.F.cols());
     const bool full = fields.theta != 0;
     products.resize(d, full);
     if(d == 0)
       return;
-    set_differences(fields, c);
-    set_z_rows(fields, c);
     set_rows(fields, c);
-    spectral_dots_body(m_rows.data(), m_rows.size(), m_g.data(), d, length, products.g_rows(), d);
-    const double* const* r = m_rows.data() + 2 * d + 1;
-    if(full) {
-      spectral_dots_body(m_z.data(), d + 1, m_z.data(), d + 1, length, products.zz_rows(), d + 1);
-      spectral_dots_body(r, d + 1, m_z.data(), d + 1, length, products.rz_rows(), d + 1);
-    } else {
-      spectral_dots_body(&m_z[d], 1, m_z.data(), d + 1, length, products.zz_rows(), d + 1);
-      spectral_dots_body(r + d, 1, &m_z[d], 1, length, products.rz_rows(), 1);
+    const double* fc = fields.f_row(c);
+    m_scratch.resize((d + 1) * length);
+    m_g.resize(d);
+    for(std::size_t j = 0; j < d; ++j) {
+      double* g = m_scratch.data() + j * length;
+      for(std::size_t k = 0; k < length; ++k)
+        g[k] = m_f[j][k] - fc[k];
+      m_g[j] = g;
     }
+    const Spectral_row_list g{m_g.data(), d};
+    spectral_dots<false, false>(g, g, length, products.g_rows(), d);
+    spectral_dots<false, false>({m_r.data(), d + 1}, g, length, products.rg_row(0), d);
+    for(std::size_t j = 0; j < d; ++j)
+      dots_with_z(fields, m_g[j], products.zg_rows() + j, d);
+    for(std::size_t i = full ? 0 : d; i <= d; ++i)
+      dots_with_z(fields, z_row(fields, i), products.zz_rows() + (full ? i * (d + 1) : 0), 1);
+    if(full)
+      for(std::size_t i = 0; i <= d; ++i)
+        dots_with_z(fields, m_r[i], products.rz_rows() + i * (d + 1), 1);
+    else
+      dot_of_center(fields, products);
   }
 
   CGAL_SPECTRAL_INLINE void update_body(const Spectral_fields& fields, const Spectral_slot c,
                                         Spectral_ring_products& products, const std::size_t moved)
   {
-    const Spectral_ring& ring = fields.rings[c];
-    const std::size_t d = ring.size(), length = std::size_t(fields.F.cols());
-    const bool full = fields.theta != 0, has_moved = moved < d;
-    set_differences(fields, c);
-    if(full || has_moved || (!m_changed.empty() && m_changed.back() == d))
-      set_z_rows(fields, c);
+    const std::size_t d = fields.rings[c].size(), length = std::size_t(fields.F.cols());
+    const bool full = fields.theta != 0;
+    set_rows(fields, c);
+    m_scratch.resize((d + 1) * length);
+    const Spectral_row_list g{m_f.data(), d, fields.f_row(c)};
     for(const std::size_t i : m_changed) {
-      const double* r = fields.r_row(i == d ? c : ring[i].vertex);
-      spectral_dots_body(&r, 1, m_g.data(), d, length, products.rg_row(i), d);
+      spectral_dots<false, true>({&m_r[i], 1}, g, length, products.rg_row(i), d);
       if(full)
-        spectral_dots_body(&r, 1, m_z.data(), d + 1, length, products.rz_rows() + i * (d + 1), d + 1);
+        dots_with_z(fields, m_r[i], products.rz_rows() + i * (d + 1), 1);
       else if(i == d)
-        spectral_dots_body(&r, 1, &m_z[d], 1, length, products.rz_rows(), 1);
+        dot_of_center(fields, products);
     }
-    if(has_moved)
-      update_moved(fields, c, products, moved);
+    if(moved < d)
+      update_moved(fields, products, moved, g);
   }
 
   // The column of the neighbour in all products, and its row where it is one.
-  CGAL_SPECTRAL_INLINE void update_moved(const Spectral_fields& fields, const Spectral_slot c,
-                                         Spectral_ring_products& products, const std::size_t moved)
+  CGAL_SPECTRAL_INLINE void update_moved(const Spectral_fields& fields, Spectral_ring_products& products,
+                                         const std::size_t moved, const Spectral_row_list& g)
   {
     const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
-    set_rows(fields, c);
-    spectral_dots_body(m_rows.data(), m_rows.size(), &m_g[moved], 1, length, products.g_rows() + moved, d);
-    spectral_dots_body(&m_g[moved], 1, m_g.data(), d, length, products.g_rows() + moved * d, d);
-    spectral_dots_body(&m_z[moved], 1, m_g.data(), d, length, products.g_rows() + (d + moved) * d, d);
-    if(fields.theta != 0) {
-      spectral_dots_body(&m_z[moved], 1, m_z.data(), d + 1, length, products.zz_rows() + moved * (d + 1),
-                         d + 1);
-      spectral_dots_body(m_z.data(), d + 1, &m_z[moved], 1, length, products.zz_rows() + moved, d + 1);
-      spectral_dots_body(m_rows.data() + 2 * d + 1, d + 1, &m_z[moved], 1, length, products.rz_rows() + moved,
-                         d + 1);
-    } else
-      spectral_dots_body(&m_z[d], 1, &m_z[moved], 1, length, products.zz_rows() + moved, 1);
+    double* gx = m_scratch.data();
+    for(std::size_t k = 0; k < length; ++k)
+      gx[k] = m_f[moved][k] - g.center[k];
+    const double* row = gx;
+    const Spectral_row_list x{&row, 1};
+    spectral_dots<false, true>(x, g, length, products.g_rows() + moved * d, d);
+    for(std::size_t j = 0; j < d; ++j)
+      products.g_rows()[j * d + moved] = products.g_rows()[moved * d + j];
+    spectral_dots<false, false>({m_r.data(), d + 1}, x, length, products.rg_row(0) + moved, d);
+    dots_with_z(fields, gx, products.zg_rows() + moved, d);
+    const double* z = z_row(fields, moved);
+    spectral_dots<false, true>({&z, 1}, g, length, products.zg_rows() + moved * d, d);
+    if(fields.theta == 0) {
+      const double* left = fields.has_z_rows() ? m_z[d] : m_f[d];
+      const double* right = fields.has_z_rows() ? z : times_lambda(fields, z, m_scaled);
+      spectral_dots<false, false>({&left, 1}, {&right, 1}, length, products.zz_rows() + moved, 1);
+      return;
+    }
+    dots_with_z(fields, z, products.zz_rows() + moved * (d + 1), 1);
+    for(std::size_t j = 0; j <= d; ++j)
+      products.zz_rows()[j * (d + 1) + moved] = products.zz_rows()[moved * (d + 1) + j];
+    z = z_row(fields, moved);
+    spectral_dots<false, false>({m_r.data(), d + 1}, {&z, 1}, length, products.rz_rows() + moved, d + 1);
   }
 
-  // m_rows: the differences, then z and R of the ring and of c.
+  // Rows of F (of Z if stored) and of R: the neighbours, then c.
   CGAL_SPECTRAL_INLINE void set_rows(const Spectral_fields& fields, const Spectral_slot c)
   {
-    m_rows.assign(m_g.begin(), m_g.end());
-    m_rows.insert(m_rows.end(), m_z.begin(), m_z.end());
+    m_f.clear();
+    m_z.clear();
+    m_r.clear();
     for(const Spectral_ring_entry& e : fields.rings[c])
-      m_rows.push_back(fields.r_row(e.vertex));
-    m_rows.push_back(fields.r_row(c));
+      add_rows(fields, e.vertex);
+    add_rows(fields, c);
   }
 
-  // m_g[j] points to f_j - f_c.
-  CGAL_SPECTRAL_INLINE void set_differences(const Spectral_fields& fields, const Spectral_slot c)
+  CGAL_SPECTRAL_INLINE void add_rows(const Spectral_fields& fields, const Spectral_slot s)
   {
-    const Spectral_ring& ring = fields.rings[c];
-    const std::size_t d = ring.size(), length = std::size_t(fields.F.cols());
-    m_scratch_g.resize(d * length);
-    m_g.resize(d);
-    const double* fc = fields.f_row(c);
-    for(std::size_t j = 0; j < d; ++j) {
-      const double* f = fields.f_row(ring[j].vertex);
-      double* g = m_scratch_g.data() + j * length;
-      for(std::size_t k = 0; k < length; ++k)
-        g[k] = f[k] - fc[k];
-      m_g[j] = g;
-    }
+    m_f.push_back(fields.f_row(s));
+    m_r.push_back(fields.r_row(s));
+    if(fields.has_z_rows())
+      m_z.push_back(fields.z_row(s));
   }
 
-  // m_z[j] points to z_j, m_z[d] to z_c.
-  CGAL_SPECTRAL_INLINE void set_z_rows(const Spectral_fields& fields, const Spectral_slot c)
+  // out[i * stride] = z_i . row over the ring and c. Where Z = F Lambda, z_i . row = f_i . (Lambda row): no row of Z
+  // is formed.
+  CGAL_SPECTRAL_INLINE void dots_with_z(const Spectral_fields& fields, const double* row, double* out,
+                                        const std::size_t stride)
   {
-    const Spectral_ring& ring = fields.rings[c];
-    const std::size_t d = ring.size(), length = std::size_t(fields.F.cols());
-    m_z.resize(d + 1);
-    m_scratch_z.resize((d + 1) * length);
-    for(std::size_t j = 0; j <= d; ++j) {
-      const Spectral_slot s = j == d ? c : ring[j].vertex;
-      if(fields.has_z_rows()) {
-        m_z[j] = fields.z_row(s);
-        continue;
-      }
-      const double *f = fields.f_row(s), *lambda = fields.lambda.data();
-      double* z = m_scratch_z.data() + j * length;
-      for(std::size_t k = 0; k < length; ++k)
-        z[k] = lambda[k] * f[k];
-      m_z[j] = z;
-    }
+    const std::size_t n = m_f.size(), length = std::size_t(fields.F.cols());
+    const double* right = fields.has_z_rows() ? row : times_lambda(fields, row, m_scaled);
+    const double* const* left = fields.has_z_rows() ? m_z.data() : m_f.data();
+    spectral_dots<false, false>({left, n}, {&right, 1}, length, out, stride);
   }
 
-  std::vector<double> m_scratch_g, m_scratch_z;
-  std::vector<const double*> m_g, m_z, m_rows;
+  // z of a member of the ring; valid until the next call.
+  CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_fields& fields, const std::size_t i)
+  {
+    return fields.has_z_rows() ? m_z[i] : times_lambda(fields, m_f[i], m_scratch_z);
+  }
+
+  CGAL_SPECTRAL_INLINE static const double* times_lambda(const Spectral_fields& fields, const double* row,
+                                                         std::vector<double>& result)
+  {
+    const std::size_t length = std::size_t(fields.F.cols());
+    const double* lambda = fields.lambda.data();
+    result.resize(length);
+    for(std::size_t k = 0; k < length; ++k)
+      result[k] = lambda[k] * row[k];
+    return result.data();
+  }
+
+  // R_c . z_c
+  CGAL_SPECTRAL_INLINE void dot_of_center(const Spectral_fields& fields, Spectral_ring_products& products)
+  {
+    const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
+    const double* z = z_row(fields, d);
+    spectral_dots<false, false>({&m_r[d], 1}, {&z, 1}, length, products.rz_rows(), 1);
+  }
+
+  std::vector<double> m_scratch, m_scratch_z, m_scaled;
+  std::vector<const double*> m_f, m_z, m_r, m_g;
   std::vector<std::size_t> m_changed;
 };
 

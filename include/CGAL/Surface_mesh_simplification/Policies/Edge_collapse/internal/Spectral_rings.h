@@ -76,6 +76,7 @@ inline Spectral_triangle spectral_triangle(const Eigen::Vector3d& c, const Eigen
 struct Spectral_ring_entry
 {
   Spectral_slot vertex = null_spectral_slot;
+  std::uint32_t back = 0; ///< index of c in the ring of `vertex`
   bool face = false;
   Spectral_triangle triangle;
 };
@@ -142,12 +143,27 @@ public:
   void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring, const Erased& erased)
   {
     Spectral_ring().swap(m_rings[removed]);
-    for(const Spectral_ring_entry& e : ring) {
-      const std::size_t i = replace_in_ring(e.vertex, removed, kept);
-      if(i <= m_rings[e.vertex].size())
-        erased(e.vertex, i);
-    }
     m_rings[kept] = std::move(ring);
+    for(const Spectral_ring_entry& e : m_rings[kept]) {
+      const std::size_t i = replace_in_ring(e.vertex, removed, kept);
+      if(i <= m_rings[e.vertex].size()) {
+        erased(e.vertex, i);
+        link_back(e.vertex);
+      }
+    }
+    link_back(kept);
+  }
+
+  /// Sets `back` on both sides of every entry of the ring of c.
+  void link_back(const Spectral_slot c)
+  {
+    Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i) {
+      const std::size_t j = find(ring[i].vertex, c);
+      CGAL_assertion(j < m_rings[ring[i].vertex].size());
+      ring[i].back = std::uint32_t(j);
+      m_rings[ring[i].vertex][j].back = std::uint32_t(i);
+    }
   }
 
 private:

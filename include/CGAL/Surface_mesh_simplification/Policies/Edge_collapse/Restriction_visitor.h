@@ -1,0 +1,225 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
+
+#include <CGAL/Spectral_geometry/restriction.h>
+
+#include <CGAL/assertions.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// What the copies of a `Restriction_visitor` share: the merges so far, and the one under way.
+template <class TriangleMesh>
+class Restriction_tracker
+{
+public:
+  using Slots = Fine_vertex_slots<TriangleMesh>;
+  using vertex_descriptor = typename Slots::vertex_descriptor;
+
+  explicit Restriction_tracker(const TriangleMesh& mesh)
+    : m_mesh(&mesh)
+    , m_slots(mesh, "Restriction_visitor")
+    , m_forest(m_slots.size())
+  {}
+
+  void check_mesh(const TriangleMesh& mesh)
+  {
+    if(&mesh != m_mesh)
+      throw std::invalid_argument(
+          "Restriction_visitor: edge_collapse() was called with another mesh than the "
+          "one that the visitor was made for; make a visitor for that mesh.");
+    m_open = false; // left so by an exception during a collapse
+  }
+
+  // Before the collapse: afterwards p1 reads the new point, and some mesh types have freed v0.
+  template <class Profile, class OptionalPoint>
+  void on_collapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_removed = m_slots.slot(profile.v0());
+    m_kept = m_slots.slot(profile.v1());
+    // Without a placement CGAL leaves the kept vertex where it is.
+    m_weight = placement ? projected_edge_weight(to_vector(profile.p1()), to_vector(profile.p0()),
+                                                 to_vector(*placement))
+                         : 0.;
+    m_open = true;
+  }
+
+  template <class Profile>
+  void on_collapsed(const Profile& profile, const vertex_descriptor kept_vertex)
+  {
+    if(!m_open) { // an edge without length, collapsed before the loop
+      m_removed = m_slots.slot(profile.v0());
+      m_kept = m_slots.slot(profile.v1());
+      m_weight = 0.5;
+    }
+    m_open = false;
+    // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
+    const Eigen::Index kept = m_slots.slot(kept_vertex);
+    if(kept == m_kept)
+      m_forest.merge(m_removed, m_kept, m_weight);
+    else {
+      CGAL_assertion(kept == m_removed);
+      m_forest.merge(m_kept, m_removed, 1 - m_weight);
+    }
+  }
+
+  const Slots& slots() const { return m_slots; }
+  const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+
+private:
+  template <class Point>
+  static Eigen::Vector3d to_vector(const Point& p)
+  {
+    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  }
+
+  const TriangleMesh* m_mesh;
+  Slots m_slots;
+  Spectral_geometry::Merge_forest m_forest;
+  bool m_open = false;
+  Eigen::Index m_removed = 0, m_kept = 0;
+  double m_weight = 0; // of the removed slot
+};
+
+} // namespace internal
+
+/*!
+ * A visitor that tracks the restriction P from the input to the simplified mesh under *any* cost and placement, so that
+ * Garland-Heckbert, Lindstrom-Turk or a cost of your own can be judged as the spectral one is.
+ *
+ * When the edge (u, v) is collapsed to x, the value of a function there becomes \f$ (1 - \alpha) F_u + \alpha F_v \f$
+ * with \f$ \alpha = (x - u) \cdot (v - u) / |v - u|^2 \f$ clamped to [0, 1] (appendix A of Lescoat et al., *Spectral Mesh
+ * Simplification*, Computer Graphics Forum 39(2), 2020), and 1/2 on an edge without length. P is the product of these
+ * steps.
+ *
+ * \code
+ * SMS::Restriction_visitor<Mesh> visitor(mesh);
+ * SMS::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
+ * Eigen::SparseMatrix<double> P = visitor.restriction();
+ * \endcode
+ *
+ * A model of `EdgeCollapseSimplificationVisitor`. The object is a handle: copies, those that `edge_collapse()` makes
+ * included, share what is tracked. The mesh must outlive it and must not be given new vertices. A second
+ * `edge_collapse()` with the same visitor continues, and P still starts at the mesh of the constructor. Constant time
+ * and memory per collapse. `Spectral_policies` tracks its own P: it needs no such visitor.
+ *
+ * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
+ * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part; copied, as
+ *         `edge_collapse()` itself copies visitors; a `std::reference_wrapper` is followed
+ */
+template <class TriangleMesh, class UserVisitor = internal::No_visitor>
+class Restriction_visitor
+{
+public:
+  using Triangle_mesh = TriangleMesh;
+  using User_visitor = UserVisitor;
+
+  /// Takes the mesh as it is now for the fine one.
+  explicit Restriction_visitor(const Triangle_mesh& mesh, User_visitor user = User_visitor())
+    : m_tracker(std::make_shared<Tracker>(mesh))
+    , m_user(std::move(user))
+  {}
+
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in that at
+  /// construction. Rows sum to 1 and columns have at most one nonzero.
+  ///
+  /// @throws std::logic_error when the mesh has got new vertices
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    return m_tracker->forest().restriction(m_tracker->slots().current());
+  }
+
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  std::vector<std::size_t> vertex_map() const
+  {
+    const std::vector<Eigen::Index> map = m_tracker->forest().vertex_map(m_tracker->slots().current());
+    return std::vector<std::size_t>(map.begin(), map.end());
+  }
+
+  /// The merges in the order in which they happened.
+  const Spectral_geometry::Merge_forest& forest() const { return m_tracker->forest(); }
+
+  /// \name Called by `edge_collapse()`
+  /// @{
+
+  void OnStarted(Triangle_mesh& mesh)
+  {
+    m_tracker->check_mesh(mesh);
+    user().OnStarted(mesh);
+  }
+
+  void OnFinished(Triangle_mesh& mesh) { user().OnFinished(mesh); }
+
+  template <class Profile>
+  void OnStopConditionReached(const Profile& profile)
+  {
+    user().OnStopConditionReached(profile);
+  }
+
+  template <class Profile, class OptionalCost>
+  void OnCollected(const Profile& profile, const OptionalCost& cost)
+  {
+    user().OnCollected(profile, cost);
+  }
+
+  template <class Profile, class OptionalCost, class Size>
+  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
+  {
+    user().OnSelected(profile, cost, initial, current);
+  }
+
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_tracker->on_collapsing(profile, placement);
+    user().OnCollapsing(profile, placement);
+  }
+
+  template <class Profile, class VertexDescriptor>
+  void OnCollapsed(const Profile& profile, const VertexDescriptor& kept)
+  {
+    m_tracker->on_collapsed(profile, kept);
+    user().OnCollapsed(profile, kept);
+  }
+
+  template <class Profile>
+  void OnNonCollapsable(const Profile& profile)
+  {
+    user().OnNonCollapsable(profile);
+  }
+
+  /// @}
+
+private:
+  using Tracker = internal::Restriction_tracker<Triangle_mesh>;
+
+  decltype(auto) user() { return internal::unwrap_visitor(m_user); }
+
+  std::shared_ptr<Tracker> m_tracker;
+  User_visitor m_user;
+};
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H
