@@ -36,7 +36,7 @@ public:
   using Slots = Fine_vertex_slots<TriangleMesh>;
   using vertex_descriptor = typename Slots::vertex_descriptor;
 
-  explicit Restriction_tracker(const TriangleMesh& mesh)
+  explicit Restriction_tracker(TriangleMesh& mesh)
     : m_mesh(&mesh)
     , m_slots(mesh, "Restriction_visitor")
     , m_forest(m_slots.size())
@@ -135,7 +135,7 @@ public:
   using User_visitor = UserVisitor;
 
   /// Takes the mesh as it is now for the fine one.
-  explicit Restriction_visitor(const Triangle_mesh& mesh, User_visitor user = User_visitor())
+  explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())
     : m_tracker(std::make_shared<Tracker>(mesh))
     , m_user(std::move(user))
   {}

@@ -87,7 +87,7 @@ struct Spectral_options
   /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
   Eigen::VectorXd weights;
 
-  /// Number of threads that evaluate costs; more than one needs TBB. The result does not depend on it.
+  /// Number of threads that evaluate costs; from 1. The result does not depend on it.
   int threads = 1;
 
   /// Called now and then with the phase and how far it is. Returning `false` cancels: while the

@@ -42,7 +42,8 @@ public:
   using Triangle_mesh = TriangleMesh;
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
 
-  Fine_vertex_slots(const Triangle_mesh& mesh, const std::string& owner)
+  /// The mesh is not changed, but only one that may be can keep the slots right when its garbage is collected.
+  Fine_vertex_slots(Triangle_mesh& mesh, const std::string& owner)
     : m_mesh(&mesh)
     , m_owner(owner)
     , m_slots(get(dynamic_vertex_property_t<Eigen::Index>(), mesh))
@@ -79,7 +80,7 @@ private:
   const Triangle_mesh* m_mesh;
   std::string m_owner;
   Eigen::Index m_size = 0;
-  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Eigen::Index>>::const_type m_slots;
+  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Eigen::Index>>::type m_slots;
 };
 
 } // namespace internal

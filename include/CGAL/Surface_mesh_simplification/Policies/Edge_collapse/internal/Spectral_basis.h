@@ -8,7 +8,6 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_for_each.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -46,11 +45,6 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
   if(options.threads < 1)
     throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
                                 ", use a number from 1.");
-  if(options.threads > 1 && !spectral_threads_available)
-    throw std::invalid_argument(
-        "Spectral_options: threads is " + to_string(options.threads) +
-        ", but this program was built without TBB; use 1, or link with TBB and define "
-        "CGAL_LINKED_WITH_TBB.");
   if(options.signals.size() != 0 && options.eigenpairs)
     throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
   if(options.signals.size() != 0 && options.signals.rows() != n)

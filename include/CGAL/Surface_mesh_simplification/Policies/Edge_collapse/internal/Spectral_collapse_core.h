@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_for_each.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
 
@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -69,8 +71,7 @@ public:
     m_fields.theta = theta;
     m_fields.area_scale = area_scale;
     m_parameters = parameters;
-    m_for_each_kernel = Spectral_for_each<Spectral_collapse_kernel>(parameters.threads);
-    m_for_each_builder = Spectral_for_each<Spectral_ring_product_builder>(parameters.threads);
+    m_pool = std::make_unique<Pool>(parameters.threads);
     m_forest = Spectral_geometry::Merge_forest(F.rows());
     m_candidates.resize(std::size_t(F.rows()));
   }
@@ -99,10 +100,9 @@ public:
     for(Spectral_slot w = 0; w < Spectral_slot(n); ++w)
       update_row(w);
     m_products.resize(std::size_t(n));
-    m_for_each_builder(std::size_t(n), 1024,
-                       [this](const std::size_t w, Spectral_ring_product_builder& builder) {
-                         builder.compute(m_fields, Spectral_slot(w), m_products[w]);
-                       });
+    m_pool->for_each(std::size_t(n), 1024, [this](const std::size_t w, Workspace& workspace) {
+      workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+    });
     m_total = m_fields.E.sum();
     m_candidates.clear();
   }
@@ -143,19 +143,20 @@ public:
     if(found != nullptr && (any_version || found->version == m_candidates.version()))
       return *found;
     ++m_number_of_evaluations;
-    return m_candidates.insert((std::min)(u, v), evaluate(u, v, m_kernel));
+    return m_candidates.insert((std::min)(u, v), evaluate(u, v, m_pool->workspace().kernel));
   }
 
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
   double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
   {
-    if(m_kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
+    if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return std::numeric_limits<double>::infinity();
     ++m_number_of_evaluations;
     Spectral_sample sample;
     sample.point = point;
     sample.weight = projected_weight(u, v, point);
-    m_kernel.evaluate(&sample, 1);
+    kernel.evaluate(&sample, 1);
     return sample.cost;
   }
 
@@ -241,6 +242,13 @@ public:
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
 
 private:
+  // The scratch memory of one thread.
+  struct Workspace
+  {
+    Spectral_collapse_kernel kernel;
+    Spectral_ring_product_builder builder;
+  };
+  using Pool = Spectral_thread_pool<Workspace>;
   using Edge = std::pair<Spectral_slot, Spectral_slot>;
 
   struct Position
@@ -321,13 +329,13 @@ private:
           m_marks[e.vertex] = m_mark;
           m_around.push_back(e.vertex);
         }
-    m_for_each_builder(m_around.size(), 6, [&](const std::size_t i, Spectral_ring_product_builder& builder) {
+    m_pool->for_each(m_around.size(), 3, [&](const std::size_t i, Workspace& workspace) {
       const Spectral_slot c = m_around[i];
       const Spectral_ring& ring = rings[c];
       if(i == 0 || ring.size() != m_products[c].degree())
-        return builder.compute(m_fields, c, m_products[c]);
+        return workspace.builder.compute(m_fields, c, m_products[c]);
       const std::size_t moved = i < inner ? rings.find(c, kept) : ring.size();
-      builder.update(m_fields, c, m_products[c], moved, [&](const std::size_t j) {
+      workspace.builder.update(m_fields, c, m_products[c], moved, [&](const std::size_t j) {
         return m_marks[j < ring.size() ? ring[j].vertex : c] == mark_of_inner;
       });
     });
@@ -398,8 +406,8 @@ private:
   {
     m_number_of_evaluations += m_batch.size();
     m_results.resize(m_batch.size());
-    m_for_each_kernel(m_batch.size(), 8, [this](const std::size_t i, Spectral_collapse_kernel& kernel) {
-      m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, kernel);
+    m_pool->for_each(m_batch.size(), 4, [this](const std::size_t i, Workspace& workspace) {
+      m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, workspace.kernel);
     });
     for(std::size_t i = 0; i < m_batch.size(); ++i)
       m_candidates.insert(m_batch[i].first, m_results[i]);
@@ -412,10 +420,8 @@ private:
   Spectral_geometry::Merge_forest m_forest;
   Spectral_candidates m_candidates;
 
-  Spectral_collapse_kernel m_kernel;
-  Spectral_for_each<Spectral_collapse_kernel> m_for_each_kernel;
+  std::unique_ptr<Pool> m_pool;
   std::vector<Spectral_ring_products> m_products;
-  Spectral_for_each<Spectral_ring_product_builder> m_for_each_builder;
   std::vector<Spectral_slot> m_around;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;

@@ -1,0 +1,161 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/*!
+ * Runs short loops on several threads, each with a workspace of its own.
+ *
+ * There are two loops of some thirty microseconds in each collapse. A task scheduler spends as much on waking its
+ * workers (measured with TBB: two threads as slow as one), so the workers here wait for the next loop with
+ * their eyes open, and go to sleep when none comes for a while.
+ *
+ * What a call computes must depend on its index alone, so that the result is the same for any number of threads; it
+ * must not throw.
+ */
+template <class Workspace>
+class Spectral_thread_pool
+{
+public:
+  explicit Spectral_thread_pool(const int threads = 1)
+    : m_workspaces(threads > 1 ? std::size_t(threads) : 1)
+  {
+    for(std::size_t i = 1; i < m_workspaces.size(); ++i)
+      m_workers.emplace_back([this, i] { work(i); });
+  }
+
+  Spectral_thread_pool(const Spectral_thread_pool&) = delete;
+  Spectral_thread_pool& operator=(const Spectral_thread_pool&) = delete;
+
+  ~Spectral_thread_pool()
+  {
+    m_end = true;
+    announce();
+    for(std::thread& worker : m_workers)
+      worker.join();
+  }
+
+  /// The workspace of the calling thread.
+  Workspace& workspace() { return m_workspaces.front(); }
+
+  /// Calls `body(i, workspace)` for each i in [0, n); `grain` calls in a row stay on one thread.
+  template <class Body>
+  void for_each(const std::size_t n, const std::size_t grain, const Body& body)
+  {
+    if(m_workers.empty() || n <= grain) {
+      for(std::size_t i = 0; i < n; ++i)
+        body(i, m_workspaces.front());
+      return;
+    }
+    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
+      for(std::size_t i = begin; i < end; ++i)
+        (*static_cast<const Body*>(b))(i, workspace);
+    };
+    m_body = &body;
+    m_size = n;
+    m_grain = grain;
+    m_next = 0;
+    m_busy = m_workers.size();
+    announce();
+    take_part(m_workspaces.front());
+    for(std::size_t spins = 0; m_busy.load(std::memory_order_acquire) != 0; ++spins)
+      relax(spins);
+  }
+
+private:
+  static constexpr std::size_t patience = 20000; // spins, about a millisecond
+
+  static void relax(const std::size_t spins)
+  {
+    if(spins % 1024 == 1023) // somebody else may need this processor, the one we wait for among them
+      std::this_thread::yield();
+#ifdef CGAL_SPECTRAL_DISPATCH
+    _mm_pause();
+#endif
+  }
+
+  // Everything that was written before is visible to a worker that sees the new number.
+  void announce()
+  {
+    m_loop.fetch_add(1);
+    if(m_asleep.load() != 0) {
+      std::lock_guard<std::mutex> lock(m_mutex);
+      m_wake.notify_all();
+    }
+  }
+
+  void take_part(Workspace& workspace)
+  {
+    for(;;) {
+      const std::size_t begin = m_next.fetch_add(m_grain, std::memory_order_relaxed);
+      if(begin >= m_size)
+        return;
+      const std::size_t end = m_size - begin < m_grain ? m_size : begin + m_grain;
+      m_run(m_body, begin, end, workspace);
+    }
+  }
+
+  void work(const std::size_t index)
+  {
+    std::size_t seen = 0;
+    for(;;) {
+      seen = wait_for_loop_after(seen);
+      if(m_end)
+        return;
+      take_part(m_workspaces[index]);
+      m_busy.fetch_sub(1, std::memory_order_release);
+    }
+  }
+
+  std::size_t wait_for_loop_after(const std::size_t seen)
+  {
+    for(std::size_t spins = 0; spins < patience; ++spins) {
+      const std::size_t loop = m_loop.load();
+      if(loop != seen)
+        return loop;
+      relax(spins);
+    }
+    std::unique_lock<std::mutex> lock(m_mutex);
+    ++m_asleep;
+    m_wake.wait(lock, [&] { return m_loop.load() != seen; });
+    --m_asleep;
+    return m_loop.load();
+  }
+
+  std::vector<Workspace> m_workspaces;
+  std::vector<std::thread> m_workers;
+
+  // The loop that is running.
+  void (*m_run)(const void*, std::size_t, std::size_t, Workspace&) = nullptr;
+  const void* m_body = nullptr;
+  std::size_t m_size = 0, m_grain = 1;
+
+  std::atomic<std::size_t> m_next{0}, m_busy{0}, m_loop{0}, m_asleep{0};
+  std::atomic<bool> m_end{false};
+  std::mutex m_mutex;
+  std::condition_variable m_wake;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
