@@ -8,6 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
@@ -83,15 +84,12 @@ public:
     , m_vpm(vpm)
     , m_traits(traits)
     , m_options(options)
-    , m_slots(get(dynamic_vertex_property_t<Slot>(), mesh))
+    , m_slots(mesh, "Spectral_policies")
   {
     const auto begin = std::chrono::steady_clock::now();
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
-    Slot next = 0;
-    for(const vertex_descriptor v : vertices(mesh))
-      put(m_slots, v, ++next);
-    m_number_of_vertices = next;
+    m_number_of_vertices = std::size_t(m_slots.size());
 
     internal::Spectral_basis basis = internal::spectral_basis(m_fine_points, matrices.T, m_options);
     m_eigenpairs = basis.eigenpairs;
@@ -250,14 +248,7 @@ public:
   }
 
   /// The slots of `vertices(mesh)`, in that order.
-  std::vector<Eigen::Index> current_slots() const
-  {
-    std::vector<Eigen::Index> slots;
-    slots.reserve(m_number_of_vertices);
-    for(const vertex_descriptor v : vertices(*m_mesh))
-      slots.push_back(slot(v));
-    return slots;
-  }
+  std::vector<Eigen::Index> current_slots() const { return m_slots.current(); }
 
   const Triangle_mesh& mesh() const { return *m_mesh; }
   const Vertex_point_map& vertex_point_map() const { return m_vpm; }
@@ -311,15 +302,7 @@ private:
     return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
-  // The map holds slot + 1: a vertex that appeared after construction reads as 0.
-  Slot slot(const vertex_descriptor v) const
-  {
-    const Slot s = get(m_slots, v);
-    if(s == 0)
-      throw std::logic_error("Spectral_policies: a vertex of the mesh was not there when the policies were "
-                             "made; make new policies after adding vertices.");
-    return s - 1;
-  }
+  Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
 
   // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts with.
   internal::Spectral_ring ring_of(const vertex_descriptor v) const
@@ -397,7 +380,7 @@ private:
   Vertex_point_map m_vpm;
   Geom_traits m_traits;
   Spectral_options m_options;
-  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Slot>>::type m_slots;
+  internal::Fine_vertex_slots<Triangle_mesh> m_slots;
 
   Eigen::MatrixXd m_fine_points;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;

@@ -8,6 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
@@ -164,10 +165,7 @@ public:
   /// an edge without length.
   double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
   {
-    const Eigen::Vector3d uv = m_fields.points[v] - m_fields.points[u];
-    const double length = uv.squaredNorm();
-    const double alpha = length > 0 ? (point - m_fields.points[u]).dot(uv) / length : 0.5;
-    return rounded(u, v, (std::min)((std::max)(alpha, 0.), 1.));
+    return rounded(u, v, projected_edge_weight(m_fields.points[u], m_fields.points[v], point));
   }
 
   /// Evaluates every edge of the mesh. `progress(fraction)` returning false stops early.
