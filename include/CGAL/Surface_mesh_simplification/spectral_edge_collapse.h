@@ -8,6 +8,8 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -54,6 +56,7 @@ struct Spectral_edge_collapse_result
   std::vector<std::string> warnings;
   Refusals refusals;
 
+  double seconds_pre_simplification = 0;
   double seconds_eigenpairs = 0;
   double seconds_first_costs = 0;
   double seconds_collapse = 0; ///< first costs and the collapse loop
@@ -65,7 +68,10 @@ struct Spectral_edge_collapse_result
   Eigen::SparseMatrix<double>
       restriction; ///< P, coarse x fine, rows as `vertices(mesh)`, columns as in the input
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
-  /// of the input at its own scale, to simplify it again; null with signals of the user's
+  /// number of vertices after `Spectral_options::pre_simplify`; that of the input without
+  std::size_t pre_simplified_vertices = 0;
+  /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again; null with signals
+  /// of the user's
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
   const char* stop_reason_name() const
@@ -120,6 +126,66 @@ private:
   mutable double m_next_report = 0;
   mutable bool m_reached = false, m_cancelled = false;
 };
+
+/// P and vertex map of the first stage; empty where it was skipped.
+struct Pre_simplification
+{
+  bool done = false;
+  Eigen::SparseMatrix<double> restriction;
+  std::vector<std::size_t> vertex_map;
+};
+
+/// The first stage of `Spectral_options::pre_simplify`.
+template <class GeomTraits, class TriangleMesh, class NamedParameters>
+Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
+                                const Spectral_options& options, const NamedParameters& np)
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  if(options.pre_simplify == 0 || n <= options.pre_simplify)
+    return Pre_simplification();
+  if(options.pre_simplify < target)
+    throw std::invalid_argument("Spectral_options: pre_simplify is " + std::to_string(options.pre_simplify) +
+                                ", less than the target of " + std::to_string(target) +
+                                " vertices; use a number between the target and the size of the mesh.");
+  if(options.signals.size() != 0 || options.eigenpairs)
+    throw std::invalid_argument(
+        "Spectral_options: pre_simplify is set, but the signals or eigenpairs that are "
+        "given belong to the mesh before it; use one of the two.");
+  constexpr bool has_constraints =
+      !std::is_same<typename internal_np::Get_param<typename NamedParameters::base,
+                                                    internal_np::edge_is_constrained_t>::type,
+                    internal_np::Param_not_found>::value;
+  using Policies = GarlandHeckbert_plane_policies<TriangleMesh, GeomTraits>;
+  if(options.progress && !options.progress(Spectral_progress{Spectral_phase::pre_simplification, 0., n}))
+    throw Spectral_geometry::Cancelled();
+  Policies policies(mesh);
+  Restriction_visitor<TriangleMesh> visitor(mesh);
+  const Vertex_count_stop_predicate<TriangleMesh> stop(options.pre_simplify, mesh);
+  const auto common = parameters::visitor(visitor).vertex_point_map(
+      choose_parameter(get_parameter(np, internal_np::vertex_point), get_property_map(vertex_point, mesh)));
+  if constexpr(has_constraints) {
+    const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
+    using Map = std::decay_t<decltype(ecm)>;
+    const Constrained_placement<typename Policies::Get_placement, Map> placement(ecm,
+                                                                                 policies.get_placement());
+    edge_collapse(mesh, stop,
+                  common.edge_is_constrained_map(ecm).get_cost(policies.get_cost()).get_placement(placement));
+  } else
+    edge_collapse(mesh, stop, common.get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+  return Pre_simplification{true, visitor.restriction(), visitor.vertex_map()};
+}
+
+/// The vertex map of both stages: the second follows the order of `vertices(mesh)` after the first.
+inline std::vector<std::size_t> compose(const std::vector<std::size_t>& first,
+                                        const std::vector<std::size_t>& second)
+{
+  std::vector<std::size_t> result;
+  result.reserve(first.size());
+  for(const std::size_t i : first)
+    result.push_back(second[i]);
+  return result;
+}
 
 /// Runs the loop with the constraint map, filter and visitor that the user gave, if any.
 template <class TriangleMesh, class Policies, class Stop, class NamedParameters>
@@ -237,7 +303,12 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
                                 std::to_string(n) + "; use a number from 1 to " + std::to_string(n) + ".");
   Result result;
   result.input_vertices = n;
+  const internal::Pre_simplification first =
+      internal::pre_simplify<Geom_traits>(mesh, n, number_of_vertices, options, np);
+  const auto begin_spectral = std::chrono::steady_clock::now();
+  result.seconds_pre_simplification = std::chrono::duration<double>(begin_spectral - begin).count();
   const Policies policies(mesh, options, np);
+  result.pre_simplified_vertices = std::size_t(policies.state().fine_points().rows());
   const std::size_t K = std::size_t(policies.state().core().number_of_signals());
   if(number_of_vertices < 3 * K)
     result.warnings.push_back(
@@ -271,6 +342,10 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   result.relative_error = policies.relative_error();
   result.restriction = policies.restriction();
   result.vertex_map = policies.vertex_map();
+  if(first.done) {
+    result.restriction = Eigen::SparseMatrix<double>(result.restriction * first.restriction);
+    result.vertex_map = internal::compose(first.vertex_map, result.vertex_map);
+  }
   result.eigenpairs = policies.eigenpairs();
   result.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

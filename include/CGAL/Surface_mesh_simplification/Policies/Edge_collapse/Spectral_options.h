@@ -87,6 +87,11 @@ struct Spectral_options
   /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
   Eigen::VectorXd weights;
 
+  /// `spectral_edge_collapse()` only: first reduces a mesh of more vertices to this number with CGAL's
+  /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
+  /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
+  std::size_t pre_simplify = 0;
+
   /// Number of threads that evaluate costs; from 1. The result does not depend on it.
   int threads = 1;
 

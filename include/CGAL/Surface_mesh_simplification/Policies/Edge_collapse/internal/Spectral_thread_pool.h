@@ -81,11 +81,11 @@ public:
   }
 
 private:
-  static constexpr std::size_t patience = 20000; // spins, about a millisecond
+  static constexpr std::size_t patience = 20000; // spins, about a millisecond on an idle machine
 
   static void relax(const std::size_t spins)
   {
-    if(spins % 1024 == 1023) // somebody else may need this processor, the one we wait for among them
+    if(spins > 2048) // longer than a loop takes: somebody needs this processor, perhaps the one we wait for
       std::this_thread::yield();
 #ifdef CGAL_SPECTRAL_DISPATCH
     _mm_pause();
