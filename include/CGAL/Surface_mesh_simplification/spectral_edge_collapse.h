@@ -65,8 +65,10 @@ struct Spectral_edge_collapse_result
   double E = 0;              ///< Eq. 2, for the input scaled to unit area
   double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
 
-  Eigen::SparseMatrix<double>
-      restriction; ///< P, coarse x fine, rows as `vertices(mesh)`, columns as in the input
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input.
+  /// `Surface_mesh::collect_garbage()` changes that order: write or copy the mesh without it, which keeps the order, or
+  /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
+  Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
   /// number of vertices after `Spectral_options::pre_simplify`; that of the input without
   std::size_t pre_simplified_vertices = 0;
