@@ -577,7 +577,7 @@ TEST_CASE("a nested icosphere comes close to the floors")
   }
 }
 
-TEST_CASE("prolongation through the spectrum inverts the restriction and keeps constants")
+TEST_CASE("prolongation through the spectrum inverts the restriction of a mesh that only shrank")
 {
   for(const double theta : thetas) {
     shapes::Matrices coarse = shapes::bumpy_icosphere_matrices(3);

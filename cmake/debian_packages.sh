@@ -1,0 +1,46 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Sourced by the two set-up scripts. install_packages PACKAGE... installs those of the Debian packages that are
+# missing, as root or through sudo, and stops with a sentence when it cannot. Elsewhere than on Debian and its
+# relatives nothing is installed: CMake says what is missing. SPECTRAL_NO_INSTALL=1 asks for the same on Debian.
+
+install_packages()
+{
+  [ -z "${SPECTRAL_NO_INSTALL:-}" ] || return 0
+  command -v dpkg-query >/dev/null 2>&1 && command -v apt-get >/dev/null 2>&1 || return 0
+
+  missing=""
+  for package in "$@"; do
+    case "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" in
+      installed) ;;
+      *) missing="$missing $package" ;;
+    esac
+  done
+  [ -n "$missing" ] || return 0
+
+  if [ "$(id -u)" -eq 0 ]; then
+    as_root="env"
+  elif command -v sudo >/dev/null 2>&1 && { [ -t 0 ] || sudo -n true 2>/dev/null; }; then
+    as_root="sudo env"
+  else
+    echo "These packages are missing and only root can install them: run 'apt-get install$missing' as root, then this again." >&2
+    return 1
+  fi
+
+  echo "Installing$missing"
+  log=$(mktemp)
+  # A bare machine has no package lists yet, an old one stale lists: fetch them only when it does not work without.
+  for attempt in 1 2; do
+    if $as_root DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing >"$log" 2>&1; then
+      rm -f "$log"
+      return 0
+    fi
+    [ "$attempt" -eq 2 ] || $as_root apt-get update >"$log" 2>&1 || break
+  done
+  tail -n 5 "$log" >&2
+  rm -f "$log"
+  echo "apt-get could not install$missing (its last words are above): install them by hand, then run this again." >&2
+  return 1
+}

@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Writes the tables of results.md:
+#   doc/make_results.py BUILD FOLDER MESH...
+# BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER where the meshes
+# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text of results.md
+# outside of its two marks stays.
+
+import json
+import os
+import subprocess
+import sys
+
+SIZES = "3%,600"
+BEGIN, END = "<!-- tables: begin -->\n", "<!-- tables: end -->\n"
+
+
+def compare(build, folder, mesh):
+    program = os.path.join(build, "examples", "spectral_compare")
+    output = os.path.abspath(os.path.join(build, "results", mesh + ".json"))
+    os.makedirs(os.path.dirname(output), exist_ok=True)
+    if not os.path.exists(output):
+        subprocess.run([os.path.abspath(program), mesh, "--vertices", SIZES, "--json", output, "--quiet"],
+                       check=True, cwd=folder)
+    with open(output) as file:
+        return json.load(file)
+
+
+def norms(row):
+    return row["carried_P"] or row["closest_point_P"]
+
+
+def name(row):
+    parts = [row["simplifier"]]
+    if row["placement"] not in ("", "none"):
+        parts.append(row["placement"])
+    if row["metric_mass"] != "none":
+        parts.append(row["metric_mass"] + " metric")
+    return ", ".join(parts)
+
+
+def number(x, digits=2, factor=1.0):
+    return "–" if x is None else f"{factor * x:.{digits}f}"
+
+
+def bold_smallest(rows, key, text):
+    values = [key(r) for r in rows]
+    smallest = min(v for v in values if v is not None)
+    return [f"**{t}**" if v == smallest else t for v, t in zip(values, text)]
+
+
+# Title, value, digits, factor, and whether the smallest is printed bold.
+COLUMNS = [
+    ("C_L", lambda r: norms(r)["norm_L"], 1, 1, True),
+    ("C_D", lambda r: norms(r)["norm_D"], 2, 1, True),
+    ("C_D, 1.1 K", lambda r: norms(r)["norm_D_extended"], 2, 1, False),
+    ("C_L, closest P", lambda r: r["closest_point_P"]["norm_L"], 1, 1, True),
+    ("C_D, closest P", lambda r: r["closest_point_P"]["norm_D"], 2, 1, True),
+    ("λ %", lambda r: r["eigenvalue_error_mean"], 2, 100, True),
+    ("λ beyond %", lambda r: r["eigenvalue_error_beyond_mean"], 2, 100, True),
+    ("diffusion %", lambda r: r["distance_errors"]["diffusion"], 2, 100, True),
+    ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100, True),
+    ("HKS %", lambda r: r["distance_errors"]["heat_kernel_signature"], 2, 100, True),
+    ("WKS %", lambda r: r["distance_errors"]["wave_kernel_signature"], 2, 100, True),
+    ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100, True),
+    ("angle °", lambda r: r["smallest_angle_degrees"], 1, 1, False),
+    ("volume", lambda r: r["volume_ratio"], 3, 1, False),
+    ("self-int.", lambda r: r["self_intersections"], 0, 1, False),
+    ("s", lambda r: r["seconds_total"], 2, 1, False),
+]
+
+
+def table(rows):
+    lines = ["| simplifier | N | " + " | ".join(c[0] for c in COLUMNS) + " |",
+             "|---|---|" + "---|" * len(COLUMNS)]
+    cells = []
+    for _, value, digits, factor, bold in COLUMNS:
+        text = [number(value(r), digits, factor) for r in rows]
+        cells.append(bold_smallest(rows, value, text) if bold else text)
+    for i, r in enumerate(rows):
+        lines.append(f"| {name(r)} | {r['vertices']} | " + " | ".join(c[i] for c in cells) + " |")
+    lines.append(f"| *ideal linear elements (estimate)* | {rows[0]['requested_vertices']} | "
+                 f"{rows[0]['floor_norm_L']:.1f} | {rows[0]['floor_norm_D']:.2f} |" + " |" * (len(COLUMNS) - 2))
+    return "\n".join(lines) + "\n"
+
+
+# One line per simplifier, one column per mesh and size, and the means.
+def overview(results, mass):
+    cases = [(result, n) for result in results for n in sorted({r["requested_vertices"] for r in result["rows"]})]
+    names, found = [], {}
+    for k, (result, n) in enumerate(cases):
+        for row in result["rows"]:
+            if row["judged_mass"] == mass and row["requested_vertices"] == n:
+                if name(row) not in names:
+                    names.append(name(row))
+                found[name(row), k] = norms(row)
+    text = ""
+    for norm, digits in (("norm_L", 1), ("norm_D", 2)):
+        smallest = [min(found[x, k][norm] for x in names if (x, k) in found) for k in range(len(cases))]
+        title = "C_L" if norm == "norm_L" else "C_D"
+        text += f"\n{title}, judged in the {mass} mass:\n\n| simplifier | "
+        text += " | ".join(f"{os.path.splitext(result['mesh'])[0]} {n}" for result, n in cases) + " | mean |\n|---|"
+        text += "---|" * (len(cases) + 1) + "\n"
+        rows = []
+        for x in names:
+            values = [found[x, k][norm] if (x, k) in found else None for k in range(len(cases))]
+            complete = all(v is not None for v in values)
+            rows.append((x, values, sum(values) / len(values) if complete else None))
+        best = min(mean for _, _, mean in rows if mean is not None)
+        for x, values, mean in rows:
+            cells = [f"**{v:.{digits}f}**" if v == s else number(v, digits) for v, s in zip(values, smallest)]
+            cells.append(f"**{mean:.{digits}f}**" if mean == best else number(mean, digits))
+            text += f"| {x} | " + " | ".join(cells) + " |\n"
+    return text
+
+
+def tables(results):
+    first = results[0]
+    text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread. The command for each mesh:\n\n"
+    text += "".join(f"    examples/spectral_compare {r['mesh']} --vertices {SIZES} --json results/{r['mesh']}.json\n"
+                    for r in results)
+    text += "\n## Norms of all meshes\n"
+    for mass in ("averaged", "lumped"):
+        text += overview(results, mass)
+    for result in results:
+        for n in sorted({r["requested_vertices"] for r in result["rows"]}):
+            text += f"\n## {result['mesh']}, {result['vertices']} vertices, N = {n}\n"
+            for mass in ("averaged", "lumped"):
+                rows = [r for r in result["rows"] if r["judged_mass"] == mass and r["requested_vertices"] == n]
+                text += f"\nJudged in the {mass} mass:\n\n" + table(rows)
+        for note in result["notes"] + sorted({name(r) + ", N = " + str(r["requested_vertices"]) + ": " + r["note"]
+                                             for r in result["rows"] if r["note"]}):
+            text += "\n" + note + "\n"
+    return text
+
+
+def main():
+    if len(sys.argv) < 4:
+        sys.exit("usage: make_results.py BUILD FOLDER MESH...")
+    results = [compare(sys.argv[1], sys.argv[2], mesh) for mesh in sys.argv[3:]]
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.md")
+    with open(path) as file:
+        old = file.read()
+    before, rest = old.split(BEGIN)
+    after = rest.split(END)[1]
+    with open(path, "w") as file:
+        file.write(before + BEGIN + tables(results) + END + after)
+
+
+if __name__ == "__main__":
+    main()

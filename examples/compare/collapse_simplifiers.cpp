@@ -1,0 +1,142 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Simplifiers that collapse edges, all of them in CGAL's loop.
+
+// CGAL's Lindstrom-Turk placement sets an optional vector in ways that GCC cannot follow.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
+#include "coarse_mesh.h"
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_triangle_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_triangle_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <chrono>
+#include <utility>
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+std::string note_on_size(const Mesh& mesh, std::size_t N)
+{
+  return mesh.number_of_vertices() > N ? "It ran out of edges that may be collapsed at " +
+                                             std::to_string(mesh.number_of_vertices()) + " vertices."
+                                       : "";
+}
+
+// `make_policies(mesh)` returns a pair of cost and placement; to make them is part of the time.
+template <class Make_policies>
+Coarse_mesh collapse(const Mesh& fine, std::size_t N, const Make_policies& make_policies)
+{
+  Coarse_mesh result;
+  result.mesh = fine;
+  const SMS::Restriction_visitor<Mesh> visitor(result.mesh);
+  const auto begin = std::chrono::steady_clock::now();
+  make_policies(result.mesh, [&](const auto& cost, const auto& placement) {
+    SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
+                       CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
+  });
+  result.seconds = seconds_since(begin);
+  result.note = note_on_size(result.mesh, N);
+  result.mesh.collect_garbage(); // reorders the vertices, and the visitor knows how
+  result.carried = visitor.restriction();
+  return result;
+}
+
+template <class Policies>
+Simplifier garland_heckbert(const std::string& name)
+{
+  return {"Garland-Heckbert " + name, "optimal", "none", 0, [](const Mesh& fine, std::size_t N) {
+            return collapse(fine, N, [](Mesh& mesh, const auto& run) {
+              Policies policies(mesh);
+              run(policies.get_cost(), policies.get_placement());
+            });
+          }};
+}
+
+template <class Cost, class Placement>
+Simplifier plain(const std::string& name, const std::string& placement)
+{
+  return {name, placement, "none", 0, [](const Mesh& fine, std::size_t N) {
+            return collapse(fine, N, [](Mesh&, const auto& run) { run(Cost(), Placement()); });
+          }};
+}
+
+Simplifier spectral(SMS::Spectral_placement_strategy placement, const Basis& basis, int threads)
+{
+  SMS::Spectral_options options;
+  options.placement = placement;
+  options.mass = basis.mass;
+  options.eigenpairs = basis.pairs;
+  options.number_of_eigenvectors = basis.pairs->size();
+  options.threads = threads;
+  return {"spectral", SMS::placement_name(placement), SG::mass_name(basis.mass), basis.seconds,
+          [options](const Mesh& fine, std::size_t N) {
+            Coarse_mesh result;
+            result.mesh = fine;
+            const auto begin = std::chrono::steady_clock::now();
+            const SMS::Spectral_policies<Mesh> policies(result.mesh, options);
+            SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
+                               CGAL::parameters::get_cost(policies.get_cost())
+                                   .get_placement(policies.get_placement())
+                                   .visitor(policies.visitor()));
+            result.seconds = seconds_since(begin);
+            result.note = note_on_size(result.mesh, N);
+            result.mesh.collect_garbage();
+            result.carried = policies.restriction();
+            return result;
+          }};
+}
+
+} // namespace
+
+Basis spectral_basis(const Mesh& fine, Eigen::Index K, SG::Mass mass)
+{
+  Mesh mesh = fine;
+  SMS::Spectral_options options;
+  options.number_of_eigenvectors = K;
+  options.mass = mass;
+  const SMS::Spectral_policies<Mesh> policies(mesh, options);
+  return {mass, policies.eigenpairs(), policies.state().seconds_basis()};
+}
+
+std::vector<Simplifier> collapse_simplifiers(const std::vector<Basis>& bases, int threads)
+{
+  std::vector<Simplifier> result;
+  for(const Basis& basis : bases)
+    for(const auto placement :
+        {SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::midpoint})
+      result.push_back(spectral(placement, basis, threads));
+  result.push_back(garland_heckbert<SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>>("plane"));
+  result.push_back(garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));
+  result.push_back(garland_heckbert<SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>(
+      "probabilistic plane"));
+  result.push_back(garland_heckbert<SMS::GarlandHeckbert_probabilistic_triangle_policies<Mesh, Kernel>>(
+      "probabilistic triangle"));
+  result.push_back(
+      plain<SMS::LindstromTurk_cost<Mesh>, SMS::LindstromTurk_placement<Mesh>>("Lindstrom-Turk", "optimal"));
+  result.push_back(
+      plain<SMS::Edge_length_cost<Mesh>, SMS::Midpoint_placement<Mesh>>("edge length", "midpoint"));
+  return result;
+}

@@ -1,0 +1,163 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H
+#define SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H
+
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// The command line of spectral_compare.
+struct Compare_arguments
+{
+  std::string fine;                                          // MESH or --fine
+  std::string vertices;                                      // N[,N2...], each a number or a percentage
+  std::string coarse, operator_file, mass_file, restriction; // anybody's result
+  std::string masses = "lumped,averaged", only;
+  std::string report, json, coloured;
+  long eigenvectors = 100, sources = 20, seed = 1;
+  int threads = 1;
+  bool quiet = false;
+  std::string help; // the text, if it was asked for
+
+  bool judges_others() const { return !coarse.empty() || !operator_file.empty(); }
+};
+
+namespace compare_arguments_internal {
+
+inline boost::program_options::options_description described(Compare_arguments& a)
+{
+  namespace po = boost::program_options;
+  const auto text = [](std::string& value, const char* name) { return po::value(&value)->value_name(name); };
+  po::options_description options(
+      "spectral_compare MESH --vertices N[,N2,...] [options]\n"
+      "spectral_compare --fine A --coarse B [--restriction P.mtx] [options]\n"
+      "spectral_compare --fine A --operator L.mtx --mass M.mtx --restriction P.mtx [options]\n\n"
+      "Simplifies MESH in every way there is, here and in CGAL, and judges each result by the same figures:\n"
+      "norms of functional maps, eigenvalues, distances, shape, time. The second form judges a mesh that\n"
+      "another tool made of A, the third an operator that has no mesh (L positive semidefinite).\n\nOptions",
+      100, 60);
+  auto add = options.add_options();
+  add("help", "show this text");
+  add("vertices", text(a.vertices, "N,..."),
+      "sizes of the simplified meshes; 3% is a part of MESH's vertices");
+  add("eigenvectors,k", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
+      "how many to keep and to judge by, the constant one included");
+  add("judge", text(a.masses, "MASS,...")->default_value(a.masses),
+      "the masses to judge in: lumped, averaged or both; also those of the spectral metric");
+  add("only", text(a.only, "TEXT"), "only simplifiers with TEXT in their names");
+  add("report", text(a.report, "report.html"), "write a page with tables and figures that any browser shows");
+  add("json", text(a.json, "out.json"), "write all figures for programs");
+  add("coloured", text(a.coloured, "DIR"),
+      "write the fine and the coarse meshes as PLY with eigenvectors, hks and a distance as properties of "
+      "vertices");
+  add("sources", po::value(&a.sources)->value_name("S")->default_value(a.sources),
+      "how many random vertices distances are measured from");
+  add("seed", po::value(&a.seed)->value_name("X")->default_value(a.seed), "of these vertices");
+  add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
+      "threads for the spectral costs");
+  add("fine", text(a.fine, "A"), "the fine mesh, the same as MESH");
+  add("coarse", text(a.coarse, "B"), "judge this mesh");
+  add("operator", text(a.operator_file, "L.mtx"), "judge this operator (Matrix Market)");
+  add("mass", text(a.mass_file, "M.mtx"), "with this mass matrix");
+  add("restriction", text(a.restriction, "P.mtx"),
+      "and this restriction, coarse x fine; without it, closest points");
+  add("quiet", po::bool_switch(&a.quiet), "no table, no progress bar");
+  return options;
+}
+
+inline void check(const Compare_arguments& a)
+{
+  const auto refuse = [](const std::string& sentence) { throw std::runtime_error(sentence); };
+  if(a.fine.empty())
+    refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows everything.");
+  if(!a.coarse.empty() && !a.operator_file.empty())
+    refuse("--coarse and --operator are two results: judge one at a time.");
+  if(a.judges_others() && !a.vertices.empty())
+    refuse("--vertices asks for simplifications, --coarse and --operator for a judgement: give one of them.");
+  if(!a.judges_others() && a.vertices.empty())
+    refuse("--vertices is missing: how many vertices are the simplified meshes to have?");
+  if(!a.operator_file.empty() && (a.mass_file.empty() || a.restriction.empty()))
+    refuse("--operator needs --mass and --restriction as well.");
+  if(a.operator_file.empty() && !a.mass_file.empty())
+    refuse("--mass belongs to --operator; to choose the mass of the judgement use --judge.");
+  if(a.coarse.empty() && a.operator_file.empty() && !a.restriction.empty())
+    refuse("--restriction belongs to --coarse or --operator.");
+  if(!a.operator_file.empty() && !a.coloured.empty())
+    refuse("--coloured needs a coarse mesh, an operator has none.");
+  if(a.masses != "lumped" && a.masses != "averaged" && a.masses != "lumped,averaged" &&
+     a.masses != "averaged,lumped")
+    refuse("--judge is '" + a.masses + "', it must be lumped, averaged or lumped,averaged.");
+  if(a.eigenvectors < 2)
+    refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be at least 2.");
+  if(a.sources < 1)
+    refuse("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
+  if(a.threads < 1)
+    refuse("--threads is " + std::to_string(a.threads) + ", it must be at least 1.");
+}
+
+} // namespace compare_arguments_internal
+
+// Throws std::runtime_error with one sentence for what cannot be used.
+inline Compare_arguments parse_compare_arguments(int argc, const char* const* argv)
+{
+  namespace po = boost::program_options;
+  Compare_arguments a;
+  const po::options_description visible = compare_arguments_internal::described(a);
+  po::positional_options_description positional;
+  positional.add("fine", 1);
+  po::variables_map values;
+  try {
+    // No abbreviations: what --mass means must not depend on what else there is.
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
+    po::store(po::command_line_parser(argc, argv).options(visible).positional(positional).style(style).run(),
+              values);
+    po::notify(values);
+  } catch(const po::too_many_positional_options_error&) {
+    throw std::runtime_error("there are more arguments than one MESH; --help shows everything.");
+  } catch(const po::error& error) {
+    throw std::runtime_error(std::string(error.what()) + "; --help shows everything.");
+  }
+  if(values.count("help")) {
+    std::ostringstream text;
+    text << visible;
+    a.help = text.str();
+    return a;
+  }
+  compare_arguments_internal::check(a);
+  return a;
+}
+
+// The sizes of --vertices for a mesh of n vertices.
+inline std::vector<std::size_t> target_sizes(const Compare_arguments& a, std::size_t n)
+{
+  std::vector<std::size_t> result;
+  std::istringstream list(a.vertices);
+  std::string item;
+  while(std::getline(list, item, ',')) {
+    char* end = nullptr;
+    double value = std::strtod(item.c_str(), &end);
+    const bool percent = *end == '%';
+    if(item.empty() || *(percent ? end + 1 : end) != '\0' || !(value > 0) ||
+       (!percent && value != std::floor(value)))
+      throw std::runtime_error("--vertices has '" + item +
+                               "' in it, it must be a list of numbers or percentages.");
+    if(percent)
+      value = std::round(value / 100 * static_cast<double>(n));
+    if(value < 4 || value > static_cast<double>(n))
+      throw std::runtime_error("--vertices asks for " + item + ", but '" + a.fine + "' has " +
+                               std::to_string(n) + " vertices and fewer than 4 are no mesh.");
+    result.push_back(static_cast<std::size_t>(value));
+  }
+  return result;
+}
+
+#endif // SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H

@@ -1,0 +1,264 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_REPORT_HTML_REPORT_H
+#define SPECTRAL_EXAMPLES_REPORT_HTML_REPORT_H
+
+#include "Comparison.h"
+#include "html_figures.h"
+#include "svg_plot.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+// A comparison as one page: no network, no JavaScript, no other file.
+
+namespace html_internal {
+
+inline const char* style()
+{
+  return "body{font:15px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1.5em}"
+         "h1{font-size:1.7em;margin-bottom:.2em}h2{font-size:1.3em;margin-top:2em;border-bottom:1px solid "
+         "#bbb}"
+         "h3{font-size:1.05em;margin:1.4em 0 .4em}"
+         "table{border-collapse:collapse;font-size:13px;margin:.6em 0}"
+         "th,td{padding:2px 9px;text-align:right;border-bottom:1px solid #e3e3e3;vertical-align:bottom}"
+         "th{border-bottom:1.5px solid #555;font-weight:600}"
+         "th.l,td.l{text-align:left}tr.floor td{font-style:italic;border-bottom:1.5px solid #999}"
+         "td.n{white-space:nowrap}td.best{font-weight:bold}"
+         ".figures{display:flex;flex-wrap:wrap;gap:14px 18px;align-items:flex-start}"
+         "figure{margin:0;width:190px;break-inside:avoid}figcaption{font-size:12.5px;line-height:1.35}"
+         "figure img{width:188px;height:188px;border:1px solid #999;image-rendering:pixelated;display:block}"
+         ".legend{max-width:none;columns:3;column-gap:2em;font-size:13px;list-style:none;padding:0;margin:."
+         "4em 0}"
+         ".legend li{break-inside:avoid;display:block}.legend svg{vertical-align:middle;margin-right:.5em}"
+         "svg{max-width:100%;height:auto}code{font-size:13px;overflow-wrap:anywhere}"
+         "p,ul{max-width:62em}.note{color:#555;font-size:13px}"
+         "@media print{body{margin:0;max-width:none;font-size:10pt}table{font-size:7.5pt}th,td{padding:1px "
+         "4px}"
+         "h2{break-after:avoid}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"
+         "@page{size:A4 landscape;margin:12mm}";
+}
+
+inline std::string cell(const std::string& content, const char* type = "td", const std::string& cls = "")
+{
+  return std::string("<") + type + (cls.empty() ? "" : " class='" + cls + "'") + ">" + content + "</" + type +
+         ">";
+}
+
+inline std::string heading_row(const std::vector<std::string>& names, std::size_t left)
+{
+  std::string row = "<tr>";
+  for(std::size_t i = 0; i < names.size(); ++i)
+    row += cell(names[i], "th", i < left ? "l" : "");
+  return row + "</tr>\n";
+}
+
+inline std::string percent(double x)
+{
+  return formatted(100 * x);
+}
+
+// The cells that say what a row is.
+inline std::string who(const Simplified& s)
+{
+  const auto or_dash = [](const std::string& t) {
+    return t.empty() || t == "none" ? std::string("–") : escaped(t);
+  };
+  return cell(escaped(s.simplifier), "td", "l n") + cell(or_dash(s.placement), "td", "l") +
+         cell(or_dash(s.relocation), "td", "l") + cell(or_dash(s.metric_mass), "td", "l") +
+         cell(std::to_string(s.vertices));
+}
+
+// A table of all results judged in one mass; `value(result, judgement)` gives the columns. The smallest entry
+// of a column among those of one size is bold where `best` says so.
+template <class Values>
+std::string table(const Comparison& c, const std::string& mass, const std::vector<std::string>& columns,
+                  const std::vector<bool>& best, bool floors, const Values& values)
+{
+  std::vector<std::string> names = {"simplifier", "placement", "relocation", "metric", "vertices"};
+  names.insert(names.end(), columns.begin(), columns.end());
+  std::string html = "<table>\n<thead>" + heading_row(names, 4) + "</thead>\n";
+  for(const std::size_t N : sizes(c)) {
+    std::vector<std::pair<const Simplified*, std::vector<std::pair<double, bool>>>>
+        rows; // number, in percent
+    std::vector<double> smallest(columns.size(), std::numeric_limits<double>::infinity());
+    const Judgement* last = nullptr;
+    for(const auto& [s, j] : judged(c, N, mass)) {
+      rows.emplace_back(s, values(*s, *j));
+      last = j;
+      for(std::size_t k = 0; k < columns.size(); ++k)
+        if(rows.back().second[k].first < smallest[k])
+          smallest[k] = rows.back().second[k].first;
+    }
+    html += "<tbody>\n";
+    for(const auto& [s, numbers] : rows) {
+      html += "<tr>" + who(*s);
+      for(std::size_t k = 0; k < columns.size(); ++k) {
+        const auto [x, in_percent] = numbers[k];
+        html += cell(in_percent ? percent(x) : formatted(x), "td", best[k] && x == smallest[k] ? "best" : "");
+      }
+      html += "</tr>\n";
+    }
+    if(floors && last != nullptr) {
+      html += "<tr class='floor'>" + cell("ideal linear elements (estimate)", "td", "l") +
+              "<td></td><td></td><td></td>" + cell(std::to_string(N)) + cell(formatted(last->floor_norm_L)) +
+              cell(formatted(last->floor_norm_D));
+      for(std::size_t k = 2; k < columns.size(); ++k)
+        html += "<td></td>";
+      html += "</tr>\n";
+    }
+    html += "</tbody>\n";
+  }
+  return html + "</table>\n";
+}
+
+inline std::string spectrum_tables(const Comparison& c, const std::string& mass)
+{
+  std::string html = "<h3>Norms</h3>\n";
+  html +=
+      table(c, mass,
+            {"|C|<sub>L</sub>", "|C|<sub>D</sub>", "|C|<sub>D</sub>, 1.1 K", "|C|<sub>L</sub> closest P",
+             "|C|<sub>D</sub> closest P", "|C|<sub>L</sub> input scale", "|C|<sub>D</sub> input scale"},
+            {true, true, false, true, true, false, false}, true, [](const Simplified&, const Judgement& j) {
+              const Map_norms& n = j.norms();
+              const Map_norms p = j.closest ? *j.closest : Map_norms();
+              return std::vector<std::pair<double, bool>>{{n.norm_L, false},
+                                                          {n.norm_D, false},
+                                                          {n.norm_D_extended, false},
+                                                          {p.norm_L, false},
+                                                          {p.norm_D, false},
+                                                          {n.norm_L_input_scale, false},
+                                                          {n.norm_D_input_scale, false}};
+            });
+  html += "<h3>Relative errors in percent: eigenvalues, distances, signatures</h3>\n";
+  html += table(c, mass,
+                {"λ<sub>1..K</sub> mean", "λ<sub>1..K</sub> max", "λ<sub>K+1..1.5K</sub> mean", "diffusion",
+                 "biharmonic", "commute time", "wave kernel", "HKS", "WKS"},
+                {true, true, true, true, true, true, true, true, true}, false,
+                [](const Simplified&, const Judgement& j) {
+                  const Distance_errors& d = j.distances;
+                  return std::vector<std::pair<double, bool>>{
+                      {j.error_mean, true},           {j.error_max, true},
+                      {j.error_beyond_mean, true},    {d.diffusion, true},
+                      {d.biharmonic, true},           {d.commute_time, true},
+                      {d.wave_kernel, true},          {d.heat_kernel_signature, true},
+                      {d.wave_kernel_signature, true}};
+                });
+  return html;
+}
+
+inline std::string shape_table(const Comparison& c)
+{
+  return table(c, c.fine.front().mass,
+               {"eigenpairs, s", "simplification, s", "total, s", "smallest angle, °", "largest aspect ratio",
+                "self-inter&shy;sections", "Hausdorff, % diag.", "volume ratio", "area ratio",
+                "bytes per vertex"},
+               {false, false, true, false, false, false, true, false, false, false}, false,
+               [](const Simplified& s, const Judgement&) {
+                 const Shape_measures& m = s.shape;
+                 return std::vector<std::pair<double, bool>>{
+                     {s.seconds_eigenpairs > 0 ? s.seconds_eigenpairs : not_computed, false},
+                     {s.seconds, false},
+                     {s.seconds_total(), false},
+                     {m.smallest_angle, false},
+                     {m.largest_aspect_ratio, false},
+                     {m.self_intersections, false},
+                     {m.hausdorff, true},
+                     {m.volume_ratio, false},
+                     {m.area_ratio, false},
+                     {m.bytes_per_vertex, false}};
+               });
+}
+
+inline std::string facts(const Comparison& c)
+{
+  std::string html = "<table>\n";
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
+  };
+  fact("Fine mesh", escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " +
+                        std::to_string(c.faces) + " triangles, " + std::to_string(c.components) +
+                        (c.components == 1 ? " component, " : " components, ") +
+                        (c.closed ? "closed" : "with boundary"));
+  fact("Area, diagonal of its box",
+       formatted(c.area) + " u², " + formatted(c.diagonal) + " u (u: the unit of the file)");
+  fact("K, number of eigenvectors", std::to_string(c.K));
+  for(const Fine_spectrum& f : c.fine)
+    fact("Reference eigenpairs, " + f.mass + " mass", std::to_string(f.values.size()) + " in " +
+                                                          formatted(f.seconds) + " s, largest residual " +
+                                                          formatted(f.largest_residual));
+  fact("Distances", std::to_string(c.sources) + " sources, seed " + std::to_string(c.seed));
+  fact("Threads for the spectral costs", std::to_string(c.threads));
+  fact("CGAL, compiler", escaped(c.cgal_version) + ", " + escaped(c.compiler));
+  fact("Command", "<code>" + escaped(c.command) + "</code>");
+  return html + "</table>\n";
+}
+
+inline const char* explanation()
+{
+  return "<ul>\n"
+         "<li><b>C</b> = Φ̃ᵀ M̃ P Φ maps the coefficients of a function on the fine mesh to those of its "
+         "restriction. "
+         "|C|<sub>L</sub> = |CΛ − Λ̃C| / |C| (unit: that of the eigenvalues) and |C|<sub>D</sub> = |CᵀC − I| "
+         "(no unit), "
+         "Frobenius norms, not squared; both are 0 if and only if the eigenpairs are kept exactly. Meshes "
+         "are scaled "
+         "to unit area each; <i>input scale</i> is without that.</li>\n"
+         "<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none, "
+         "that of "
+         "the closest points of the fine surface. <i>closest P</i> is the latter for all.</li>\n"
+         "<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations. Compare within one. "
+         "<i>metric</i> is the "
+         "mass that the simplifier itself works with, the heading names the one that it is judged in.</li>\n"
+         "<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged "
+         "at the "
+         "cut, not lost.</li>\n"
+         "<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on "
+         "equilateral "
+         "triangles that only sample the surface. A mesh that fits the spectrum on purpose can be "
+         "below.</li>\n"
+         "<li><b>Distances</b> (squared, but for the wave kernel's) and signatures: Σ M̃ |coarse − P fine| / "
+         "Σ M̃ |P fine|, "
+         "mean over the sources, times or energies; times and energies are those of the fine mesh.</li>\n"
+         "<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed "
+         "once for all "
+         "sizes. Remeshing is timed at the edge length that was found, without the search.</li>\n"
+         "<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral. "
+         "<b>Self-intersections</b> "
+         "counts pairs of triangles. Bold: the smallest of its column and size.</li>\n"
+         "</ul>\n";
+}
+
+} // namespace html_internal
+
+// The page.
+inline std::string html_report(const Comparison& c)
+{
+  using namespace html_internal;
+  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+                     "<meta name='viewport' content='width=device-width'><title>" +
+                     escaped(c.mesh) + " – spectral comparison</title>\n<style>" + style() +
+                     "</style></head><body>\n";
+  html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n";
+  html += facts(c);
+  for(const std::string& note : all_notes(c))
+    html += "<p class='note'>" + escaped(note) + "</p>\n";
+  for(const Fine_spectrum& f : c.fine) {
+    html += "<h2>Judged in the " + escaped(f.mass) + " mass</h2>\n" + spectrum_tables(c, f.mass);
+    html += "<h3>Norms (dashed: ideal linear elements)</h3>\n" + norm_bars(c, f.mass);
+    html += "<h3>Functional maps</h3>\n" + functional_maps(c, f.mass);
+    html += "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) + eigenvalue_plots(c, f);
+    if(sizes(c).size() > 1)
+      html += "<h3>Norms over output size and over K/N</h3>\n" + legend(c, true) + size_plots(c, f.mass);
+  }
+  html += "<h2>Time and shape</h2>\n" + shape_table(c);
+  if(sizes(c).size() > 1)
+    html += legend(c, true) + time_plot(c);
+  html += "<h2>How to read this page</h2>\n" + std::string(explanation());
+  return html + "</body></html>\n";
+}
+
+#endif // SPECTRAL_EXAMPLES_REPORT_HTML_REPORT_H

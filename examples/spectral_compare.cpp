@@ -1,0 +1,388 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Compares every simplifier on one mesh, or judges anybody's result; --help shows the options.
+
+#include "compare/coarse_mesh.h"
+#include "compare/coloured_mesh.h"
+#include "compare/compare_arguments.h"
+#include "compare/evaluation.h"
+#include "compare/shape_measures.h"
+#include "io/Progress_bar.h"
+#include "io/matrix_io.h"
+#include "io/matrix_market_reader.h"
+#include "io/mesh_io.h"
+#include "io/output_files.h"
+#include "report/comparison_json.h"
+#include "report/comparison_table.h"
+#include "report/html_report.h"
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/version_macros.h>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SG = CGAL::Spectral_geometry;
+
+// Set by Ctrl-C. The loops and callbacks look at it, so that the program ends by its own way and leaves no
+// file behind.
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void interrupt(int)
+{
+  interrupted = 1;
+}
+
+namespace {
+
+void stop_if_interrupted()
+{
+  if(interrupted)
+    throw SG::Cancelled();
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// One run of the program: the fine mesh, the references in each mass, and what was found.
+class Run
+{
+public:
+  explicit Run(const Compare_arguments& arguments, const std::string& command)
+    : m_arguments(arguments)
+    , m_bar(!arguments.quiet)
+    , m_fine(read_mesh(arguments.fine))
+  {
+    m_comparison.command = command;
+    for(const std::string& path : {m_arguments.report, m_arguments.json})
+      if(!path.empty())
+        m_files.add(path);
+    if(!m_arguments.coloured.empty())
+      m_files.add_folder(m_arguments.coloured);
+  }
+
+  void run()
+  {
+    if(m_arguments.judges_others()) {
+      make_references();
+      judge_other();
+    } else {
+      const std::vector<std::size_t> sizes = target_sizes(m_arguments, m_fine.number_of_vertices());
+      make_references();
+      compare(sizes);
+    }
+    m_bar.clear();
+    write();
+  }
+
+private:
+  std::function<bool(double)> progress(const std::string& phase)
+  {
+    return [this, phase](double fraction) {
+      m_bar.show(phase, fraction);
+      return !interrupted;
+    };
+  }
+
+  void describe()
+  {
+    Comparison& c = m_comparison;
+    c.program = "spectral_compare";
+    c.mesh = std::filesystem::path(m_arguments.fine).filename().string();
+    c.vertices = m_fine.number_of_vertices();
+    c.faces = m_fine.number_of_faces();
+    c.diagonal = box_diagonal(m_fine);
+    c.closed = CGAL::is_closed(m_fine);
+    c.components = number_of_components(m_fine);
+    c.K = m_arguments.eigenvectors;
+    c.sources = static_cast<std::size_t>(m_arguments.sources);
+    c.seed = static_cast<unsigned>(m_arguments.seed);
+    c.threads = m_arguments.threads;
+    c.cgal_version = CGAL_VERSION_STR;
+#if defined(__clang__)
+    c.compiler = "Clang " __clang_version__;
+#elif defined(__GNUC__)
+    c.compiler = "GCC " __VERSION__;
+#endif
+  }
+
+  void make_references()
+  {
+    describe();
+    const Eigen::Index n = static_cast<Eigen::Index>(m_fine.number_of_vertices()),
+                       K = m_arguments.eigenvectors;
+    if(K >= n)
+      throw std::runtime_error("--eigenvectors is " + std::to_string(K) + ", it must be below " +
+                               std::to_string(n) + ": that is how many vertices '" + m_arguments.fine +
+                               "' has.");
+    m_matrices = SG::mesh_matrices(m_fine);
+    std::vector<Eigen::Index> sources;
+    std::mt19937 random(static_cast<unsigned>(m_arguments.seed)); // its modulo is the same everywhere
+    for(long s = 0; s < m_arguments.sources; ++s)
+      sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(n)));
+    for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
+      if(m_arguments.masses.find(SG::mass_name(mass)) == std::string::npos)
+        continue;
+      const auto begin = std::chrono::steady_clock::now();
+      Fine_reference r = fine_reference(m_matrices, mass, K, sources, progress("reference"));
+      m_comparison.area = r.op.mass.sum();
+      m_comparison.fine.push_back(
+          {r.mass, m_comparison.area * r.pairs.values, seconds_since(begin), r.pairs.residuals.maxCoeff()});
+      m_references.push_back(std::move(r));
+      m_masses.push_back(mass);
+    }
+  }
+
+  void compare(const std::vector<std::size_t>& sizes)
+  {
+    std::vector<Basis> bases;
+    for(const SG::Mass mass : m_masses) {
+      m_bar.show("basis", 0.);
+      stop_if_interrupted();
+      bases.push_back(spectral_basis(m_fine, m_arguments.eigenvectors, mass));
+    }
+    std::vector<Simplifier> simplifiers = collapse_simplifiers(bases, m_arguments.threads);
+    for(Simplifier& s : remeshers(m_fine, m_comparison.notes))
+      simplifiers.push_back(std::move(s));
+    std::size_t done = 0;
+    for(const std::size_t N : sizes)
+      for(const Simplifier& s : simplifiers) {
+        m_bar.show("comparison",
+                   static_cast<double>(done++) / static_cast<double>(sizes.size() * simplifiers.size()));
+        stop_if_interrupted();
+        if(s.name.find(m_arguments.only) != std::string::npos)
+          try_simplifier(s, N);
+      }
+    if(m_comparison.results.empty())
+      throw std::runtime_error("no simplifier has '" + m_arguments.only +
+                               "' in its name and can simplify this mesh.");
+  }
+
+  // A simplifier that fails does not end the comparison.
+  void try_simplifier(const Simplifier& s, std::size_t N)
+  {
+    Simplified row;
+    row.simplifier = s.name;
+    row.placement = s.placement;
+    row.metric_mass = s.metric_mass;
+    row.requested_vertices = N;
+    row.seconds_eigenpairs = s.seconds_eigenpairs;
+    try {
+      const Coarse_mesh coarse = s.run(m_fine, N);
+      row.seconds = coarse.seconds;
+      row.note = coarse.note;
+      judge_mesh(coarse, row);
+      m_comparison.results.push_back(row);
+    } catch(const SG::Cancelled&) {
+      throw;
+    } catch(const std::bad_alloc&) {
+      throw;
+    } catch(const std::exception& error) {
+      m_comparison.notes.push_back(row.name() + ", N = " + std::to_string(N) +
+                                   ", is missing: " + error.what());
+    }
+  }
+
+  void judge_mesh(const Coarse_mesh& coarse, Simplified& row)
+  {
+    row.vertices = coarse.mesh.number_of_vertices();
+    row.faces = coarse.mesh.number_of_faces();
+    const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
+    Coarse_candidate candidate;
+    candidate.carried = coarse.carried;
+    candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
+    row.shape = shape_measures(m_fine, coarse.mesh);
+    for(const Fine_reference& reference : m_references) {
+      candidate.op = SG::laplace_operator(matrices.V, matrices.T, reference.op.theta);
+      Judged judged = judge(reference, candidate, [](double) { return !interrupted; });
+      if(!m_arguments.coloured.empty() && &reference == &m_references.front())
+        write_coloured(coarse.mesh, candidate, judged, row);
+      row.judgements.push_back(std::move(judged.judgement));
+    }
+  }
+
+  Eigen::SparseMatrix<double> given_restriction(Eigen::Index rows) const
+  {
+    Eigen::SparseMatrix<double> P = read_matrix_market(m_arguments.restriction);
+    const Eigen::Index n = static_cast<Eigen::Index>(m_fine.number_of_vertices());
+    if(P.rows() != rows || P.cols() != n)
+      throw std::runtime_error("'" + m_arguments.restriction + "' is " + std::to_string(P.rows()) + " x " +
+                               std::to_string(P.cols()) + " where " + std::to_string(rows) + " x " +
+                               std::to_string(n) + " is needed, coarse x fine.");
+    if(P.nonZeros() == 0)
+      throw std::runtime_error("'" + m_arguments.restriction + "' holds nothing but zeros.");
+    return P;
+  }
+
+  void judge_other()
+  {
+    Simplified row;
+    if(m_arguments.operator_file.empty()) {
+      Coarse_mesh coarse;
+      coarse.mesh = read_mesh(m_arguments.coarse);
+      row.simplifier = std::filesystem::path(m_arguments.coarse).filename().string();
+      row.requested_vertices = coarse.mesh.number_of_vertices();
+      if(!m_arguments.restriction.empty())
+        coarse.carried = given_restriction(static_cast<Eigen::Index>(row.requested_vertices));
+      judge_mesh(coarse, row);
+    } else
+      judge_operator(row);
+    m_comparison.results.push_back(std::move(row));
+  }
+
+  void judge_operator(Simplified& row)
+  {
+    Coarse_candidate candidate;
+    candidate.op = given_operator();
+    candidate.carried = given_restriction(candidate.op.L.rows());
+    row.simplifier = std::filesystem::path(m_arguments.operator_file).filename().string();
+    row.requested_vertices = row.vertices = static_cast<std::size_t>(candidate.op.L.rows());
+    // Symmetric matrices, as in appendix D of the paper: half of L and M with its indices.
+    const double n = static_cast<double>(row.vertices);
+    row.shape.bytes_per_vertex = 12 * (static_cast<double>(candidate.op.L.nonZeros()) + n) / 2 / n +
+                                 (candidate.op.B.nonZeros() == candidate.op.B.rows()
+                                      ? 8.
+                                      : 12 * (static_cast<double>(candidate.op.B.nonZeros()) + n) / 2 / n);
+    for(const Fine_reference& reference : m_references) {
+      candidate.op.theta = reference.op.theta;
+      row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
+    }
+    m_comparison.notes.push_back(
+        "The coarse operator has the mass matrix that it came with, whichever mass it is judged "
+        "in; the fine mesh has that of the heading.");
+  }
+
+  SG::Laplace_operator given_operator() const
+  {
+    SG::Laplace_operator op;
+    op.L = read_matrix_market(m_arguments.operator_file);
+    op.B = read_matrix_market(m_arguments.mass_file);
+    const auto refuse = [](const std::string& path, const std::string& why) {
+      throw std::runtime_error("'" + path + "' " + why);
+    };
+    if(op.L.rows() != op.L.cols())
+      refuse(m_arguments.operator_file, "is not square.");
+    if(op.B.rows() != op.L.rows() || op.B.cols() != op.L.cols())
+      refuse(m_arguments.mass_file, "must have the size of the operator.");
+    for(const auto* matrix : {&op.L, &op.B}) {
+      const Eigen::SparseMatrix<double> skew = *matrix - Eigen::SparseMatrix<double>(matrix->transpose());
+      if(skew.norm() > 1e-9 * matrix->norm())
+        refuse(matrix == &op.L ? m_arguments.operator_file : m_arguments.mass_file, "is not symmetric.");
+    }
+    if(op.L.diagonal().sum() < 0)
+      refuse(m_arguments.operator_file,
+             "is negative: pass the positive semidefinite Laplacian, that times -1.");
+    op.mass = op.B * Eigen::VectorXd::Ones(op.B.cols());
+    if(!(op.mass.minCoeff() > 0))
+      refuse(m_arguments.mass_file, "has a row whose sum is not positive.");
+    return op;
+  }
+
+  // Fine and coarse share times and scales, and the coarse modes are aligned with the fine ones.
+  void write_coloured(const Mesh& mesh, const Coarse_candidate& candidate, const Judged& judged,
+                      const Simplified& row)
+  {
+    const Fine_reference& reference = m_references.front();
+    const auto [fine, coarse] = paired_sources({reference.sources.front()}, candidate.restriction());
+    SG::Eigenpairs fine_pairs;
+    fine_pairs.values = reference.pairs.values.head(reference.K);
+    fine_pairs.vectors = reference.pairs.vectors.leftCols(reference.K);
+    if(!m_colours_known) {
+      m_colours_known = true;
+      m_colours.hks_time = SG::heat_kernel_times(fine_pairs, 3)(1);
+      m_colours.largest_distance =
+          std::sqrt(SG::squared_biharmonic_distance(fine_pairs, reference.sources.front()).maxCoeff());
+      write_one_coloured("fine", m_fine, vertex_functions(fine_pairs, reference.sources.front(), m_colours));
+    }
+    write_one_coloured(row.name() + " " + std::to_string(row.requested_vertices), mesh,
+                       vertex_functions(judged.aligned, coarse.front(), m_colours));
+  }
+
+  void write_one_coloured(const std::string& name, const Mesh& mesh, const Vertex_functions& functions)
+  {
+    std::string file;
+    for(const char c : name)
+      if(std::isalnum(static_cast<unsigned char>(c)))
+        file += c;
+      else if(!file.empty() && file.back() != '_')
+        file += '_';
+    const std::string path = m_arguments.coloured + "/" + file + ".ply";
+    m_files.add(path);
+    write_coloured_ply(m_files.temporary(path), mesh, functions, path);
+  }
+
+  void write_text(const std::string& path, const std::string& text)
+  {
+    if(path.empty())
+      return;
+    std::ofstream stream(m_files.temporary(path), std::ios::binary);
+    stream << text;
+    finish_writing(stream, path);
+  }
+
+  void write()
+  {
+    if(!m_arguments.json.empty())
+      write_text(m_arguments.json, to_json(m_comparison).dump(1) + "\n");
+    if(!m_arguments.report.empty())
+      write_text(m_arguments.report, html_report(m_comparison));
+    stop_if_interrupted();
+    m_files.commit();
+    if(!m_arguments.quiet)
+      print_comparison(m_comparison);
+  }
+
+  Compare_arguments m_arguments;
+  Output_files m_files;
+  Progress_bar m_bar;
+  Mesh m_fine;
+  SG::Mesh_matrices m_matrices;
+  std::vector<SG::Mass> m_masses;
+  std::vector<Fine_reference> m_references;
+  Comparison m_comparison;
+  Colour_scale m_colours;
+  bool m_colours_known = false;
+};
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  try {
+    const Compare_arguments arguments = parse_compare_arguments(argc, argv);
+    std::string command = "spectral_compare";
+    for(int i = 1; i < argc; ++i)
+      command += std::string(" ") + argv[i];
+    if(!arguments.help.empty())
+      std::cout << arguments.help;
+    else
+      Run(arguments, command).run();
+    return 0;
+  } catch(const SG::Cancelled&) {
+    std::cerr << "spectral_compare: interrupted, nothing was written.\n";
+    return 130;
+  } catch(const std::bad_alloc&) {
+    std::cerr
+        << "spectral_compare: the memory does not suffice for this mesh and this number of eigenvectors.\n";
+  } catch(const std::exception& error) {
+    std::cerr << "spectral_compare: " << error.what() << '\n';
+  }
+  return 1;
+}

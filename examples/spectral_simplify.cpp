@@ -1,0 +1,232 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Simplifies a mesh from the command line and says how well its spectrum was kept; --help shows the options.
+
+#include "io/Progress_bar.h"
+#include "io/matrix_io.h"
+#include "io/mesh_io.h"
+#include "io/output_files.h"
+#include "spectral_simplify_arguments.h"
+#include "spectral_simplify_report.h"
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+// Set by Ctrl-C. The callbacks look at it, so that the program ends by its own way and leaves no file behind.
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void interrupt(int)
+{
+  interrupted = 1;
+}
+
+// The files of --eigenpairs.
+constexpr const char* eigenpairs_files[] = {
+    "fine_eigenvalues.npy", "fine_eigenvectors.npy",  "fine_L.mtx",
+    "fine_mass.mtx",        "coarse_eigenvalues.npy", "coarse_eigenvectors.npy",
+    "coarse_L.mtx",         "coarse_mass.mtx",        "C.npy"};
+
+// Makes room for every output, so that what cannot be written is known before the work.
+void announce(Output_files& files, const Arguments& a)
+{
+  for(const std::string& path : {a.output, a.restriction, a.prolongation, a.map, a.json}) {
+    if(!path.empty())
+      files.add(path);
+  }
+  if(!a.eigenpairs.empty()) {
+    files.add_folder(a.eigenpairs);
+    for(const std::string name : eigenpairs_files)
+      files.add(a.eigenpairs + "/" + name);
+  }
+}
+
+// Both meshes as matrices, as far as the outputs need them.
+struct Both_meshes
+{
+  SG::Mesh_matrices fine, coarse;
+  SG::Laplace_operator fine_operator, coarse_operator;
+  SG::Eigenpairs coarse_pairs;
+};
+
+const char* phase_name(SMS::Spectral_phase phase)
+{
+  switch(phase) {
+  case SMS::Spectral_phase::pre_simplification:
+    return "preparation";
+  case SMS::Spectral_phase::eigenpairs:
+    return "eigenpairs";
+  case SMS::Spectral_phase::first_costs:
+    return "first costs";
+  case SMS::Spectral_phase::collapses:
+    break;
+  }
+  return "collapses";
+}
+
+SMS::Spectral_options spectral_options(const Arguments& a, Progress_bar& bar)
+{
+  SMS::Spectral_options options;
+  options.number_of_eigenvectors = a.eigenvectors;
+  options.placement = a.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
+                                                : SMS::Spectral_placement_strategy::on_edge;
+  options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  options.binary = a.binary;
+  options.preserve_border = a.preserve_border;
+  options.threads = a.threads;
+  options.progress = [&bar](const SMS::Spectral_progress& progress) {
+    bar.show(phase_name(progress.phase), progress.fraction);
+    return !interrupted;
+  };
+  return options;
+}
+
+// Compares the spectra; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
+SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
+                                 const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
+{
+  const Eigen::Index K = result.eigenpairs->size(), N = meshes.coarse.V.rows();
+  meshes.fine_operator = SG::laplace_operator(meshes.fine.V, meshes.fine.T, SG::mass_blend(mass));
+  meshes.coarse_operator = SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, SG::mass_blend(mass));
+  SG::Eigenpairs_options options;
+  options.progress = [&bar](double fraction) {
+    bar.show("evaluation", fraction);
+    return !interrupted;
+  };
+  meshes.coarse_pairs = SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
+  return SG::evaluate_spectrum(meshes.fine_operator, *result.eigenpairs, meshes.coarse_operator,
+                               meshes.coarse_pairs, result.restriction, K);
+}
+
+// Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors holds between the files.
+void write_eigenpairs(const Output_files& files, const std::string& folder, const Both_meshes& meshes,
+                      const SMS::Spectral_edge_collapse_result& result)
+{
+  const auto npy = [&](const std::string& name, const auto& matrix) {
+    const std::string path = folder + "/" + name + ".npy";
+    write_npy(files.temporary(path), matrix, path);
+  };
+  const auto mtx = [&](const std::string& name, const Eigen::SparseMatrix<double>& matrix) {
+    const std::string path = folder + "/" + name + ".mtx";
+    write_matrix_market(files.temporary(path), matrix, path);
+  };
+  const SG::Eigenpairs& fine = *result.eigenpairs;
+  const Eigen::MatrixXd coarse_vectors = meshes.coarse_pairs.vectors.leftCols(fine.size());
+  const Eigen::VectorXd coarse_values = meshes.coarse_pairs.values.head(fine.size());
+  npy("fine_eigenvalues", fine.values);
+  npy("fine_eigenvectors", fine.vectors);
+  npy("coarse_eigenvalues", coarse_values);
+  npy("coarse_eigenvectors", coarse_vectors);
+  npy("C", SG::functional_map(coarse_vectors, meshes.coarse_operator.B, result.restriction, fine.vectors));
+  mtx("fine_L", meshes.fine_operator.L);
+  mtx("fine_mass", meshes.fine_operator.B);
+  mtx("coarse_L", meshes.coarse_operator.L);
+  mtx("coarse_mass", meshes.coarse_operator.B);
+}
+
+void write_outputs(const Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
+                   const Simplification_report& report)
+{
+  write_mesh(files.temporary(a.output), mesh, a.output);
+  if(!a.restriction.empty())
+    write_matrix_market(files.temporary(a.restriction), report.result.restriction, a.restriction);
+  if(!a.prolongation.empty())
+    write_matrix_market(files.temporary(a.prolongation),
+                        SG::closest_point_interpolation(meshes.fine.V, meshes.coarse), a.prolongation);
+  if(!a.map.empty())
+    write_indices(files.temporary(a.map), report.result.vertex_map, a.map);
+  if(!a.eigenpairs.empty())
+    write_eigenpairs(files, a.eigenpairs, meshes, report.result);
+  if(!a.json.empty()) {
+    std::ofstream stream(files.temporary(a.json));
+    stream << to_json(report).dump(2) << '\n';
+    finish_writing(stream, a.json);
+  }
+}
+
+void run(const Arguments& a)
+{
+  Mesh mesh = read_mesh(a.input);
+  const std::size_t target = checked_target(a, num_vertices(mesh));
+  Output_files files;
+  announce(files, a);
+
+  Both_meshes meshes;
+  if(!a.no_evaluation || !a.prolongation.empty())
+    meshes.fine = SG::mesh_matrices(mesh);
+
+  Progress_bar bar(!a.quiet);
+  const SMS::Spectral_options options = spectral_options(a, bar);
+  Simplification_report report;
+  report.result = SMS::spectral_edge_collapse(mesh, target, options);
+  const auto& result = report.result;
+  if(interrupted)
+    throw SG::Cancelled();
+
+  report.input = a.input;
+  report.output = a.output;
+  report.placement = a.placement;
+  report.mass = a.mass;
+  report.binary = a.binary;
+  report.number_of_eigenvectors = a.eigenvectors;
+  meshes.coarse = SG::mesh_matrices(mesh);
+  if(!a.no_evaluation) {
+    const auto begin = std::chrono::steady_clock::now();
+    report.evaluation = evaluate(meshes, options.mass, result, bar);
+    report.seconds_evaluation =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  }
+  bar.clear();
+
+  write_outputs(files, a, mesh, meshes, report);
+  if(interrupted)
+    throw SG::Cancelled();
+  files.commit();
+
+  if(!a.quiet) {
+    for(const std::string& warning : result.warnings)
+      std::cerr << "spectral_simplify: warning: " << warning << '\n';
+    print_table(report);
+  }
+  if(!result.explanation.empty())
+    std::cerr << "spectral_simplify: warning: " << result.explanation << '\n';
+}
+
+int main(int argc, char* argv[])
+{
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  try {
+    const Arguments arguments = parse_arguments(argc, argv);
+    if(!arguments.help.empty())
+      std::cout << arguments.help;
+    else
+      run(arguments);
+    return 0;
+  } catch(const SG::Cancelled&) {
+    std::cerr << "spectral_simplify: interrupted, nothing was written.\n";
+    return 130;
+  } catch(const std::bad_alloc&) {
+    std::cerr
+        << "spectral_simplify: the memory does not suffice for this mesh and this number of eigenvectors.\n";
+  } catch(const std::exception& error) {
+    std::cerr << "spectral_simplify: " << error.what() << '\n';
+  }
+  return 1;
+}

@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H
+#define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H
+
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+// What spectral_simplify says about a run: a table for people, JSON for programs.
+
+struct Simplification_report
+{
+  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result result;
+  std::optional<CGAL::Spectral_geometry::Spectral_evaluation> evaluation;
+  double seconds_evaluation = 0;
+
+  std::string input, output, placement, mass;
+  bool binary = false;
+  Eigen::Index number_of_eigenvectors = 0;
+};
+
+// `floor`: what good linear elements of the same number have; 0 when no estimate is known.
+inline void print_norm(const char* name, double norm, double floor)
+{
+  std::printf("  %-25s %8.2f", name, norm);
+  if(floor > 0)
+    std::printf("   (ideal linear elements: about %.2f)", floor);
+  std::printf("\n");
+}
+
+inline void print_table(const Simplification_report& r)
+{
+  std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", r.input.c_str(), r.result.input_vertices,
+              r.output.c_str(), r.result.output_vertices, r.result.stop_reason_name());
+  if(r.evaluation) {
+    const auto& e = *r.evaluation;
+    std::printf("  %d eigenvectors, %s mass, unit area\n", static_cast<int>(e.judged_modes), e.mass.c_str());
+    print_norm("|C|_L", e.norm_L, e.floor_norm_L);
+    print_norm("|C|_D", e.norm_D, e.floor_norm_D);
+    if(e.errors.modes > 0) {
+      std::printf("  eigenvalue error, mean    %8.2f %%\n", 100 * e.errors.mean);
+      std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
+    }
+    std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
+  }
+  std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
+  std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
+  std::printf("  total                     %8.2f s\n", r.result.seconds_total);
+  if(r.evaluation)
+    std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
+}
+
+// Numbers that were not computed are null.
+inline nlohmann::json to_json(const Simplification_report& r)
+{
+  const auto number = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(); };
+  nlohmann::json json = {{"input_vertices", r.result.input_vertices},
+                         {"output_vertices", r.result.output_vertices},
+                         {"eigenvectors", r.number_of_eigenvectors},
+                         {"mass", r.mass},
+                         {"placement", r.placement},
+                         {"binary", r.binary},
+                         {"relative_error", number(r.result.relative_error)},
+                         {"seconds_eigenpairs", r.result.seconds_eigenpairs},
+                         {"seconds_collapse", r.result.seconds_collapse},
+                         {"seconds_total", r.result.seconds_total},
+                         {"stop_reason", r.result.stop_reason_name()}};
+  for(const char* name :
+      {"norm_L", "norm_D", "norm_L_input_scale", "norm_D_extended", "floor_norm_L", "floor_norm_D",
+       "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio", "seconds_evaluation"})
+    json[name] = nullptr;
+  if(r.evaluation) {
+    const auto& e = *r.evaluation;
+    json["norm_L"] = number(e.norm_L);
+    json["norm_D"] = number(e.norm_D);
+    json["norm_L_input_scale"] = number(e.norm_L_input_scale);
+    json["norm_D_extended"] = number(e.norm_D_extended);
+    json["floor_norm_L"] = number(e.floor_norm_L);
+    json["floor_norm_D"] = number(e.floor_norm_D);
+    json["eigenvalue_error_mean"] = number(e.errors.mean);
+    json["eigenvalue_error_max"] = number(e.errors.max);
+    json["area_ratio"] = number(e.area_ratio);
+    json["seconds_evaluation"] = r.seconds_evaluation;
+  }
+  return json;
+}
+
+#endif // SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H

@@ -1,0 +1,225 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# cli_test.sh SPECTRAL_SIMPLIFY CHECK_OUTPUTS SHAPE FOLDER
+#
+# The command line: what it writes, and what it says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is
+# emptied and used.
+
+set -u
+program=$1
+check=$2
+shape=$3
+folder=$4
+failures=0
+
+rm -rf "$folder" "$folder/../messages"
+mkdir -p "$folder" && cd "$folder" || exit 1
+cp "$shape" shape.off
+
+fail()
+{
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# runs NAME ARGUMENTS...: the program succeeds and says nothing on standard error.
+runs()
+{
+  name=$1
+  shift
+  "$program" "$@" >said 2>complained || { fail "$name: $(cat complained)"; return; }
+  [ ! -s complained ] || fail "$name: it complained: $(cat complained)"
+}
+
+# refuses NAME PATTERN ARGUMENTS...: the program ends with an error of one sentence that holds PATTERN, prints nothing
+# else and leaves the folder as it was.
+refuses()
+{
+  name=$1
+  pattern=$2
+  shift 2
+  rm -f said complained
+  before=$(find . -type f -exec cksum {} + | sort; find . | sort)
+  "$program" "$@" >../said 2>../complained
+  status=$?
+  after=$(find . -type f -exec cksum {} + | sort; find . | sort)
+  message=$(cat ../complained)
+  [ "$status" -ne 0 ] || fail "$name: the exit status is 0"
+  [ ! -s ../said ] || fail "$name: it printed $(cat ../said)"
+  [ "$(wc -l <../complained)" -eq 1 ] || fail "$name: not one line: $message"
+  echo "$message" >>../messages
+  case "$message" in
+    "spectral_simplify: "*.) ;;
+    *) fail "$name: not a sentence: $message" ;;
+  esac
+  printf '%s' "$message" | grep -q -e "$pattern" || fail "$name: '$pattern' is not in: $message"
+  [ "$before" = "$after" ] || fail "$name: the folder has changed"
+}
+
+# --- what it writes ---------------------------------------------------------------------------------------------------
+
+all="--restriction P.mtx --prolongation Q.mtx --map map.txt --eigenpairs pairs --json out.json"
+for variant in "" "--mass averaged" "--placement midpoint" "--binary" "--preserve-border --threads 1"; do
+  runs "simplification $variant" shape.off coarse.off --vertices 250 --eigenvectors 25 $all $variant
+  "$check" . shape.off coarse.off || fail "outputs of '$variant'"
+  grep -q '|C|_L' said || fail "no table with '$variant'"
+done
+
+runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
+runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
+cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"
+
+previous=shape.off
+for format in obj ply stl off; do
+  runs "to $format" "$previous" "copy.$format" --ratio 1 --eigenvectors 5
+  previous=copy.$format
+done
+grep -q '^OFF' copy.off || fail "copy.off is not an OFF file"
+
+runs "quiet" shape.off quiet.off --vertices 200 --eigenvectors 20 --quiet
+[ ! -s said ] || fail "--quiet printed $(cat said)"
+
+cp shape.off place.off
+runs "in place" place.off place.off --vertices 200 --eigenvectors 20
+cmp -s place.off quiet.off || fail "in place gives another mesh"
+
+runs "as many eigenvectors as vertices" shape.off few.off --vertices 30 --eigenvectors 30 --quiet
+runs "more eigenvectors than vertices" shape.off few.off --vertices 20 --eigenvectors 30 --no-evaluation --quiet
+runs "without evaluation" shape.off few.off --vertices 200 --eigenvectors 30 --no-evaluation --json none.json
+grep -q '"norm_L": null' none.json || fail "without evaluation norm_L is not null"
+"$program" --help | grep -q -e '--preserve-border' || fail "--help does not name --preserve-border"
+
+# Two tetrahedra cannot be reduced to five vertices.
+cat >tetrahedra.off <<END
+OFF
+8 8 0
+0 0 0
+1 0 0
+0 1 0
+0 0 1
+5 0 0
+6 0 0
+5 1 0
+5 0 1
+3 0 2 1
+3 0 1 3
+3 0 3 2
+3 1 2 3
+3 4 6 5
+3 4 5 7
+3 4 7 6
+3 5 6 7
+END
+"$program" tetrahedra.off stuck.off --vertices 5 --eigenvectors 2 --json stuck.json >said 2>complained ||
+  fail "a mesh that cannot be reduced: $(cat complained)"
+grep -q '2 components' complained || fail "it does not say why the mesh cannot be reduced: $(cat complained)"
+grep -q 'no collapsible edge left' stuck.json || fail "the stop reason is not in $(cat stuck.json)"
+
+# --- the command line itself ------------------------------------------------------------------------------------------
+
+refuses "no arguments" "INPUT and OUTPUT"
+refuses "no output" "INPUT and OUTPUT" shape.off --vertices 100
+refuses "three files" "more arguments" shape.off a.off b.off --vertices 100
+refuses "unknown option" "sideways" shape.off out.off --vertices 100 --sideways
+refuses "no target" "how far" shape.off out.off
+refuses "two targets" "both" shape.off out.off --vertices 100 --ratio 0.5
+refuses "a target that is no number" "many" shape.off out.off --vertices many
+refuses "unknown placement" "--placement is 'free'" shape.off out.off --vertices 100 --placement free
+refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
+refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
+refuses "pairs without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --eigenpairs d
+refuses "unknown output format" "'out.xyz' is unknown" shape.off out.xyz --vertices 200
+refuses "unknown input format" "'shape' is unknown" shape out.off --vertices 200
+refuses "matrices of an STL file" "STL" shape.off out.stl --vertices 200 --restriction new.mtx
+
+# --- numbers that do not suit the mesh --------------------------------------------------------------------------------
+
+n=$(sed -n '2s/ .*//p' shape.off)
+refuses "N too large" "has $n vertices" shape.off out.off --vertices 1000000
+refuses "N just too large" "has $n vertices" shape.off out.off --vertices $((n + 1))
+refuses "N zero" "--vertices is 0" shape.off out.off --vertices 0
+refuses "N negative" "--vertices is -5" shape.off out.off --vertices -5
+refuses "N huge" "99999999999999999999" shape.off out.off --vertices 99999999999999999999
+refuses "ratio zero" "--ratio is 0" shape.off out.off --ratio 0
+refuses "ratio above 1" "--ratio is 1.5" shape.off out.off --ratio 1.5
+refuses "ratio not a number" "--ratio" shape.off out.off --ratio nan
+refuses "K zero" "--eigenvectors is 0" shape.off out.off --vertices 300 --eigenvectors 0
+refuses "K negative" "--eigenvectors is -1" shape.off out.off --vertices 300 --eigenvectors -1
+refuses "K as large as the mesh" "below $n" shape.off out.off --vertices "$n" --eigenvectors "$n"
+refuses "K above N" "only 50 modes.*--no-evaluation" shape.off out.off --vertices 50 --eigenvectors 60
+
+# --- meshes that cannot be used ---------------------------------------------------------------------------------------
+
+refuses "missing file" "No such file" missing.off out.off --vertices 100
+mkdir folder.off
+refuses "a folder" "folder" folder.off out.off --vertices 100
+
+bad()
+{
+  file=$1
+  pattern=$2
+  cat >"$file"
+  refuses "$file" "$pattern" "$file" out.off --vertices 3 --eigenvectors 2
+}
+printf '' | bad empty.off "not a valid off file"
+echo "this is no mesh" | bad words.off "not a valid off file"
+echo "this is no mesh" | bad words.ply "not a valid ply file"
+echo "this is no mesh" | bad words.obj "not a valid obj file"
+echo "this is no mesh" | bad words.stl "not a valid stl file"
+for cut in 3 40 4000; do # in the last face, a few faces earlier, among the points
+  head -c "-$cut" one.ply | bad cut.ply "not a valid ply file"
+  head -c "-$cut" shape.off | bad cut.off "cut.off" # what is left of the last index may be valid
+  head -c "-$cut" copy.stl | bad cut.stl "not a valid stl file"
+done
+printf 'OFF\n999999999999 3 0\n0 0 0\n' | bad header.off "not a valid off file"
+printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | bad points.off "no faces"
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n3 1 2 4\n' |
+  bad quad.off "face 1 .* 4 vertices: triangulate"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | bad index.off "off"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n' | bad twice.off "face 1 .* twice"
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' | bad branch.off "faces 0 and 2"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 3 2\n3 0 1 2\n' | bad extra.off "off"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n' | bad double.off "faces 0 and 1"
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n' | bad bowtie.off "touch"
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | bad isolated.off "4"
+printf 'v 0 0 0\nv 1 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' | bad nan.obj "obj\\|finite"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | bad line.off "area\\|mass"
+
+# --- outputs that cannot be written -----------------------------------------------------------------------------------
+
+echo "precious" >precious.off
+mkdir full.json
+refuses "no such folder" "no folder" shape.off nowhere/out.off --vertices 200 --eigenvectors 20
+refuses "output is a folder" "not an ordinary file" shape.off folder.off --vertices 200 --eigenvectors 20
+refuses "output is a device" "not an ordinary file" shape.off out.off --json /dev/full --vertices 200 --eigenvectors 20
+refuses "JSON is a folder" "full.json" shape.off precious.off --json full.json --vertices 200 --eigenvectors 20
+refuses "matrix in no folder" "no folder" shape.off precious.off --restriction x/P.mtx --vertices 200 --eigenvectors 20
+refuses "pairs in no folder" "x/pairs" shape.off precious.off --eigenpairs x/pairs --vertices 200 --eigenvectors 20
+refuses "pairs in a file" "precious.off" shape.off new.off --eigenpairs precious.off --vertices 200 --eigenvectors 20
+refuses "one name twice" "same name" shape.off new.off --map ./new.off --vertices 200 --eigenvectors 20
+refuses "late failure" "no folder" shape.off precious.off --eigenpairs new --json x/y --vertices 200 --eigenvectors 20
+[ "$(cat precious.off)" = "precious" ] || fail "an existing output was damaged"
+[ ! -d /proc/self ] ||
+  refuses "no permission" "cannot write" shape.off /proc/out.off --vertices 200 --eigenvectors 20
+
+# --- an interrupted run -----------------------------------------------------------------------------------------------
+
+mkdir stopped
+"$program" shape.off stopped/out.off --vertices 4 --eigenvectors 500 --no-evaluation >said 2>complained &
+process=$!
+waited=0
+# Its unfinished output shows that the run has begun.
+while [ -z "$(ls -A stopped)" ] && [ "$waited" -lt 100 ]; do
+  sleep 0.1
+  waited=$((waited + 1))
+done
+kill -TERM "$process"
+wait "$process"
+[ $? -eq 130 ] || fail "an interrupted run does not end with status 130: $(cat complained)"
+[ -z "$(ls -A stopped)" ] || fail "an interrupted run left $(ls -A stopped)"
+
+[ -z "$(find . -name '.*.*')" ] || fail "unfinished files are left: $(find . -name '.*.*')"
+[ "$failures" -eq 0 ] || { echo "$failures failures"; exit 1; }

@@ -1,0 +1,128 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_TEST_COLLAPSE_HELPERS_H
+#define SPECTRAL_TEST_COLLAPSE_HELPERS_H
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include "spectral_test_helpers.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+// Runs of edge_collapse() on real mesh types, and the whole of what must hold after one.
+namespace spectral_test {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+inline Mesh make_mesh(const shapes::Matrices& from)
+{
+  Mesh mesh;
+  shapes::make_mesh(mesh, from);
+  return mesh;
+}
+
+inline SMS::Spectral_options options_with(const Eigen::Index K)
+{
+  SMS::Spectral_options options;
+  options.number_of_eigenvectors = K;
+  return options;
+}
+
+template <class Mesh, class Policies, class Visitor = SMS::internal::No_visitor>
+int collapse(Mesh& mesh, const Policies& policies, const std::size_t N, const Visitor& visitor = {})
+{
+  return SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, mesh),
+                            CGAL::parameters::get_cost(policies.get_cost())
+                                .get_placement(policies.get_placement())
+                                .visitor(policies.visitor(visitor))
+                                .vertex_point_map(policies.state().vertex_point_map())
+                                .geom_traits(policies.state().geom_traits()));
+}
+
+template <class Mesh>
+std::size_t count_vertices(const Mesh& mesh)
+{
+  std::size_t n = 0;
+  for(const auto v : vertices(mesh)) {
+    CGAL_USE(v);
+    ++n;
+  }
+  return n;
+}
+
+template <class Mesh>
+Eigen::MatrixXd positions(const Mesh& mesh)
+{
+  return SG::mesh_matrices(mesh).V;
+}
+
+// The input of a run, kept to judge its result.
+struct Input
+{
+  shapes::Matrices mesh;
+  Basis basis;
+};
+
+inline Input eigen_input(const shapes::Matrices& mesh, const SG::Mass mass, const SG::Eigenpairs& pairs)
+{
+  return {mesh, basis_of_pairs(SG::laplace_operator(mesh.V, mesh.T, SG::mass_blend(mass)), pairs)};
+}
+
+struct Check
+{
+  bool binary = false;
+  bool positions = true; // P V_fine = V_coarse: midpoint and on_edge without a wrapper
+  double tolerance = 1e-8;
+};
+
+// What is wrong with a mesh, its P and the E that was tracked; empty if nothing is.
+template <class Mesh, class Policies>
+std::string fault_of_run(const Mesh& mesh, const Policies& policies, const Input& input,
+                         const Check check = {})
+{
+  const auto vpm = CGAL::parameters::vertex_point_map(policies.state().vertex_point_map());
+  if(!CGAL::is_valid_polygon_mesh(mesh) || !CGAL::is_triangle_mesh(mesh))
+    return "the mesh is not a valid triangle mesh";
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh, vpm);
+  const Eigen::SparseMatrix<double> P = policies.restriction();
+  if(P.rows() != coarse.V.rows() || P.cols() != input.mesh.V.rows())
+    return "P is " + std::to_string(P.rows()) + " x " + std::to_string(P.cols());
+  const std::string fault = fault_of_restriction(P, policies.vertex_map(), check.binary);
+  if(!fault.empty())
+    return fault;
+  const double off = position_error(P, input.mesh.V, coarse.V);
+  if(check.positions && !(off < (check.binary ? 10. : 1e-3 * check.tolerance)))
+    return "P times the fine positions is off by " + std::to_string(off);
+
+  const Eigen::MatrixXd PF = P * input.basis.F;
+  const std::vector<Eigen::Index> slots = policies.state().current_slots();
+  double worst = 0;
+  for(std::size_t i = 0; i < slots.size(); ++i)
+    worst = (std::max)(
+        worst, (PF.row(Eigen::Index(i)) - policies.state().core().fields().F.row(slots[i]).head(PF.cols()))
+                   .cwiseAbs()
+                   .maxCoeff());
+  if(!(worst < 1e-10 * input.basis.F.cwiseAbs().maxCoeff()))
+    return "P F is off by " + std::to_string(worst);
+
+  const double E = energy(coarse, input.basis, P);
+  if(!(relative_difference(E, policies.error()) < check.tolerance))
+    return "E is " + std::to_string(E) + ", tracked as " + std::to_string(policies.error());
+  return "";
+}
+
+} // namespace spectral_test
+
+#endif // SPECTRAL_TEST_COLLAPSE_HELPERS_H

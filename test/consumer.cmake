@@ -1,0 +1,43 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# A project outside this tree: configured, built and run against an installed copy and by add_subdirectory.
+
+set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
+set(consumer_options -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+                     -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
+if(Spectra_DIR)
+  list(APPEND consumer_options -DSpectra_DIR=${Spectra_DIR})
+endif()
+if(SPECTRA_INCLUDE_DIR)
+  list(APPEND consumer_options -DSPECTRA_INCLUDE_DIR=${SPECTRA_INCLUDE_DIR})
+endif()
+
+# Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
+function(spectral_add_consumer_test name source options program)
+  add_test(NAME "${name}"
+           COMMAND ${CMAKE_CTEST_COMMAND}
+                   --build-and-test "${source}" "${CMAKE_CURRENT_BINARY_DIR}/${name}"
+                   --build-generator ${CMAKE_GENERATOR} --build-noclean --build-target ${program}
+                   --build-options ${consumer_options} ${options}
+                   --test-command ${program} ${ARGN})
+  set_tests_properties("${name}" PROPERTIES LABELS consumer TIMEOUT 1200)
+endfunction()
+
+add_test(NAME "install" COMMAND ${CMAKE_COMMAND} --install "${PROJECT_BINARY_DIR}" --prefix "${prefix}")
+set_tests_properties("install" PROPERTIES LABELS consumer FIXTURES_SETUP installed)
+
+spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
+                           "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer)
+spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
+                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR}" consumer)
+set_tests_properties("consumer-find-package" PROPERTIES FIXTURES_REQUIRED installed)
+
+# The examples' own CMakeLists.txt, outside of the project.
+if(TARGET make_demo_shape)
+  spectral_add_consumer_test("examples-find-package" "${PROJECT_SOURCE_DIR}/examples"
+                             "-DSpectral_mesh_simplification_ROOT=${prefix}" edge_collapse_spectral
+                             "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/installed-example.off" 400)
+  set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED "installed;shape")
+endif()

@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_TEST_CORE_HELPERS_H
+#define SPECTRAL_TEST_CORE_HELPERS_H
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
+
+#include "slow_mesh.h"
+#include "spectral_test_helpers.h"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <random>
+#include <utility>
+#include <vector>
+
+// Spectral_collapse_core side by side with a Slow_mesh.
+namespace spectral_test {
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+using Core = SMS::internal::Spectral_collapse_core;
+using Core_kernel = SMS::internal::Spectral_collapse_kernel;
+using Candidate = SMS::internal::Spectral_candidate;
+using Parameters = SMS::internal::Spectral_cost_parameters;
+using Rings = SMS::internal::Spectral_rings;
+using Slot = SMS::internal::Spectral_slot;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+enum class Z_rows { from_lambda, stored };
+
+inline Core make_core(const Slow_mesh& mesh, const Basis& basis, const Z_rows z,
+                      const Parameters& parameters = {})
+{
+  const bool stored = z == Z_rows::stored;
+  Core core;
+  core.set_basis(basis.F, stored ? Eigen::VectorXd() : basis.lambda, stored ? basis.Z : Eigen::MatrixXd(),
+                 basis.theta, 1 / basis.area, parameters);
+  std::vector<Eigen::Vector3d> points;
+  Rings rings;
+  rings.resize(std::size_t(mesh.V.rows()));
+  for(int v = 0; v < mesh.V.rows(); ++v) {
+    points.push_back(mesh.V.row(v));
+    rings[Slot(v)] = mesh.ring(v);
+  }
+  core.set_geometry(std::move(points), std::move(rings));
+  return core;
+}
+
+inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Candidate& c, const bool keep_first)
+{
+  const int kept = keep_first ? e.first : e.second, removed = keep_first ? e.second : e.first;
+  const double weight = keep_first ? c.weight : 1 - c.weight;
+  mesh.collapse(removed, kept, weight, c.point);
+  core.commit(Slot(removed), Slot(kept), weight, c.point, mesh.ring(kept));
+}
+
+// Collapses `count` edges, each the cheapest of a few drawn at random, in the core and in the slow mesh alike.
+inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& random)
+{
+  Core_kernel kernel;
+  int done = 0;
+  for(int i = 0; i < 2 * count && done < count; ++i) {
+    const std::vector<Edge> edges = mesh.edge_list();
+    Candidate best;
+    Edge edge(0, 0);
+    for(int k = 0; k < 12; ++k) {
+      const Edge e = edges[random() % edges.size()];
+      const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      if(c.collapsible && c.cost < best.cost) {
+        best = c;
+        edge = e;
+      }
+    }
+    if(best.collapsible) {
+      commit(core, mesh, edge, best, random() % 2 == 0);
+      ++done;
+    }
+  }
+  return done;
+}
+
+// The largest difference of fast and slow cost over some edges of each kind, at points on and off the edge.
+struct Comparison
+{
+  double worst = 0;
+  int counts[number_of_kinds] = {};
+};
+
+inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per_kind, std::mt19937& random)
+{
+  Comparison result;
+  const std::map<Edge, int> faces = mesh.edges();
+  std::vector<Edge> edges = mesh.edge_list();
+  std::shuffle(edges.begin(), edges.end(), random);
+  const double before = mesh.energy();
+  for(const Edge& e : edges) {
+    const Kind kind = mesh.kind(e, faces);
+    if(result.counts[kind] == per_kind)
+      continue;
+    ++result.counts[kind];
+    const Slot u = Slot(e.first), v = Slot(e.second);
+    const bool valid = kind != bridge && mesh.link_condition(e);
+    const double length = (mesh.V.row(e.first) - mesh.V.row(e.second)).norm();
+    for(const double alpha : {0., 0.5, 1., (random() % 1000) / 1000., -0.2, 0.7}) {
+      Eigen::Vector3d point = on_edge(mesh, e, alpha);
+      if(alpha == -0.2 || alpha == 0.7) // off the edge
+        point +=
+            0.3 * length * Eigen::Vector3d(std::sin(double(u)), std::cos(double(v)), std::sin(double(u + v)));
+      const Eigen::Vector3d uv = on_edge(mesh, e, 1) - on_edge(mesh, e, 0);
+      const double projection = (point - on_edge(mesh, e, 0)).dot(uv) / uv.squaredNorm();
+      const double weight = (std::min)(1., (std::max)(0., projection));
+      const double slow = valid ? mesh.energy_after(e, weight, point) - before : infinity;
+      const double fast = core.cost_at(u, v, point);
+      if(std::isfinite(slow) != std::isfinite(fast))
+        result.worst = infinity;
+      else if(std::isfinite(slow))
+        result.worst = (std::max)(result.worst, std::abs(fast - slow) / (std::abs(slow) + before));
+    }
+  }
+  return result;
+}
+
+} // namespace spectral_test
+
+#endif // SPECTRAL_TEST_CORE_HELPERS_H

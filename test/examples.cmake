@@ -1,0 +1,37 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The examples on a small copy of the demonstration's shape, and the command line with its errors.
+
+set(shape "${CMAKE_CURRENT_BINARY_DIR}/shape.off")
+
+# The examples print how they ended; a wrong exit status is a failure as well.
+if(TARGET make_demo_shape)
+  add_test(NAME "make-demo-shape" COMMAND make_demo_shape "${shape}" --vertices 2000)
+  set_tests_properties("make-demo-shape" PROPERTIES LABELS examples FIXTURES_SETUP shape)
+  foreach(example IN ITEMS edge_collapse_spectral edge_collapse_spectral_constrained)
+    add_test(NAME "${example}" COMMAND ${example} "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/${example}.off" 400)
+    set_tests_properties("${example}" PROPERTIES LABELS examples FIXTURES_REQUIRED shape)
+  endforeach()
+  set_tests_properties("edge_collapse_spectral" PROPERTIES PASS_REGULAR_EXPRESSION "is 400 x [0-9]+")
+  set_tests_properties("edge_collapse_spectral_constrained" PROPERTIES PASS_REGULAR_EXPRESSION "-> 400 vertices")
+endif()
+
+find_package(nlohmann_json CONFIG QUIET)
+if(TARGET spectral_simplify AND TARGET make_demo_shape)
+  # Checks what the command line wrote against its definitions, reading the files anew.
+  add_executable(check_outputs check_outputs.cpp)
+  target_include_directories(check_outputs PRIVATE "${PROJECT_SOURCE_DIR}/examples")
+  target_link_libraries(check_outputs PRIVATE Spectral_mesh_simplification::Spectral_mesh_simplification
+                                              nlohmann_json::nlohmann_json)
+  add_test(NAME "cli" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/cli_test.sh" $<TARGET_FILE:spectral_simplify>
+                              $<TARGET_FILE:check_outputs> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/cli")
+  set_tests_properties("cli" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+endif()
+
+if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_shape)
+  add_test(NAME "compare" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/compare_test.sh" $<TARGET_FILE:spectral_compare>
+                                  $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")
+  set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+endif()

@@ -1,0 +1,41 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Runs every test: installs what is missing (Debian), configures, builds, tests. Its last line is
+# `N passed, N failed`, its exit status 0 only if nothing failed. Settings, all optional: BUILD_DIR, JOBS
+# (2), CMAKE_ARGS (handed to cmake, such as -DCGAL_DIR=...), SPECTRAL_NO_INSTALL=1.
+
+set -u
+root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
+build=${BUILD_DIR:-$root/build}
+jobs=${JOBS:-2}
+
+stop()
+{
+  echo "$1" >&2
+  echo "0 passed, 1 failed"
+  exit 1
+}
+
+. "$root/cmake/debian_packages.sh"
+install_packages g++ make cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
+  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev catch2 ||
+  stop "The tests were not run: packages are missing."
+
+# CMAKE_ARGS is split into words on purpose.
+cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSPECTRAL_BUILD_TESTS=ON -DSPECTRAL_BUILD_EXAMPLES=ON \
+  ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
+cmake --build "$build" -j "$jobs" || stop "The tests were not run: the build failed."
+
+log=$build/ctest.log
+(cd "$build" && ctest --output-on-failure -j "$jobs" 2>&1) | tee "$log"
+
+# "97% tests passed, 3 tests failed out of 100"
+summary=$(sed -n 's/^.*% tests passed, \([0-9]*\) tests* failed out of \([0-9]*\).*$/\1 \2/p' "$log" | tail -n 1)
+failed=${summary% *}
+total=${summary#* }
+[ -n "$summary" ] && [ "$total" -gt 0 ] || stop "ctest found no tests."
+echo "$((total - failed)) passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,352 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// spectral_edge_collapse(): its result, its named parameters, progress and cancelling, what it refuses.
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+
+#include "catch.h"
+#include "collapse_helpers.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+using Result = SMS::Spectral_edge_collapse_result;
+using SMS::Spectral_options;
+using SMS::Spectral_phase;
+using SMS::Spectral_progress;
+using Point = Kernel::Point_3;
+
+namespace {
+
+struct Counting_visitor : SMS::internal::No_visitor
+{
+  template <class P, class V>
+  void OnCollapsed(const P&, const V&)
+  {
+    ++collapsed;
+  }
+  std::size_t collapsed = 0;
+};
+
+// What is wrong with a result; empty if nothing is.
+std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes::Matrices& input,
+                            const Spectral_options& options)
+{
+  if(!CGAL::is_valid_polygon_mesh(mesh))
+    return "the mesh is not valid";
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  if(result.output_vertices != std::size_t(coarse.V.rows()) || result.restriction.rows() != coarse.V.rows())
+    return "the number of vertices";
+  if(result.input_vertices != std::size_t(input.V.rows()) ||
+     result.collapses != result.input_vertices - result.output_vertices)
+    return "the number of collapses";
+  const std::string fault = fault_of_restriction(result.restriction, result.vertex_map, options.binary);
+  if(!fault.empty())
+    return fault;
+  if(position_error(result.restriction, input.V, coarse.V) > 1e-12)
+    return "P V";
+  const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
+  if(relative_difference(energy(coarse, basis, result.restriction), result.E) > 1e-8)
+    return "E";
+  if(relative_difference(std::sqrt(result.E / basis.lambda.squaredNorm()), result.relative_error) > 1e-8)
+    return "the relative error";
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("The one call returns what the policies give, and counts, times and reasons")
+{
+  const shapes::Matrices input = wavy_grid_matrices(20, 18);
+  Spectral_options options = options_with(10);
+  options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  Mesh mesh = make_mesh(input), other = mesh;
+  const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
+  CHECK(fault_of_result(mesh, result, input, options) == "");
+  CHECK(result.stop_reason == Result::Stop_reason::target_reached);
+  CHECK(result.stop_reason_name() == std::string("target reached"));
+  CHECK(result.explanation == "");
+  CHECK(result.warnings.empty());
+  CHECK(result.output_vertices == 100);
+  CHECK(result.collapses == 299);
+  CHECK(result.eigenpairs->size() == 10);
+  CHECK(result.seconds_eigenpairs > 0);
+  CHECK(result.seconds_first_costs > 0);
+  CHECK(result.seconds_collapse >= result.seconds_first_costs);
+  CHECK(result.seconds_total >= result.seconds_eigenpairs + result.seconds_collapse);
+
+  const SMS::Spectral_policies<Mesh, Kernel> policies(other, options);
+  collapse(other, policies, 100);
+  CHECK(positions(other) == positions(mesh));
+  CHECK(Eigen::MatrixXd(policies.restriction()) == Eigen::MatrixXd(result.restriction));
+  CHECK(policies.error() == result.E);
+
+  // Its eigenpairs serve another target.
+  Mesh again = make_mesh(input);
+  options.eigenpairs = result.eigenpairs;
+  const Result second = SMS::spectral_edge_collapse(again, 50, options);
+  CHECK(fault_of_result(again, second, input, options) == "");
+  CHECK(second.output_vertices == 50);
+  CHECK(second.E > result.E);
+}
+
+TEST_CASE("The one call to the size that the mesh has changes nothing")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 162, options_with(10));
+  CHECK(result.stop_reason == Result::Stop_reason::target_reached);
+  CHECK(result.collapses == 0);
+  CHECK(result.explanation == "");
+  CHECK(positions(mesh) == input.V);
+  CHECK(Eigen::MatrixXd(result.restriction) == Eigen::MatrixXd::Identity(162, 162));
+}
+
+TEST_CASE("The one call hands named parameters on: constraints, filter, visitor, point map")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const Spectral_options options = options_with(10);
+  Mesh mesh = make_mesh(input);
+  SECTION("constrained edges, and the points of their ends, stay")
+  {
+    const auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+    std::vector<Point> ends;
+    for(const auto e : edges(mesh))
+      if(e.idx() % 31 == 0) {
+        constraints[e] = true;
+        ends.push_back(mesh.point(source(e, mesh)));
+        ends.push_back(mesh.point(target(e, mesh)));
+      }
+    Counting_visitor visitor;
+    const Result result = SMS::spectral_edge_collapse(mesh, 150, options,
+                                                      CGAL::parameters::edge_is_constrained_map(constraints)
+                                                          .visitor(std::ref(visitor))
+                                                          .filter(SMS::Bounded_normal_change_filter<>()));
+    CHECK(visitor.collapsed == result.collapses);
+    CHECK(fault_of_result(mesh, result, input, options) == "");
+    std::vector<Point> after;
+    for(const auto e : edges(mesh))
+      if(constraints[e]) {
+        after.push_back(mesh.point(source(e, mesh)));
+        after.push_back(mesh.point(target(e, mesh)));
+      }
+    std::sort(ends.begin(), ends.end());
+    std::sort(after.begin(), after.end());
+    CHECK(ends == after);
+  }
+  SECTION("a visitor by copy, a filter")
+  {
+    const Result result = SMS::spectral_edge_collapse(
+        mesh, 150, options,
+        CGAL::parameters::visitor(Counting_visitor()).filter(SMS::Bounded_normal_change_filter<>()));
+    CHECK(fault_of_result(mesh, result, input, options) == "");
+    CHECK(result.output_vertices == 150);
+  }
+  SECTION("a point map of the user's")
+  {
+    auto points = mesh.add_property_map<Mesh::Vertex_index, Point>("v:mine").first;
+    for(const auto v : vertices(mesh)) {
+      points[v] = mesh.point(v);
+      mesh.point(v) = CGAL::ORIGIN;
+    }
+    const auto np = CGAL::parameters::vertex_point_map(points).geom_traits(Kernel());
+    const Result result = SMS::spectral_edge_collapse(mesh, 150, options, np);
+    for(const auto v : vertices(mesh)) {
+      CHECK(mesh.point(v) == CGAL::ORIGIN);
+      mesh.point(v) = points[v];
+    }
+    CHECK(fault_of_result(mesh, result, input, options) == "");
+  }
+}
+
+TEST_CASE("A target below 3 K is warned of")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  const Result result = SMS::spectral_edge_collapse(mesh, 29, options_with(10));
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0],
+             ContainsSubstring("29") && ContainsSubstring("30") && ContainsSubstring("3 K"));
+  Mesh other = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  CHECK(SMS::spectral_edge_collapse(other, 30, options_with(10)).warnings.empty());
+}
+
+TEST_CASE("Where the target cannot be reached the result says why")
+{
+  Spectral_options options = options_with(3);
+  SECTION("components cannot vanish")
+  {
+    const shapes::Matrices input = shapes::components_matrices(shapes::icosphere_matrices(1), 3);
+    Mesh mesh = make_mesh(input);
+    const Result result = SMS::spectral_edge_collapse(mesh, 5, options_with(6));
+    CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
+    CHECK(result.stop_reason_name() == std::string("no collapsible edge left"));
+    CHECK(result.output_vertices >= 12);
+    CHECK(result.output_vertices < 126);
+    CHECK_THAT(result.explanation, ContainsSubstring("instead of 5") && ContainsSubstring("3 components") &&
+                                       ContainsSubstring("topology") && ContainsSubstring(" 0 border edges"));
+    CHECK(result.refusals.topology > 0);
+    CHECK(fault_of_restriction(result.restriction, result.vertex_map) == "");
+  }
+  SECTION("two tetrahedra are as small as they get")
+  {
+    const shapes::Matrices input = shapes::components_matrices(shapes::tetrahedron_matrices(), 2);
+    Mesh mesh = make_mesh(input);
+    const Result result = SMS::spectral_edge_collapse(mesh, 1, options);
+    CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
+    CHECK(result.output_vertices == 8);
+    CHECK(positions(mesh) == input.V);
+    CHECK_THAT(result.explanation, ContainsSubstring("2 components"));
+  }
+  SECTION("a triangle")
+  {
+    Mesh mesh = make_mesh(shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+    options.number_of_eigenvectors = 2;
+    const Result result = SMS::spectral_edge_collapse(mesh, 1, options);
+    CHECK(result.output_vertices == 3);
+    CHECK_THAT(result.explanation, ContainsSubstring("1 component,") && ContainsSubstring("3 border edges"));
+  }
+  SECTION("every edge constrained")
+  {
+    Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));
+    const auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", true).first;
+    const Result result = SMS::spectral_edge_collapse(mesh, 20, options,
+                                                      CGAL::parameters::edge_is_constrained_map(constraints));
+    CHECK(result.output_vertices == 42);
+    CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
+    CHECK_THAT(result.explanation, ContainsSubstring("constrained"));
+    CHECK(result.E < 1e-10);
+  }
+}
+
+TEST_CASE("Bad calls are refused before anything is changed")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(1);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(5);
+  std::size_t N = 20;
+  std::string text;
+  SECTION("no vertex")
+  {
+    N = 0;
+    text = "the target is 0";
+  }
+  SECTION("more vertices than there are")
+  {
+    N = 43;
+    text = "from 1 to 42";
+  }
+  SECTION("K")
+  {
+    options.number_of_eigenvectors = 42;
+    text = "number_of_eigenvectors is 42";
+  }
+  SECTION("weights")
+  {
+    options.weights = Eigen::VectorXd::Ones(6);
+    text = "6 weights";
+  }
+  SECTION("threads")
+  {
+    options.threads = -1;
+    text = "threads is -1";
+  }
+  SECTION("a vertex without area")
+  {
+    mesh.add_vertex(Point(0, 0, 0));
+    text = "vertex 42 ";
+  }
+  CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, N, options), std::invalid_argument);
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, N, options), ContainsSubstring(text));
+  CHECK(positions(mesh).topRows(42) == input.V);
+}
+
+TEST_CASE("Progress runs through the phases, never backwards, and does not change the result")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options = options_with(20);
+  Mesh expected = make_mesh(input);
+  SMS::spectral_edge_collapse(expected, 100, options);
+
+  std::vector<Spectral_progress> reports;
+  options.progress = [&](const Spectral_progress& p) { return reports.push_back(p), true; };
+  Mesh mesh = make_mesh(input);
+  SMS::spectral_edge_collapse(mesh, 100, options);
+  CHECK(positions(mesh) == positions(expected));
+  std::map<Spectral_phase, int> count;
+  for(std::size_t i = 0; i < reports.size(); ++i) {
+    const Spectral_progress& p = reports[i];
+    ++count[p.phase];
+    CHECK((p.fraction >= 0 && p.fraction <= 1));
+    CHECK(p.number_of_vertices >= 100);
+    CHECK(p.number_of_vertices <= 642);
+    if(i > 0) {
+      CHECK(int(reports[i - 1].phase) <= int(p.phase));
+      CHECK((reports[i - 1].phase != p.phase || reports[i - 1].fraction <= p.fraction));
+      CHECK(reports[i - 1].number_of_vertices >= p.number_of_vertices);
+    }
+  }
+  CHECK(count[Spectral_phase::eigenpairs] > 1);
+  CHECK(count[Spectral_phase::first_costs] > 0);
+  CHECK(count[Spectral_phase::collapses] > 50);
+  CHECK(count[Spectral_phase::collapses] < 150);
+}
+
+TEST_CASE("A run can be cancelled in every phase")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options = options_with(20);
+  Spectral_phase phase = Spectral_phase::eigenpairs;
+  double fraction = 0;
+  options.progress = [&](const Spectral_progress& p) { return p.phase != phase || p.fraction < fraction; };
+  Mesh mesh = make_mesh(input);
+  SECTION("while the eigenpairs are computed: the mesh is untouched")
+  {
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
+    CHECK(positions(mesh) == input.V);
+    fraction = 0.5;
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
+  }
+  SECTION("while the first costs are computed: the mesh is untouched")
+  {
+    phase = Spectral_phase::first_costs;
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
+    CHECK(positions(mesh) == input.V);
+  }
+  SECTION("between collapses: what was done is returned")
+  {
+    phase = Spectral_phase::collapses;
+    fraction = 0.5;
+    const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
+    CHECK(result.stop_reason == Result::Stop_reason::cancelled);
+    CHECK(result.stop_reason_name() == std::string("cancelled"));
+    CHECK_THAT(result.explanation, ContainsSubstring("cancelled"));
+    CHECK(result.output_vertices > 300);
+    CHECK(result.output_vertices < 450);
+    options.progress = nullptr;
+    CHECK(fault_of_result(mesh, result, input, options) == "");
+  }
+}
+
+TEST_CASE("Edges without length are among the collapses that are counted")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  for(const int f : {100, 300, 500})
+    input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
+  Mesh mesh = make_mesh(input);
+  const Spectral_options options = options_with(10);
+  const std::size_t N = GENERATE(640, 639, 100);
+  const Result result = SMS::spectral_edge_collapse(mesh, N, options);
+  CHECK(result.stop_reason == Result::Stop_reason::target_reached);
+  CHECK(result.output_vertices == (std::min)(N, std::size_t(639))); // they are merged before anybody asks
+  CHECK(result.explanation == "");
+  CHECK(fault_of_result(mesh, result, input, options) == "");
+}

@@ -1,0 +1,47 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// OpenMesh as a mesh type. Built where SPECTRAL_TEST_OPENMESH is defined.
+
+#include "catch.h"
+
+#ifdef SPECTRAL_TEST_OPENMESH
+
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized" // OpenMesh's points are not, by default
+#endif
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+
+#include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
+
+#include "collapse_helpers.h"
+
+using namespace spectral_test;
+
+TEST_CASE("OpenMesh is simplified as other meshes are, with points in single precision")
+{
+  using Open_mesh = OpenMesh::TriMesh_ArrayKernelT<>;
+  const bool bordered = GENERATE(false, true);
+  Open_mesh mesh;
+  shapes::make_mesh(mesh, bordered ? wavy_grid_matrices(14, 13) : shapes::bumpy_icosphere_matrices(3));
+  const shapes::Matrices input = SG::mesh_matrices(mesh); // its points are floats
+  const SMS::Spectral_policies<Open_mesh> policies(mesh, options_with(10));
+  collapse(mesh, policies, 80);
+  CHECK(count_vertices(mesh) == 80);
+  CHECK(policies.state().number_of_vertices() == 80);
+  const Input fine = eigen_input(input, SG::Mass::lumped, *policies.eigenpairs());
+  CHECK(fault_of_run(mesh, policies, fine, Check{false, false, 1e-8}) == "");
+  CHECK(position_error(policies.restriction(), input.V, positions(mesh)) < 3e-6);
+}
+
+#else
+
+TEST_CASE("OpenMesh was not asked for")
+{
+  SUCCEED();
+}
+
+#endif

@@ -1,0 +1,444 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What a run of edge_collapse() with the policies returns: E, P, the spectrum; options; reproducibility.
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
+
+#include <CGAL/Spectral_geometry/functional_map.h>
+
+#include "catch.h"
+#include "collapse_helpers.h"
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+using Policies = SMS::Spectral_policies<Mesh, Kernel>;
+using SMS::Spectral_options;
+using SMS::Spectral_placement_strategy;
+
+namespace {
+
+struct Outcome
+{
+  Eigen::MatrixXd V;
+  Eigen::MatrixXi T;
+  Eigen::SparseMatrix<double> P;
+  double E;
+
+  bool operator==(const Outcome& other) const
+  {
+    return V == other.V && T == other.T && E == other.E && Eigen::MatrixXd(P) == Eigen::MatrixXd(other.P);
+  }
+};
+
+Outcome outcome(const Mesh& mesh, const Policies& policies)
+{
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  return {coarse.V, coarse.T, policies.restriction(), policies.error()};
+}
+
+Outcome outcome_of_run(const shapes::Matrices& input, const Spectral_options& options, const std::size_t N,
+                       const bool batched = true)
+{
+  Mesh mesh = make_mesh(input);
+  Policies policies(mesh, options);
+  policies.state().set_batched(batched);
+  collapse(mesh, policies, N);
+  return outcome(mesh, policies);
+}
+
+// The candidates of all edges of the input.
+std::vector<double> costs(const shapes::Matrices& input, const Spectral_options& options)
+{
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  const auto token = const_cast<Policies&>(policies).state().on_started(mesh);
+  std::vector<double> result;
+  for(const auto e : edges(mesh)) {
+    const auto* c = policies.state().core().candidates().find(source(e, mesh), target(e, mesh));
+    REQUIRE(c != nullptr);
+    result.push_back(c->cost);
+  }
+  return result;
+}
+
+double largest_relative_difference(const std::vector<double>& a, const std::vector<double>& b,
+                                   const double factor = 1)
+{
+  REQUIRE(a.size() == b.size());
+  double worst = 0;
+  for(std::size_t i = 0; i < a.size(); ++i)
+    worst = (std::max)(worst, relative_difference(a[i], factor * b[i]));
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("After thousands of collapses the tracked E, P and F are those recomputed from the mesh")
+{
+  const bool bordered = GENERATE(false, true);
+  Spectral_options options = options_with(20);
+  options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.binary = GENERATE(false, true);
+  CAPTURE(bordered, SG::mass_name(options.mass), SMS::placement_name(options.placement), options.binary);
+  const shapes::Matrices input = bordered ? wavy_grid_matrices(50, 44) : shapes::bumpy_icosphere_matrices(4);
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  CHECK(policies.error() == 0);
+  collapse(mesh, policies, 150);
+  CHECK(count_vertices(mesh) == 150);
+  CHECK(policies.state().number_of_vertices() == 150);
+  Check check;
+  check.binary = options.binary;
+  const Input fine = eigen_input(input, options.mass, *policies.eigenpairs());
+  CHECK(fault_of_run(mesh, policies, fine, check) == "");
+  const double scale = std::sqrt(fine.basis.lambda.squaredNorm());
+  CHECK(policies.relative_error() == Catch::Approx(std::sqrt(policies.error()) / scale));
+  CHECK(policies.relative_error() < 1);
+
+  mesh.collect_garbage();
+  CHECK(fault_of_run(mesh, policies, fine, check) == "");
+}
+
+TEST_CASE("A simplification to the same number of vertices is the identity: C = I and both norms are 0")
+{
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(12);
+  options.mass = mass;
+  const Policies policies(mesh, options);
+  CHECK(collapse(mesh, policies, mesh.number_of_vertices()) == 0);
+  CHECK(policies.error() < 1e-12);
+  const Eigen::SparseMatrix<double> P = policies.restriction();
+  CHECK((Eigen::MatrixXd(P) - Eigen::MatrixXd::Identity(P.rows(), P.cols())).norm() == 0);
+  CHECK(positions(mesh) == input.V);
+  const SG::Laplace_operator op = SG::cotangent_laplacian(mesh, mass);
+  const SG::Eigenpairs pairs = SG::eigenpairs(op, 18);
+  const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, pairs, op, pairs, P, 12);
+  CHECK((e.C - Eigen::MatrixXd::Identity(12, 12)).norm() < 1e-9);
+  CHECK(e.norm_L < 1e-7 * e.fine_values(11));
+  CHECK(e.norm_D < 1e-9);
+  const Eigen::MatrixXd Q = policies.prolongation();
+  CHECK((Q - Eigen::MatrixXd::Identity(P.rows(), P.cols())).norm() < 1e-12);
+}
+
+TEST_CASE("E bounds the commutativity norm, and is its sum over the whole coarse basis (lumped)")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const Eigen::Index K = 15, N = 180;
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options_with(K));
+  collapse(mesh, policies, N);
+  const Basis basis = eigen_input(input, SG::Mass::lumped, *policies.eigenpairs()).basis;
+
+  // Both meshes at the scale at which the input has unit area.
+  shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  coarse.V /= std::sqrt(basis.area);
+  const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T);
+  const SG::Eigenpairs all = SG::eigenpairs(op, N);
+  const Eigen::MatrixXd C = SG::functional_map(all.vectors, op.B, policies.restriction(), basis.F);
+  const Eigen::MatrixXd commutator = C * basis.lambda.asDiagonal() - all.values.asDiagonal() * C;
+  CHECK(relative_difference(commutator.squaredNorm(), policies.error()) < 1e-8);
+  const Eigen::MatrixXd CK = C.topRows(K);
+  const double norm_L = SG::laplacian_commutativity_norm(CK, basis.lambda, all.values.head(K));
+  CHECK(norm_L > 0);
+  CHECK(norm_L <= std::sqrt(policies.error()) / CK.norm());
+}
+
+TEST_CASE("The functional map of a symmetric shape is block-diagonal")
+{
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const shapes::Matrices input = shapes::icosphere_matrices(4);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(16);
+  options.mass = mass;
+  const Policies policies(mesh, options);
+  collapse(mesh, policies, 300);
+  const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
+  const SG::Laplace_operator coarse = SG::cotangent_laplacian(mesh, mass);
+  const SG::Spectral_evaluation e = SG::evaluate_spectrum(
+      fine, *policies.eigenpairs(), coarse, SG::eigenpairs(coarse, 24), policies.restriction(), 16);
+  double off = e.C.squaredNorm();
+  for(int l = 0; l < 4; ++l) { // spherical harmonics of degree l: 2 l + 1 of them
+    const Eigen::MatrixXd block = e.C.block(l * l, l * l, 2 * l + 1, 2 * l + 1);
+    off -= block.squaredNorm();
+    CHECK((block.transpose() * block - Eigen::MatrixXd::Identity(2 * l + 1, 2 * l + 1)).norm() < 0.3);
+  }
+  CHECK(off < 1e-3 * e.C.squaredNorm());
+}
+
+TEST_CASE("The same input gives the same result, evaluated ahead or on demand, on any number of threads")
+{
+  const bool bordered = GENERATE(false, true);
+  shapes::Matrices input = bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
+  const bool zero_length = GENERATE(false, true);
+  if(zero_length)
+    for(const int f : {20, 200, 400, 700})
+      input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
+  CAPTURE(bordered, zero_length);
+  Spectral_options options = options_with(12);
+  const Outcome first = outcome_of_run(input, options, 120);
+  CHECK(first == outcome_of_run(input, options, 120));
+  CHECK(first == outcome_of_run(input, options, 120, false));
+  for(const int threads : {2, 5}) {
+    options.threads = threads;
+    CHECK(first == outcome_of_run(input, options, 120));
+    CHECK(first == outcome_of_run(input, options, 120, false));
+  }
+}
+
+TEST_CASE("Copies of the policies and of their handles behave as the original, which need not outlive them")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const Outcome expected = outcome_of_run(input, options_with(12), 150);
+  Mesh mesh = make_mesh(input);
+  auto original = std::make_unique<Policies>(mesh, options_with(12));
+  const Policies copy = *original;
+  const Policies::Get_cost cost = original->get_cost(), cost_copy = cost;
+  const Policies::Get_placement placement = copy.get_placement();
+  const auto visitor = original->visitor();
+  original.reset();
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(150, mesh),
+                     CGAL::parameters::get_cost(cost_copy).get_placement(placement).visitor(visitor));
+  CHECK(outcome(mesh, copy) == expected);
+}
+
+TEST_CASE("Ready eigenpairs give the mesh that computed ones give")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options = options_with(12);
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  collapse(mesh, policies, 150);
+  options.eigenpairs = policies.eigenpairs();
+  options.number_of_eigenvectors = 1; // theirs is the number that counts
+  CHECK(outcome_of_run(input, options, 150) == outcome(mesh, policies));
+}
+
+TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Mesh mesh = make_mesh(input);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Eigenpairs good = SG::eigenpairs(op, 8);
+  Spectral_options options;
+  const auto refuse = [&](const SG::Eigenpairs& pairs, const std::string& text) {
+    options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
+    CHECK_THROWS_AS(Policies(mesh, options), std::invalid_argument);
+    CHECK_THROWS_WITH(Policies(mesh, options), ContainsSubstring(text));
+  };
+  SG::Eigenpairs pairs = good;
+  SECTION("in another mass")
+  {
+    options.mass = SG::Mass::averaged;
+    refuse(pairs, "averaged");
+  }
+  SECTION("a vector spoilt")
+  {
+    pairs.vectors(5, 3) += 0.1;
+    refuse(pairs, "eigenpair 3 ");
+  }
+  SECTION("a value that is not a number")
+  {
+    pairs.values(6) = std::nan("");
+    refuse(pairs, "eigenpair 6 ");
+  }
+  SECTION("of another mesh")
+  {
+    pairs.vectors.conservativeResize(50, 8);
+    refuse(pairs, "50 rows");
+  }
+  SECTION("fewer values than vectors")
+  {
+    pairs.values.conservativeResize(5);
+    refuse(pairs, "5");
+  }
+  SECTION("together with signals")
+  {
+    options.signals = input.V;
+    refuse(pairs, "signals");
+  }
+}
+
+TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L F")
+{
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
+  auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op, 10));
+  pairs->vectors.leftCols(9) += 3e-5 * pairs->vectors.rightCols(9);
+  Spectral_options options;
+  options.mass = mass;
+  options.eigenpairs = pairs;
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  collapse(mesh, policies, 640);
+  Input fine = eigen_input(input, mass, *pairs);
+  fine.basis = signal_basis(input, op.theta, fine.basis.F);
+  CHECK(policies.state().core().fields().Z.size() != 0);
+  collapse(mesh, policies, 100);
+  CHECK(fault_of_run(mesh, policies, fine) == "");
+}
+
+TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")
+{
+  const shapes::Matrices input = wavy_grid_matrices(14, 13);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Eigenpairs all = SG::eigenpairs(op, 10);
+  SG::Eigenpairs some = all;
+  some.values = all.values.head(6);
+  some.vectors = all.vectors.leftCols(6);
+  Spectral_options weighted, plain;
+  weighted.eigenpairs = std::make_shared<SG::Eigenpairs>(all);
+  plain.eigenpairs = std::make_shared<SG::Eigenpairs>(some);
+  weighted.weights = Eigen::VectorXd::Zero(10);
+  weighted.weights.head(6).setOnes();
+  CHECK(largest_relative_difference(costs(input, weighted), costs(input, plain)) < 1e-9);
+
+  // Midpoints: the best alpha of weighted signals is another one.
+  weighted.placement = plain.placement = Spectral_placement_strategy::midpoint;
+  weighted.weights.head(6) *= 3;
+  CHECK(largest_relative_difference(costs(input, weighted), costs(input, plain), 3) < 1e-9);
+
+  weighted.weights = Eigen::VectorXd::Zero(10);
+  weighted.weights(2) = 5;
+  const std::vector<double> c2 = costs(input, weighted);
+  weighted.weights = Eigen::VectorXd::Zero(10);
+  weighted.weights(7) = 2;
+  const std::vector<double> c7 = costs(input, weighted);
+  weighted.weights(2) = 5;
+  std::vector<double> sum = costs(input, weighted);
+  for(std::size_t i = 0; i < sum.size(); ++i)
+    if(sum[i] < 1e300)
+      sum[i] -= c2[i];
+  CHECK(largest_relative_difference(sum, c7) < 1e-9);
+}
+
+TEST_CASE("A rotation of the signals within their span leaves every cost as it is")
+{
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const shapes::Matrices input = wavy_grid_matrices(14, 13);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
+  const SG::Eigenpairs pairs = SG::eigenpairs(op, 9);
+  Eigen::MatrixXd random(9, 9);
+  for(Eigen::Index i = 0; i < 81; ++i)
+    random(i) = std::sin(12.9898 * double(i * i + 1));
+  const Eigen::MatrixXd rotation = Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
+  Spectral_options options;
+  options.mass = mass;
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
+  const std::vector<double> expected = costs(input, options);
+  options.eigenpairs.reset();
+  // Signals are taken as they are: eigenvectors normalised at unit area are sqrt(area) times longer.
+  options.signals = std::sqrt(op.mass.sum()) * pairs.vectors;
+  CHECK(largest_relative_difference(costs(input, options), expected) < 1e-7);
+  options.signals *= rotation;
+  CHECK(largest_relative_difference(costs(input, options), expected) < 1e-7);
+}
+
+TEST_CASE("Signals of the user's are followed as eigenvectors are")
+{
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const bool weighted = GENERATE(false, true);
+  const shapes::Matrices input = wavy_grid_matrices(24, 22);
+  Spectral_options options;
+  options.mass = mass;
+  options.signals = rough_signals(input, 5);
+  if(weighted)
+    options.weights = (Eigen::VectorXd(5) << 1, 0, 0.25, 9, 2).finished();
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  CHECK(policies.eigenpairs() == nullptr);
+  collapse(mesh, policies, 100);
+  Eigen::MatrixXd F = options.signals;
+  if(weighted)
+    F = F * options.weights.cwiseSqrt().asDiagonal();
+  const Input fine{input, signal_basis(input, SG::mass_blend(mass), F)};
+  CHECK(fault_of_run(mesh, policies, fine) == "");
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
+  const double lost = fine.basis.Z.cwiseProduct(op.B * fine.basis.Z).sum() / fine.basis.area;
+  CHECK(policies.relative_error() == Catch::Approx(std::sqrt(policies.error() / lost)));
+}
+
+TEST_CASE("Options that cannot be used are refused in a sentence that names them")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1)); // 42 vertices
+  Spectral_options options = options_with(5);
+  std::string text;
+  SECTION("K zero")
+  {
+    options.number_of_eigenvectors = 0;
+    text = "number_of_eigenvectors is 0";
+  }
+  SECTION("K as large as the mesh")
+  {
+    options.number_of_eigenvectors = 42;
+    text = "from 1 to 41";
+  }
+  SECTION("no threads")
+  {
+    options.threads = 0;
+    text = "threads is 0";
+  }
+  SECTION("weights of another number")
+  {
+    options.weights = Eigen::VectorXd::Ones(4);
+    text = "4 weights for 5 signals";
+  }
+  SECTION("a negative weight")
+  {
+    options.weights = Eigen::VectorXd::Ones(5);
+    options.weights(3) = -1;
+    text = "weight 3 ";
+  }
+  SECTION("a weight that is not a number")
+  {
+    options.weights = Eigen::VectorXd::Ones(5);
+    options.weights(2) = std::nan("");
+    text = "weight 2 ";
+  }
+  SECTION("signals of another number of rows")
+  {
+    options.signals = Eigen::MatrixXd::Ones(41, 3);
+    text = "41 rows";
+  }
+  SECTION("signals that are not numbers")
+  {
+    options.signals = Eigen::MatrixXd::Ones(42, 3);
+    options.signals(7, 1) = std::nan("");
+    text = "not finite";
+  }
+  CHECK_THROWS_AS(Policies(mesh, options), std::invalid_argument);
+  CHECK_THROWS_WITH(Policies(mesh, options), ContainsSubstring(text));
+}
+
+TEST_CASE("Meshes that cannot be used are refused by the name of the first offender")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));
+  SECTION("an isolated vertex")
+  {
+    mesh.add_vertex(Kernel::Point_3(9, 9, 9));
+    CHECK_THROWS_WITH(Policies(mesh, options_with(5)),
+                      ContainsSubstring("vertex 42 ") && ContainsSubstring("isolated"));
+  }
+  SECTION("a quadrangle")
+  {
+    CGAL::Euler::join_face(mesh.halfedge(Mesh::Face_index(7)), mesh);
+    CHECK_THROWS_WITH(Policies(mesh, options_with(5)), ContainsSubstring("not a triangle"));
+  }
+  SECTION("no face at all")
+  {
+    Mesh empty;
+    CHECK_THROWS_AS(Policies(empty, options_with(5)), std::invalid_argument);
+  }
+}
