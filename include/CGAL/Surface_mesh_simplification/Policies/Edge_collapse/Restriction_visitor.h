@@ -104,13 +104,14 @@ private:
 } // namespace internal
 
 /*!
- * A visitor that tracks the restriction P from the input to the simplified mesh under *any* cost and placement, so that
- * Garland-Heckbert, Lindstrom-Turk or a cost of your own can be judged as the spectral one is.
+ * A visitor that tracks the restriction P from the input to the simplified mesh under *any* cost and
+ * placement, so that Garland-Heckbert, Lindstrom-Turk or a cost of your own can be judged as the spectral one
+ * is.
  *
- * When the edge (u, v) is collapsed to x, the value of a function there becomes \f$ (1 - \alpha) F_u + \alpha F_v \f$
- * with \f$ \alpha = (x - u) \cdot (v - u) / |v - u|^2 \f$ clamped to [0, 1] (appendix A of Lescoat et al., *Spectral Mesh
- * Simplification*, Computer Graphics Forum 39(2), 2020), and 1/2 on an edge without length. P is the product of these
- * steps.
+ * When the edge (u, v) is collapsed to x, the value of a function there becomes \f$ (1 - \alpha) F_u + \alpha
+ * F_v \f$ with \f$ \alpha = (x - u) \cdot (v - u) / |v - u|^2 \f$ clamped to [0, 1] (appendix A of Lescoat et
+ * al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020), and 1/2 on an edge without
+ * length. P is the product of these steps.
  *
  * \code
  * SMS::Restriction_visitor<Mesh> visitor(mesh);
@@ -118,10 +119,11 @@ private:
  * Eigen::SparseMatrix<double> P = visitor.restriction();
  * \endcode
  *
- * A model of `EdgeCollapseSimplificationVisitor`. The object is a handle: copies, those that `edge_collapse()` makes
- * included, share what is tracked. The mesh must outlive it and must not be given new vertices. A second
- * `edge_collapse()` with the same visitor continues, and P still starts at the mesh of the constructor. Constant time
- * and memory per collapse. `Spectral_policies` tracks its own P: it needs no such visitor.
+ * A model of `EdgeCollapseSimplificationVisitor`. The object is a handle: copies, those that
+ * `edge_collapse()` makes included, share what is tracked. The mesh must outlive it and must not be given new
+ * vertices. A second `edge_collapse()` with the same visitor continues, and P still starts at the mesh of the
+ * constructor. Constant time and memory per collapse. `Spectral_policies` tracks its own P: it needs no such
+ * visitor.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
  * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part; copied, as

@@ -20,9 +20,9 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
-/// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1], the weight of `v` when the edge (u, v) is collapsed to x
-/// (appendix A of Lescoat et al. 2020); 1/2 on an edge without length, where no end is closer to x than the
-/// other.
+/// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1], the weight of `v` when the edge (u, v) is collapsed
+/// to x (appendix A of Lescoat et al. 2020); 1/2 on an edge without length, where no end is closer to x than
+/// the other.
 inline double projected_edge_weight(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                                     const Eigen::Vector3d& x)
 {
@@ -33,8 +33,8 @@ inline double projected_edge_weight(const Eigen::Vector3d& u, const Eigen::Vecto
   return (std::min)((std::max)(edge.dot(x - u) / squared_length, 0.), 1.);
 }
 
-/// Which column of the restriction a vertex stands for: its position in `vertices(mesh)` at construction, kept
-/// while the mesh is collapsed and its garbage collected.
+/// Which column of the restriction a vertex stands for: its position in `vertices(mesh)` at construction,
+/// kept while the mesh is collapsed and its garbage collected.
 template <class TriangleMesh>
 class Fine_vertex_slots
 {
@@ -42,7 +42,8 @@ public:
   using Triangle_mesh = TriangleMesh;
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
 
-  /// The mesh is not changed, but only one that may be can keep the slots right when its garbage is collected.
+  /// The mesh is not changed, but only one that may be can keep the slots right when its garbage is
+  /// collected.
   Fine_vertex_slots(Triangle_mesh& mesh, const std::string& owner)
     : m_mesh(&mesh)
     , m_owner(owner)
@@ -54,8 +55,8 @@ public:
 
   Eigen::Index size() const { return m_size; } ///< number of vertices at construction
 
-  /// The slot of a vertex. A vertex that a collapse has just removed still has one: its handle is looked up, never
-  /// followed.
+  /// The slot of a vertex. A vertex that a collapse has just removed still has one: its handle is looked up,
+  /// never followed.
   Eigen::Index slot(const vertex_descriptor v) const
   {
     // The map holds slot + 1: a vertex that appeared after construction reads as 0.

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
@@ -193,11 +194,15 @@ public:
   void evaluate_around(const Spectral_slot kept)
   {
     m_batch.clear();
+    m_marks.resize(m_fields.points.size(), 0);
+    ++m_mark;
+    for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
+      m_marks[neighbor.vertex] = m_mark;
+    // An edge between two neighbours is in both of their rings.
     for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
       for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex])
-        m_batch.push_back(std::minmax(Spectral_slot(neighbor.vertex), Spectral_slot(e.vertex)));
-    std::sort(m_batch.begin(), m_batch.end());
-    m_batch.erase(std::unique(m_batch.begin(), m_batch.end()), m_batch.end());
+        if(m_marks[e.vertex] != m_mark || neighbor.vertex < e.vertex)
+          m_batch.push_back(std::minmax(Spectral_slot(neighbor.vertex), Spectral_slot(e.vertex)));
     evaluate_batch();
   }
 
@@ -219,7 +224,7 @@ public:
 
     m_fields.rings.update_triangles(kept, position());
     for(const Spectral_ring_entry& e : m_fields.rings[kept]) {
-      m_fields.rings.update_triangles(e.vertex, position());
+      m_fields.rings.update_triangles_at(e.vertex, e.back, position());
       m_candidates.forget(e.vertex, removed);
     }
     // R is computed afresh from the current geometry: nothing accumulates, so E cannot drift.
@@ -267,36 +272,21 @@ private:
   {
     const Spectral_ring& ring = m_fields.rings[w];
     double area = 0, to_self = 0;
-    auto R = m_fields.R.row(w);
-    m_scratch.setZero(m_fields.F.cols());
-    R.setZero();
+    m_row.clear();
     for(std::size_t i = 0; i < ring.size(); ++i) {
       const Spectral_triangle &after = ring[i].triangle,
                               &before = ring[Spectral_rings::prev(ring, i)].triangle;
       const double cot = (after.cot_second + before.cot_first) / 2;
-      R += cot * m_fields.F.row(ring[i].vertex);
+      m_row.push_back(Spectral_row_entry{ring[i].vertex, cot,
+                                         (after.area + before.area) * m_fields.area_scale *
+                                             m_fields.off_diagonal_share()});
       to_self -= cot;
       area += after.area * m_fields.area_scale;
-      if(m_fields.theta != 0)
-        add_z(ring[i].vertex,
-              (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share());
     }
-    R += to_self * m_fields.F.row(w);
-    add_z(w, area * m_fields.diagonal_share());
-    if(m_fields.Z.size() != 0)
-      R += m_scratch;
-    else
-      R += m_scratch.cwiseProduct(m_fields.lambda.transpose());
+    m_row.push_back(Spectral_row_entry{w, to_self, area * m_fields.diagonal_share()});
+    const double square = spectral_combine_rows(m_fields, m_row, m_fields.R.row(w).data());
     m_fields.mass[w] = area / 3;
-    m_fields.E[w] = area > 0 ? R.squaredNorm() / m_fields.mass[w] : 0;
-  }
-
-  void add_z(const Spectral_slot w, const double share)
-  {
-    if(m_fields.Z.size() != 0)
-      m_scratch += share * m_fields.Z.row(w);
-    else
-      m_scratch += share * m_fields.F.row(w);
+    m_fields.E[w] = area > 0 ? square / m_fields.mass[w] : 0;
   }
 
   void refresh(const Spectral_slot w)
@@ -425,7 +415,7 @@ private:
   std::size_t m_mark = 0;
   std::vector<Edge> m_batch;
   std::vector<Spectral_candidate> m_results;
-  Eigen::RowVectorXd m_scratch;
+  std::vector<Spectral_row_entry> m_row;
   std::size_t m_number_of_evaluations = 0;
 };
 

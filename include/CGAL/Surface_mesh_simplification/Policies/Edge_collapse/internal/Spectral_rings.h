@@ -129,11 +129,16 @@ public:
   template <class Position>
   void update_triangles(const Spectral_slot c, const Position& position)
   {
-    Spectral_ring& ring = m_rings[c];
-    for(std::size_t i = 0; i < ring.size(); ++i)
-      ring[i].triangle = ring[i].face ? spectral_triangle(position(c), position(ring[i].vertex),
-                                                          position(ring[next(ring, i)].vertex))
-                                      : Spectral_triangle();
+    for(std::size_t i = 0; i < m_rings[c].size(); ++i)
+      update_triangle(c, i, position);
+  }
+
+  /// The same for the two triangles next to the neighbour at index i.
+  template <class Position>
+  void update_triangles_at(const Spectral_slot c, const std::size_t i, const Position& position)
+  {
+    update_triangle(c, i, position);
+    update_triangle(c, prev(m_rings[c], i), position);
   }
 
   /// Replaces `removed` by `kept` in the rings of the neighbours and forgets the ring of `removed`.
@@ -167,6 +172,15 @@ public:
   }
 
 private:
+  template <class Position>
+  void update_triangle(const Spectral_slot c, const std::size_t i, const Position& position)
+  {
+    Spectral_ring& ring = m_rings[c];
+    ring[i].triangle = ring[i].face ? spectral_triangle(position(c), position(ring[i].vertex),
+                                                        position(ring[next(ring, i)].vertex))
+                                    : Spectral_triangle();
+  }
+
   // Where removed and kept were consecutive, the triangle between them vanished and the later of the
   // two entries takes the place of both: an entry carries the face that follows it.
   // Returns the index that was erased, or a large number.

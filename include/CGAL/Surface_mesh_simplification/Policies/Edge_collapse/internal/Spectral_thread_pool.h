@@ -12,7 +12,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -26,7 +26,8 @@ namespace internal {
  *
  * There are two loops of some thirty microseconds in each collapse. A task scheduler spends as much on waking its
  * workers (measured with TBB: two threads as slow as one), so the workers here wait for the next loop with
- * their eyes open, and go to sleep when none comes for a while.
+ * their eyes open, and go to sleep when none comes for a while. The caller waits only for workers that have
+ * entered a loop: one that the system has taken off its processor misses it and costs nothing.
  *
  * What a call computes must depend on its index alone, so that the result is the same for any number of threads; it
  * must not throw.
@@ -72,11 +73,11 @@ public:
     m_body = &body;
     m_size = n;
     m_grain = grain;
-    m_next = 0;
-    m_busy = m_workers.size();
+    m_next.store(0, std::memory_order_relaxed);
     announce();
     take_part(m_workspaces.front());
-    for(std::size_t spins = 0; m_busy.load(std::memory_order_acquire) != 0; ++spins)
+    m_gate.fetch_and(~open_bit);
+    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
       relax(spins);
   }
 
@@ -92,14 +93,32 @@ private:
 #endif
   }
 
-  // Everything that was written before is visible to a worker that sees the new number.
+  // The gate: number of the loop, whether it is open, how many workers are inside.
+  static constexpr std::uint64_t inside_mask = 0x7fffffff, open_bit = 0x80000000, one_loop = 0x100000000;
+
+  static std::uint64_t loop_of(const std::uint64_t gate)
+  {
+    return gate / one_loop;
+  }
+
+  // Only the calling thread does this, while nobody is inside.
   void announce()
   {
-    m_loop.fetch_add(1);
+    m_gate.store((loop_of(m_gate.load()) + 1) * one_loop + open_bit);
     if(m_asleep.load() != 0) {
       std::lock_guard<std::mutex> lock(m_mutex);
       m_wake.notify_all();
     }
+  }
+
+  // False if the loop has been closed. Everything that was written before announce() is visible inside.
+  bool enter(const std::uint64_t loop)
+  {
+    std::uint64_t gate = m_gate.load();
+    while(loop_of(gate) == loop && (gate & open_bit) != 0)
+      if(m_gate.compare_exchange_weak(gate, gate + 1))
+        return true;
+    return false;
   }
 
   void take_part(Workspace& workspace)
@@ -115,29 +134,31 @@ private:
 
   void work(const std::size_t index)
   {
-    std::size_t seen = 0;
+    std::uint64_t seen = 0;
     for(;;) {
       seen = wait_for_loop_after(seen);
       if(m_end)
         return;
-      take_part(m_workspaces[index]);
-      m_busy.fetch_sub(1, std::memory_order_release);
+      if(enter(seen)) {
+        take_part(m_workspaces[index]);
+        m_gate.fetch_sub(1, std::memory_order_release);
+      }
     }
   }
 
-  std::size_t wait_for_loop_after(const std::size_t seen)
+  std::uint64_t wait_for_loop_after(const std::uint64_t seen)
   {
     for(std::size_t spins = 0; spins < patience; ++spins) {
-      const std::size_t loop = m_loop.load();
+      const std::uint64_t loop = loop_of(m_gate.load());
       if(loop != seen)
         return loop;
       relax(spins);
     }
     std::unique_lock<std::mutex> lock(m_mutex);
     ++m_asleep;
-    m_wake.wait(lock, [&] { return m_loop.load() != seen; });
+    m_wake.wait(lock, [&] { return loop_of(m_gate.load()) != seen; });
     --m_asleep;
-    return m_loop.load();
+    return loop_of(m_gate.load());
   }
 
   std::vector<Workspace> m_workspaces;
@@ -148,7 +169,8 @@ private:
   const void* m_body = nullptr;
   std::size_t m_size = 0, m_grain = 1;
 
-  std::atomic<std::size_t> m_next{0}, m_busy{0}, m_loop{0}, m_asleep{0};
+  std::atomic<std::uint64_t> m_gate{0};
+  std::atomic<std::size_t> m_next{0}, m_asleep{0};
   std::atomic<bool> m_end{false};
   std::mutex m_mutex;
   std::condition_variable m_wake;
