@@ -8,6 +8,8 @@
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
+#include "report/html_report.h"
+#include "report/single_run.h"
 #include "spectral_simplify_arguments.h"
 #include "spectral_simplify_report.h"
 
@@ -20,11 +22,13 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
@@ -46,7 +50,7 @@ constexpr const char* eigenpairs_files[] = {
 // Makes room for every output, so that what cannot be written is known before the work.
 void announce(Output_files& files, const Arguments& a)
 {
-  for(const std::string& path : {a.output, a.restriction, a.prolongation, a.map, a.json}) {
+  for(const std::string& path : {a.output, a.restriction, a.prolongation, a.map, a.json, a.report}) {
     if(!path.empty())
       files.add(path);
   }
@@ -140,6 +144,30 @@ void write_eigenpairs(const Output_files& files, const std::string& folder, cons
   mtx("coarse_mass", meshes.coarse_operator.B);
 }
 
+// The page of this run.
+std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
+                 const Simplification_report& report)
+{
+  const auto& result = report.result;
+  Simplified run;
+  run.simplifier = a.binary ? "spectral, binary" : "spectral";
+  run.placement = a.placement;
+  run.metric_mass = a.mass;
+  run.requested_vertices = run.vertices = result.output_vertices;
+  run.faces = mesh.number_of_faces();
+  run.seconds = result.seconds_collapse;
+  run.seconds_eigenpairs = result.seconds_eigenpairs;
+  run.note = result.explanation;
+  Comparison comparison = single_run(*report.evaluation, std::move(run));
+  comparison.command = a.command;
+  comparison.mesh = std::filesystem::path(a.input).filename().string();
+  comparison.vertices = result.input_vertices;
+  comparison.faces = static_cast<std::size_t>(meshes.fine.T.rows());
+  comparison.threads = a.threads;
+  comparison.notes = result.warnings;
+  return html_report(comparison);
+}
+
 void write_outputs(const Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
                    const Simplification_report& report)
 {
@@ -157,6 +185,11 @@ void write_outputs(const Output_files& files, const Arguments& a, const Mesh& me
     std::ofstream stream(files.temporary(a.json));
     stream << to_json(report).dump(2) << '\n';
     finish_writing(stream, a.json);
+  }
+  if(!a.report.empty()) {
+    std::ofstream stream(files.temporary(a.report));
+    stream << page(a, mesh, meshes, report);
+    finish_writing(stream, a.report);
   }
 }
 

@@ -26,8 +26,9 @@ struct Arguments
   std::string placement = "on_edge", mass = "lumped";
   int threads = 1;
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false;
-  std::string restriction, prolongation, map, eigenpairs, json; // empty: not wanted
-  std::string help;                                             // the text, if it was asked for
+  std::string restriction, prolongation, map, eigenpairs, json, report; // empty: not wanted
+  std::string command;                                                  // as it was typed
+  std::string help;                                                     // the text, if it was asked for
 
   bool wants_matrices() const
   {
@@ -81,6 +82,8 @@ inline boost::program_options::options_description described(Arguments& a)
       "scale "
       "of the meshes as they are");
   add("json", text(a.json, "out.json"), "write the figures of the table and more");
+  add("report", text(a.report, "report.html"),
+      "write a page with the figures, the functional map and the eigenvalues");
   add("no-evaluation", po::bool_switch(&a.no_evaluation), "do not compute how well the spectrum was kept");
   add("quiet", po::bool_switch(&a.quiet), "no table, no progress bar, no warnings");
   return options;
@@ -113,6 +116,8 @@ inline void check(const Arguments& a)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be positive.");
   if(a.no_evaluation && !a.eigenpairs.empty())
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
+  if(a.no_evaluation && !a.report.empty())
+    refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
   mesh_format(a.input);
   if(mesh_format(a.output) == ".stl" && a.wants_matrices())
     refuse(
@@ -128,6 +133,9 @@ inline Arguments parse_arguments(int argc, char* argv[])
 {
   namespace po = boost::program_options;
   Arguments a;
+  a.command = "spectral_simplify";
+  for(int k = 1; k < argc; ++k)
+    a.command += std::string(" ") + argv[k];
   const po::options_description visible = arguments_internal::described(a);
   po::options_description all;
   all.add(visible).add_options()("input", po::value(&a.input))("output", po::value(&a.output));

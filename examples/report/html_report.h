@@ -9,6 +9,10 @@
 #include "html_figures.h"
 #include "svg_plot.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,36 +82,46 @@ template <class Values>
 std::string table(const Comparison& c, const std::string& mass, const std::vector<std::string>& columns,
                   const std::vector<bool>& best, bool floors, const Values& values)
 {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Columns without any number are left out.
+  std::vector<bool> shown(columns.size(), false);
+  for(const std::size_t N : sizes(c))
+    for(const auto& [s, j] : judged(c, N, mass))
+      for(std::size_t k = 0; k < columns.size(); ++k)
+        shown[k] = shown[k] || std::isfinite(values(*s, *j)[k].first);
   std::vector<std::string> names = {"simplifier", "placement", "relocation", "metric", "vertices"};
-  names.insert(names.end(), columns.begin(), columns.end());
+  for(std::size_t k = 0; k < columns.size(); ++k)
+    if(shown[k])
+      names.push_back(columns[k]);
+  if(names.size() == 5)
+    return "";
+
   std::string html = "<table>\n<thead>" + heading_row(names, 4) + "</thead>\n";
   for(const std::size_t N : sizes(c)) {
-    std::vector<std::pair<const Simplified*, std::vector<std::pair<double, bool>>>>
-        rows; // number, in percent
-    std::vector<double> smallest(columns.size(), std::numeric_limits<double>::infinity());
-    const Judgement* last = nullptr;
-    for(const auto& [s, j] : judged(c, N, mass)) {
-      rows.emplace_back(s, values(*s, *j));
-      last = j;
+    const auto rows = judged(c, N, mass);
+    std::vector<double> smallest(columns.size(), infinity);
+    for(const auto& [s, j] : rows)
       for(std::size_t k = 0; k < columns.size(); ++k)
-        if(rows.back().second[k].first < smallest[k])
-          smallest[k] = rows.back().second[k].first;
-    }
+        smallest[k] = (std::min)(smallest[k],
+                                 std::isfinite(values(*s, *j)[k].first) ? values(*s, *j)[k].first : infinity);
     html += "<tbody>\n";
-    for(const auto& [s, numbers] : rows) {
+    for(const auto& [s, j] : rows) {
       html += "<tr>" + who(*s);
       for(std::size_t k = 0; k < columns.size(); ++k) {
-        const auto [x, in_percent] = numbers[k];
-        html += cell(in_percent ? percent(x) : formatted(x), "td", best[k] && x == smallest[k] ? "best" : "");
+        const auto [x, in_percent] = values(*s, *j)[k];
+        const bool bold = best[k] && rows.size() > 1 && x == smallest[k];
+        if(shown[k])
+          html += cell(in_percent ? percent(x) : formatted(x), "td", bold ? "best" : "");
       }
       html += "</tr>\n";
     }
-    if(floors && last != nullptr) {
+    if(floors && !rows.empty()) {
+      const Judgement& j = *rows.front().second;
       html += "<tr class='floor'>" + cell("ideal linear elements (estimate)", "td", "l") +
-              "<td></td><td></td><td></td>" + cell(std::to_string(N)) + cell(formatted(last->floor_norm_L)) +
-              cell(formatted(last->floor_norm_D));
+              "<td></td><td></td><td></td>" + cell(std::to_string(N)) + cell(formatted(j.floor_norm_L)) +
+              cell(formatted(j.floor_norm_D));
       for(std::size_t k = 2; k < columns.size(); ++k)
-        html += "<td></td>";
+        html += shown[k] ? "<td></td>" : "";
       html += "</tr>\n";
     }
     html += "</tbody>\n";
@@ -179,57 +193,54 @@ inline std::string facts(const Comparison& c)
   const auto fact = [&](const std::string& name, const std::string& value) {
     html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
   };
-  fact("Fine mesh", escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " +
-                        std::to_string(c.faces) + " triangles, " + std::to_string(c.components) +
-                        (c.components == 1 ? " component, " : " components, ") +
-                        (c.closed ? "closed" : "with boundary"));
-  fact("Area, diagonal of its box",
-       formatted(c.area) + " u², " + formatted(c.diagonal) + " u (u: the unit of the file)");
+  const std::string components =
+      std::to_string(c.components) + (c.components == 1 ? " component, " : " components, ");
+  fact("Fine mesh",
+       escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " + std::to_string(c.faces) +
+           " triangles" +
+           (c.components == 0 ? "" : ", " + components + (c.closed ? "closed" : "with boundary")));
+  fact("Area", formatted(c.area) + " u² (u: the unit of the file)");
+  if(std::isfinite(c.diagonal))
+    fact("Diagonal of its box", formatted(c.diagonal) + " u");
   fact("K, number of eigenvectors", std::to_string(c.K));
   for(const Fine_spectrum& f : c.fine)
-    fact("Reference eigenpairs, " + f.mass + " mass", std::to_string(f.values.size()) + " in " +
-                                                          formatted(f.seconds) + " s, largest residual " +
-                                                          formatted(f.largest_residual));
-  fact("Distances", std::to_string(c.sources) + " sources, seed " + std::to_string(c.seed));
+    if(std::isfinite(f.seconds))
+      fact("Reference eigenpairs, " + f.mass + " mass", std::to_string(f.values.size()) + " in " +
+                                                            formatted(f.seconds) + " s, largest residual " +
+                                                            formatted(f.largest_residual));
+  if(c.sources > 0)
+    fact("Distances", std::to_string(c.sources) + " sources, seed " + std::to_string(c.seed));
   fact("Threads for the spectral costs", std::to_string(c.threads));
-  fact("CGAL, compiler", escaped(c.cgal_version) + ", " + escaped(c.compiler));
+  if(!c.cgal_version.empty())
+    fact("CGAL, compiler", escaped(c.cgal_version) + ", " + escaped(c.compiler));
   fact("Command", "<code>" + escaped(c.command) + "</code>");
   return html + "</table>\n";
 }
 
 inline const char* explanation()
 {
-  return "<ul>\n"
-         "<li><b>C</b> = Φ̃ᵀ M̃ P Φ maps the coefficients of a function on the fine mesh to those of its "
-         "restriction. "
-         "|C|<sub>L</sub> = |CΛ − Λ̃C| / |C| (unit: that of the eigenvalues) and |C|<sub>D</sub> = |CᵀC − I| "
-         "(no unit), "
-         "Frobenius norms, not squared; both are 0 if and only if the eigenpairs are kept exactly. Meshes "
-         "are scaled "
-         "to unit area each; <i>input scale</i> is without that.</li>\n"
-         "<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none, "
-         "that of "
-         "the closest points of the fine surface. <i>closest P</i> is the latter for all.</li>\n"
-         "<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations. Compare within one. "
-         "<i>metric</i> is the "
-         "mass that the simplifier itself works with, the heading names the one that it is judged in.</li>\n"
-         "<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged "
-         "at the "
-         "cut, not lost.</li>\n"
-         "<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on "
-         "equilateral "
-         "triangles that only sample the surface. A mesh that fits the spectrum on purpose can be "
-         "below.</li>\n"
-         "<li><b>Distances</b> (squared, but for the wave kernel's) and signatures: Σ M̃ |coarse − P fine| / "
-         "Σ M̃ |P fine|, "
-         "mean over the sources, times or energies; times and energies are those of the fine mesh.</li>\n"
-         "<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed "
-         "once for all "
-         "sizes. Remeshing is timed at the edge length that was found, without the search.</li>\n"
-         "<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral. "
-         "<b>Self-intersections</b> "
-         "counts pairs of triangles. Bold: the smallest of its column and size.</li>\n"
-         "</ul>\n";
+  return R"(<ul>
+<li><b>C</b> = Φ<sub>c</sub>ᵀ M<sub>c</sub> P Φ (c: coarse) maps the coefficients of a function on the fine mesh
+to those of its restriction. |C|<sub>L</sub> = |CΛ − Λ<sub>c</sub>C| / |C| (unit: that of the eigenvalues) and
+|C|<sub>D</sub> = |CᵀC − I| (no unit), Frobenius norms, not squared; both are 0 if and only if the eigenpairs are
+kept exactly. Meshes are scaled to unit area each; <i>input scale</i> is without that.</li>
+<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none, that of the
+closest points of the fine surface. <i>closest P</i> is the latter for all.</li>
+<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations: compare within one. <i>metric</i> is the mass
+that the simplifier itself works with, the heading names the one that it is judged in.</li>
+<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged at the cut, not
+lost.</li>
+<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on equilateral triangles that
+only sample the surface. A mesh that fits the spectrum on purpose can be below.</li>
+<li><b>Distances</b> (squared, but for the wave kernel's) and signatures:
+Σ M<sub>c</sub> |coarse − P fine| / Σ M<sub>c</sub> |P fine|, mean over the sources, times or energies; times and
+energies are those of the fine mesh.</li>
+<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed once for all
+sizes. Remeshing is timed at the edge length that was found, without the search.</li>
+<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral. <b>Self-intersections</b> counts
+pairs of triangles. Bold: the smallest of its column and size.</li>
+</ul>
+)";
 }
 
 } // namespace html_internal
