@@ -33,11 +33,12 @@ cmake -S "$root" -B "$build" "$@" ${CMAKE_ARGS:-} >"$output/build.log" 2>&1 &&
 
 "$build/examples/make_demo_shape" "$output/shape.ply"
 "$build/examples/spectral_simplify" "$output/shape.ply" "$output/coarse.ply" --ratio 0.03 \
-  --restriction "$output/restriction.mtx" --map "$output/map.txt" --json "$output/result.json"
+  --restriction "$output/restriction.mtx" --map "$output/map.txt" --json "$output/result.json" --report "$output/report.html"
 echo
 echo "In $output:"
 echo "  shape.ply        the shape before"
 echo "  coarse.ply       and after"
 echo "  restriction.mtx  the matrix that carries functions from the one to the other"
 echo "  map.txt          which coarse vertex each vertex went to"
+echo "  report.html      the functional map and the eigenvalues as pictures: open it in a browser"
 echo "  result.json      the figures above"

@@ -84,7 +84,7 @@ inline void check(const Compare_arguments& a)
   if(a.judges_others() && !a.vertices.empty())
     refuse("--vertices asks for simplifications, --coarse and --operator for a judgement: give one of them.");
   if(!a.judges_others() && a.vertices.empty())
-    refuse("--vertices is missing: how many vertices are the simplified meshes to have?");
+    refuse("--vertices is missing: say how many vertices the simplified meshes are to have.");
   if(!a.operator_file.empty() && (a.mass_file.empty() || a.restriction.empty()))
     refuse("--operator needs --mass and --restriction as well.");
   if(a.operator_file.empty() && !a.mass_file.empty())
