@@ -336,6 +336,10 @@ private:
       rings[s] = ring_of(v);
       ++m_number_of_vertices;
     }
+    if(m_number_of_vertices + std::size_t(m_core.forest().number_of_merges()) != n)
+      throw std::logic_error(
+          "Spectral_policies: vertices of the mesh have been removed without the visitor of the "
+          "policies; make new policies for the mesh as it is.");
     m_core.set_geometry(std::move(points), std::move(rings));
   }
 
