@@ -169,6 +169,33 @@ struct Border_probe : SMS::internal::No_visitor
   int one_border = 0, kept = 0;
 };
 
+// CGAL does not cost edges again after it has merged the ends of an edge without length: what is known of the edges
+// around must be forgotten.
+bool no_stale_candidate_around_merged_vertices(const Mesh& mesh, const Policies& policies)
+{
+  const auto& core = policies.state().core();
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> P = policies.restriction();
+  const std::vector<Eigen::Index> slots = policies.state().current_slots();
+  std::vector<SMS::internal::Spectral_slot> slot(mesh.num_vertices());
+  std::vector<Mesh::Vertex_index> merged;
+  Eigen::Index row = 0;
+  for(const auto v : vertices(mesh)) {
+    slot[v] = SMS::internal::Spectral_slot(slots[row]);
+    if(P.row(row++).nonZeros() > 1)
+      merged.push_back(v);
+  }
+  SMS::internal::Spectral_collapse_kernel kernel;
+  for(const auto v : merged)
+    for(const auto h : CGAL::halfedges_around_target(v, mesh))
+      for(const auto e : CGAL::halfedges_around_target(mesh.source(h), mesh)) {
+        const auto a = slot[mesh.source(e)], b = slot[mesh.target(e)];
+        const auto* c = core.candidates().find(a, b);
+        if(c != nullptr && c->cost != core.evaluate(a, b, kernel).cost)
+          return false;
+      }
+  return !merged.empty();
+}
+
 } // namespace
 
 TEST_CASE("A forgotten visitor throws at the first cost and leaves the mesh as it is")
@@ -295,6 +322,22 @@ TEST_CASE("A second run continues, and P still starts at the original input")
   }
 }
 
+TEST_CASE("A second run refuses a mesh from which vertices were removed without the visitor")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  const Policies policies(mesh, options_with(8));
+  collapse(mesh, policies, 100);
+  for(const auto e : edges(mesh))
+    if(CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
+      CGAL::Euler::collapse_edge(e, mesh);
+      break;
+    }
+  REQUIRE(count_vertices(mesh) == 99);
+  CHECK_THROWS_AS(policies.restriction(), std::logic_error);
+  CHECK_THROWS_AS(collapse(mesh, policies, 60), std::logic_error);
+  CHECK_THROWS_WITH(collapse(mesh, policies, 60), ContainsSubstring("visitor"));
+}
+
 TEST_CASE("Rows of P follow vertices(mesh) after collect_garbage")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
@@ -398,6 +441,7 @@ TEST_CASE("Edges without length are merged with equal weights before the loop, a
     CHECK(recorder[collapsing] == 0);
     const Eigen::MatrixXd P = policies.restriction();
     CHECK((P.array() == 0.5).count() >= Eigen::Index(2 * (merges - 2)));
+    CHECK(no_stale_candidate_around_merged_vertices(mesh, policies));
   }
   SECTION("and many collapses")
   {

@@ -258,6 +258,12 @@ TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
     pairs.vectors.conservativeResize(50, 8);
     refuse(pairs, "50 rows");
   }
+  SECTION("none at all")
+  {
+    pairs.values.resize(0);
+    pairs.vectors.resize(162, 0);
+    refuse(pairs, "eigen");
+  }
   SECTION("fewer values than vectors")
   {
     pairs.values.conservativeResize(5);
@@ -368,6 +374,27 @@ TEST_CASE("Signals of the user's are followed as eigenvectors are")
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
   const double lost = fine.basis.Z.cwiseProduct(op.B * fine.basis.Z).sum() / fine.basis.area;
   CHECK(policies.relative_error() == Catch::Approx(std::sqrt(policies.error() / lost)));
+}
+
+TEST_CASE("With constants alone nothing can be lost")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(1);
+  options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const bool signals = GENERATE(false, true);
+  CAPTURE(signals, SG::mass_name(options.mass));
+  if(signals)
+    options.signals = Eigen::MatrixXd::Constant(162, 2, -1e3);
+  const Policies policies(mesh, options);
+  CHECK(policies.state().sum_of_squares() == 0);
+  CHECK(policies.relative_error() == 0);
+  collapse(mesh, policies, 60);
+  CHECK(fault_of_restriction(policies.restriction(), policies.vertex_map()) == "");
+  CHECK(policies.error() >= 0);
+  CHECK(policies.error() < (signals ? 1e-6 : 1e-12)); // beside 1e6 and 1
+  CHECK(policies.relative_error() == 0);
+  CHECK(policies.state().relative_error(-1e-20) == 0);
 }
 
 TEST_CASE("Options that cannot be used are refused in a sentence that names them")

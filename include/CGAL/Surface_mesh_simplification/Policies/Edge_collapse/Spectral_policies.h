@@ -24,7 +24,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -134,10 +133,11 @@ public:
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_state->eigenpairs(); }
 
   /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
-  double error() const { return m_state->core().total(); }
+  double error() const { return m_state->error(); }
 
-  /// sqrt(E / sum_k lambda_k^2), which does not depend on scale.
-  double relative_error() const { return std::sqrt(error() / m_state->sum_of_squares()); }
+  /// sqrt(E / sum_k lambda_k^2), which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
+  /// the signals are constant (K = 1 for instance): P carries constants over exactly.
+  double relative_error() const { return m_state->relative_error(); }
 
   /// What the three handles share.
   State& state() { return *m_state; }

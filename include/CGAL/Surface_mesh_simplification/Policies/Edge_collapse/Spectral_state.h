@@ -238,12 +238,19 @@ public:
   /// @{
 
   /// P, rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const { return m_core.forest().restriction(current_slots()); }
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    const std::vector<Eigen::Index> slots = current_slots();
+    check_number_of_vertices(slots.size());
+    return m_core.forest().restriction(slots);
+  }
 
   /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Eigen::Index> map = m_core.forest().vertex_map(current_slots());
+    const std::vector<Eigen::Index> slots = current_slots();
+    check_number_of_vertices(slots.size());
+    const std::vector<Eigen::Index> map = m_core.forest().vertex_map(slots);
     return std::vector<std::size_t>(map.begin(), map.end());
   }
 
@@ -259,8 +266,17 @@ public:
   const Refusals& refusals() const { return m_refusals; }
   std::size_t number_of_vertices() const { return m_number_of_vertices; }
   double area() const { return m_area; }
-  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2.
+  /// E of the current mesh. What is left of 0 after sums and differences is never negative.
+  double error() const { return (std::max)(0., m_core.total()); }
+  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2; 0 where the signals are constant to rounding.
   double sum_of_squares() const { return m_sum_of_squares; }
+  /// sqrt(E / sum_k lambda_k^2); 0 for constant signals, which P carries over exactly.
+  double relative_error() const { return relative_error(error()); }
+  /// The same, were E the given number.
+  double relative_error(const double E) const
+  {
+    return m_sum_of_squares > 0 ? std::sqrt((std::max)(0., E) / m_sum_of_squares) : 0.;
+  }
   double seconds_basis() const { return m_seconds_basis; }
   double seconds_first_costs() const { return m_seconds_first_costs; }
 
@@ -336,11 +352,18 @@ private:
       rings[s] = ring_of(v);
       ++m_number_of_vertices;
     }
-    if(m_number_of_vertices + std::size_t(m_core.forest().number_of_merges()) != n)
+    check_number_of_vertices(m_number_of_vertices);
+    m_core.set_geometry(std::move(points), std::move(rings));
+  }
+
+  // The merges on record are all that has happened to the mesh.
+  void check_number_of_vertices(const std::size_t number_of_vertices) const
+  {
+    if(number_of_vertices + std::size_t(m_core.forest().number_of_merges()) !=
+       std::size_t(m_fine_points.rows()))
       throw std::logic_error(
           "Spectral_policies: vertices of the mesh have been removed without the visitor of the "
           "policies; make new policies for the mesh as it is.");
-    m_core.set_geometry(std::move(points), std::move(rings));
   }
 
   // Edges without length are collapsed before the loop, announced by OnCollapsed alone. The removed vertex

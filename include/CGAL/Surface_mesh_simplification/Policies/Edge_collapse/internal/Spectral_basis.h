@@ -34,8 +34,9 @@ struct Spectral_basis
   Eigen::MatrixXd F, Z;
   Eigen::VectorXd lambda;
   double theta = 0;
-  double area = 1;           ///< of the input
-  double sum_of_squares = 0; ///< || Z ||_B^2; the sum of lambda_k^2 for eigenvectors
+  double area = 1; ///< of the input
+  /// || Z ||_B^2; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
+  double sum_of_squares = 0;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< at the input's scale
 };
 
@@ -61,6 +62,9 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
     throw std::invalid_argument(
         "Spectral_options: there are " + to_string(options.eigenpairs->values.size()) + " eigenvalues for " +
         to_string(options.eigenpairs->vectors.cols()) + " eigenvectors; give one for each.");
+  if(options.eigenpairs && options.eigenpairs->values.size() == 0)
+    throw std::invalid_argument(
+        "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
@@ -178,6 +182,11 @@ inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::Matr
     }
     basis = basis_of_eigenpairs(op, options, pairs, area);
   }
+  // L f of a constant f is a rounding of 0 beside its diagonal times f, and Z is that over a mass of about 1 / n.
+  const double norm_of_F = basis.F.cwiseProduct(op.B * basis.F).sum() / area;
+  const double rounding = 1e-14 * double(V.rows());
+  if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
+    basis.sum_of_squares = 0;
   basis.theta = theta;
   basis.area = area;
   return basis;
