@@ -10,6 +10,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /// \brief is thrown when a progress callback has asked to stop.
 class Cancelled : public std::runtime_error
 {
@@ -18,6 +21,8 @@ public:
     : std::runtime_error("The computation was cancelled by the progress callback.")
   {}
 };
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

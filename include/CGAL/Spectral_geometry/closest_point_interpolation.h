@@ -27,6 +27,9 @@
 
 namespace CGAL {
 namespace Spectral_geometry {
+
+/// \addtogroup PkgSpectralMeshSimplificationTransfer
+/// @{
 namespace internal {
 
 // A point of a triangle as a convex combination of its three vertices.
@@ -236,6 +239,8 @@ inline Eigen::SparseMatrix<double> closest_point_interpolation(const Eigen::Matr
   W.setFromTriplets(entries.begin(), entries.end());
   return W;
 }
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -24,6 +24,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /// \brief the mass matrix of linear finite elements: lumped, or the mean of lumped and consistent.
 ///
 /// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles and
@@ -341,6 +344,8 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::l
   const Mesh_matrices mesh = mesh_matrices(tm, np);
   return laplace_operator(mesh.V, mesh.T, mass_blend(mass));
 }
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

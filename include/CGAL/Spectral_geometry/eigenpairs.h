@@ -20,6 +20,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /// \brief the first K eigenpairs of \f$L \phi = \lambda B \phi\f$.
 struct Eigenpairs
 {
@@ -94,6 +97,8 @@ inline Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
   problem.report(1.);
   return result;
 }
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -21,6 +21,9 @@
 
 namespace CGAL {
 namespace Spectral_geometry {
+
+/// \addtogroup PkgSpectralMeshSimplificationEvaluation
+/// @{
 namespace internal {
 
 inline void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted)
@@ -219,8 +222,8 @@ inline Eigen::Index number_of_zero_eigenvalues(const Eigen::VectorXd& values, do
 struct Eigenvalue_errors
 {
   Eigen::Index modes = 0; ///< number of modes compared; when it is 0, `mean` and `max` are NaN
-  double mean = std::numeric_limits<double>::quiet_NaN();
-  double max = std::numeric_limits<double>::quiet_NaN();
+  double mean = std::numeric_limits<double>::quiet_NaN(); ///< mean over the modes compared
+  double max = std::numeric_limits<double>::quiet_NaN();  ///< largest of the modes compared
 };
 
 /*!
@@ -417,6 +420,8 @@ inline Eigen::MatrixXd prolong_through_spectrum(const Laplace_operator& fine, co
   const double scale = std::sqrt(fine.mass.sum() / coarse.mass.sum());
   return scale * (fine_pairs.vectors.leftCols(C.cols()) * (C.transpose() * coefficients));
 }
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

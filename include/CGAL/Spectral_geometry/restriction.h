@@ -15,6 +15,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationTransfer
+/// @{
+
 /*!
 The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of vertex merges (section 3.2 of
 Lescoat et al. 2020), recorded in constant time per merge.
@@ -39,15 +42,15 @@ Simplification*, Computer Graphics Forum 39(2), 2020.
 class Merge_forest
 {
 public:
-  using Index = Eigen::Index;
-  using Matrix = Eigen::SparseMatrix<double>;
+  using Index = Eigen::Index;                 ///< of a slot or a merge
+  using Matrix = Eigen::SparseMatrix<double>; ///< type of `P`
 
   /// one merge: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
   struct Merge
   {
-    Index removed;
-    Index kept;
-    double alpha;
+    Index removed; ///< the slot that is gone
+    Index kept;    ///< the slot that goes on
+    double alpha;  ///< in [0, 1], the weight of the removed slot
   };
 
   /// the forest of the empty mesh.
@@ -238,6 +241,8 @@ private:
   std::vector<Merge> m_merges;
   std::vector<bool> m_alive;
 };
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -41,6 +41,9 @@ Common to all functions:
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationEvaluation
+/// @{
+
 /// returns how many of the eigenvalues are zero up to rounding, at most 1e-6 times \f$ 4 \pi / A \f$. The
 /// area `A` of the mesh is read off the first eigenvector, which is \f$ 1/\sqrt{A} \f$ at all vertices of a
 /// connected mesh (in other cases it gives the order of magnitude, which is all that is needed).
@@ -212,6 +215,7 @@ returns times for `heat_kernel_signature()`: `steps` of them with constant ratio
 nonzero eigenvalue and \f$ \lambda_K \f$ the last (Sun, Ovsjanikov and Guibas 2009). At these times the last
 and the first mode have decayed to 1e-4.
 
+@param pairs at least one with a nonzero eigenvalue
 @param steps at least 1; with 1 only the first time is returned
 */
 inline Eigen::VectorXd heat_kernel_times(const Eigenpairs& pairs, Eigen::Index steps = 100)
@@ -273,6 +277,7 @@ returns energies for `wave_kernel_signature()` and `wave_kernel_distance()` as A
 eigenvalue \f$ \lambda_1 \f$ and the last \f$ \lambda_K \f$. Another unit of length moves all energies by one
 constant.
 
+@param pairs at least two with different nonzero eigenvalues
 @param steps at least 1, 2 for a distance. More steps refine the sampling and change neither sigma nor the
   interval.
 
@@ -365,6 +370,8 @@ inline Eigen::VectorXd wave_kernel_distance(const Eigenpairs& pairs, Eigen::Inde
 {
   return wave_kernel_distance(pairs, std::vector<Eigen::Index>{source}, energies);
 }
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

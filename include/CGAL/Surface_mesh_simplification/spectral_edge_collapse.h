@@ -32,9 +32,13 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /// What `spectral_edge_collapse()` returns.
 struct Spectral_edge_collapse_result
 {
+  /// Why the loop ended.
   enum class Stop_reason {
     target_reached,  ///< the mesh has the number of vertices that was asked for
     queue_exhausted, ///< no edge is left that may be collapsed; see `explanation`
@@ -45,22 +49,25 @@ struct Spectral_edge_collapse_result
   /// it comes back whenever something near it has changed.
   struct Refusals
   {
-    std::size_t topology = 0, geometry = 0, filter = 0, placement = 0;
+    std::size_t topology = 0;  ///< CGAL's link condition and the like
+    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;    ///< the `filter` named parameter
+    std::size_t placement = 0; ///< no position without a degenerate triangle
   };
 
-  std::size_t input_vertices = 0;
-  std::size_t output_vertices = 0;
-  std::size_t collapses = 0; ///< merges of two vertices, those of edges without length included
-  Stop_reason stop_reason = Stop_reason::target_reached;
-  std::string explanation; ///< one sentence if the target was not reached, else empty
-  std::vector<std::string> warnings;
-  Refusals refusals;
+  std::size_t input_vertices = 0;  ///< number of vertices before
+  std::size_t output_vertices = 0; ///< and after
+  std::size_t collapses = 0;       ///< merges of two vertices, those of edges without length included
+  Stop_reason stop_reason = Stop_reason::target_reached; ///< why it stopped
+  std::string explanation;           ///< one sentence if the target was not reached, else empty
+  std::vector<std::string> warnings; ///< one sentence each: what was done, but is not advised
+  Refusals refusals;                 ///< candidates that were given up, by cause
 
-  double seconds_pre_simplification = 0;
-  double seconds_eigenpairs = 0;
-  double seconds_first_costs = 0;
-  double seconds_collapse = 0; ///< first costs and the collapse loop
-  double seconds_total = 0;
+  double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_options::pre_simplify`
+  double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
+  double seconds_first_costs = 0;        ///< evaluating every edge once
+  double seconds_collapse = 0;           ///< first costs and the collapse loop
+  double seconds_total = 0;              ///< the whole call
 
   double E = 0;              ///< Eq. 2, for the input scaled to unit area
   double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
@@ -76,6 +83,7 @@ struct Spectral_edge_collapse_result
   /// of the user's
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
+  /// the reason in words
   const char* stop_reason_name() const
   {
     return stop_reason == Stop_reason::target_reached    ? "target reached"
@@ -352,6 +360,8 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   result.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

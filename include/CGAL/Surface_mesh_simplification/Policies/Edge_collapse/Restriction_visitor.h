@@ -26,6 +26,9 @@
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
 namespace internal {
 
 /// What the copies of a `Restriction_visitor` share: the merges so far, and the one under way.
@@ -119,7 +122,9 @@ private:
  * Eigen::SparseMatrix<double> P = visitor.restriction();
  * \endcode
  *
- * A model of `EdgeCollapseSimplificationVisitor`. The object is a handle: copies, those that
+ * \cgalModels{EdgeCollapseSimplificationVisitor}
+ *
+ * The object is a handle: copies, those that
  * `edge_collapse()` makes included, share what is tracked. The mesh must outlive it and must not be given new
  * vertices. A second `edge_collapse()` with the same visitor continues, and P still starts at the mesh of the
  * constructor. Constant time and memory per collapse. `Spectral_policies` tracks its own P: it needs no such
@@ -133,8 +138,8 @@ template <class TriangleMesh, class UserVisitor = internal::No_visitor>
 class Restriction_visitor
 {
 public:
-  using Triangle_mesh = TriangleMesh;
-  using User_visitor = UserVisitor;
+  using Triangle_mesh = TriangleMesh; ///< the type of the mesh
+  using User_visitor = UserVisitor;   ///< the type of the visitor that calls are handed on to
 
   /// Takes the mesh as it is now for the fine one.
   explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())
@@ -164,6 +169,7 @@ public:
   /// \name Called by `edge_collapse()`
   /// @{
 
+  /// as in the concept; `OnStarted()` throws `std::invalid_argument` for another mesh than that of the constructor
   void OnStarted(Triangle_mesh& mesh)
   {
     m_tracker->check_mesh(mesh);
@@ -220,6 +226,8 @@ private:
   std::shared_ptr<Tracker> m_tracker;
   User_visitor m_user;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -13,9 +13,14 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /*!
- * A handle on a `Spectral_state`, a model of `GetCost`: the change of E (Eq. 2 of the paper) that the collapse
+ * A handle on a `Spectral_state`: the change of E (Eq. 2 of the paper) that the collapse
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
+ *
+ * \cgalModels{GetCost}
  *
  * Made by `Spectral_policies::get_cost()`. Throws `std::logic_error` unless the visitor of the same policies
  * takes part in the run.
@@ -24,11 +29,15 @@ template <class State>
 class Spectral_cost
 {
 public:
+  /// a handle on nothing, to be assigned to
   Spectral_cost() = default;
+  /// a handle on `state`
   explicit Spectral_cost(std::shared_ptr<State> state)
     : m_state(std::move(state))
   {}
 
+  /// returns the change of E at the point `placement`; the largest finite number where there is no point, or a cost that is
+  /// not finite.
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const
   {
@@ -38,6 +47,8 @@ public:
 private:
   std::shared_ptr<State> m_state;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -19,6 +19,9 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /// Where the vertex that replaces an edge is put (section 3.4 of the paper).
 enum class Spectral_placement_strategy {
   midpoint, ///< strategy (i): the middle of the edge; one evaluation per candidate
@@ -42,7 +45,7 @@ enum class Spectral_phase {
 /// The argument of `Spectral_options::progress`.
 struct Spectral_progress
 {
-  Spectral_phase phase;
+  Spectral_phase phase;           ///< what is being done
   double fraction;                ///< of this phase, in [0,1]; never decreases within a phase
   std::size_t number_of_vertices; ///< of the mesh as it is now
 };
@@ -100,6 +103,8 @@ struct Spectral_options
   /// is untouched; inside the loop `spectral_edge_collapse()` stops with a valid mesh and its P.
   std::function<bool(const Spectral_progress&)> progress;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

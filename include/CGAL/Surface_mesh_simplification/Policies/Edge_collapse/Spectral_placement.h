@@ -13,10 +13,15 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /*!
- * A handle on a `Spectral_state`, a model of `GetPlacement`: the point on the edge where the cost is least
+ * A handle on a `Spectral_state`: the point on the edge where the cost is least
  * (section 3.4 of the paper), or its midpoint. No point where every position makes a triangle without
  * area, or where the collapse is topologically impossible.
+ *
+ * \cgalModels{GetPlacement}
  *
  * Made by `Spectral_policies::get_placement()`. May be wrapped, by `Constrained_placement` for instance: the cost
  * is then evaluated at the point that the wrapper returns.
@@ -25,11 +30,14 @@ template <class State>
 class Spectral_placement
 {
 public:
+  /// a handle on nothing, to be assigned to
   Spectral_placement() = default;
+  /// a handle on `state`
   explicit Spectral_placement(std::shared_ptr<State> state)
     : m_state(std::move(state))
   {}
 
+  /// returns the best point for `profile`, or none.
   template <class Profile>
   auto operator()(const Profile& profile) const
   {
@@ -39,6 +47,8 @@ public:
 private:
   std::shared_ptr<State> m_state;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -32,6 +32,9 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /*!
  * Cost, placement and visitor for `edge_collapse()` that keep the spectrum of the Laplace-Beltrami operator.
  *
@@ -68,12 +71,18 @@ template <class TriangleMesh,
 class Spectral_policies
 {
 public:
+  /// \name Types
+  /// @{
+
+  /// the template parameters, what the handles share, and the handles
   using Triangle_mesh = TriangleMesh;
   using Geom_traits = GeomTraits;
   using Vertex_point_map = VertexPointMap;
   using State = Spectral_state<Triangle_mesh, Geom_traits, Vertex_point_map>;
   using Get_cost = Spectral_cost<State>;
   using Get_placement = Spectral_placement<State>;
+
+  /// @}
 
   /*!
    * Reads the mesh and finds the basis, which takes most of the time for large meshes.
@@ -98,7 +107,10 @@ public:
           np))
   {}
 
+  /// The cost that `edge_collapse()` must get, a model of `GetCost`.
   Get_cost get_cost() const { return Get_cost(m_state); }
+
+  /// The placement that `edge_collapse()` must get, a model of `GetPlacement`; it may be wrapped.
   Get_placement get_placement() const { return Get_placement(m_state); }
 
   /// The visitor that `edge_collapse()` must get.
@@ -141,11 +153,14 @@ public:
 
   /// What the three handles share.
   State& state() { return *m_state; }
+  /// What the three handles share.
   const State& state() const { return *m_state; }
 
 private:
   std::shared_ptr<State> m_state;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

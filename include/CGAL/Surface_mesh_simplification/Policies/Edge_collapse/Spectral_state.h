@@ -39,6 +39,9 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /*!
  * What cost, placement and visitor of one `Spectral_policies` share: F and Z, the residual
  * R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
@@ -56,6 +59,10 @@ template <class TriangleMesh, class GeomTraits, class VertexPointMap>
 class Spectral_state
 {
 public:
+  /// \name Types
+  /// @{
+
+  /// of the mesh and its parts, and of the vertices of the input as they are numbered inside
   using Triangle_mesh = TriangleMesh;
   using Geom_traits = GeomTraits;
   using Vertex_point_map = VertexPointMap;
@@ -64,6 +71,8 @@ public:
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
   using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
   using Slot = internal::Spectral_slot;
+
+  /// @}
 
   /// Why candidates were given up when their turn came.
   struct Refusals
@@ -135,12 +144,14 @@ public:
     return token;
   }
 
+  /// Follows the callback of the visitor that has the same name.
   void on_finished()
   {
     close_selection();
     m_run.reset();
   }
 
+  /// \copydoc on_finished()
   template <class Profile>
   void on_selected(const Profile&)
   {
@@ -149,8 +160,10 @@ public:
     m_placement_asked = m_placement_found = false;
   }
 
+  /// \copydoc on_finished()
   void on_stop_condition_reached() { m_selection_open = false; }
 
+  /// \copydoc on_finished()
   template <class Profile>
   void on_non_collapsable(const Profile&)
   {
@@ -175,6 +188,7 @@ public:
     m_pending.open = true;
   }
 
+  /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
   void on_collapsed(const vertex_descriptor kept_vertex)
   {
     const Slot kept = slot(kept_vertex);
@@ -257,14 +271,23 @@ public:
   /// The slots of `vertices(mesh)`, in that order.
   std::vector<Eigen::Index> current_slots() const { return m_slots.current(); }
 
+  /// The mesh as it is now.
   const Triangle_mesh& mesh() const { return *m_mesh; }
+  /// The map that positions are read from.
   const Vertex_point_map& vertex_point_map() const { return m_vpm; }
+  /// The kernel.
   const Geom_traits& geom_traits() const { return m_traits; }
+  /// The mathematics: fields, candidates and merges.
   const internal::Spectral_collapse_core& core() const { return m_core; }
+  /// n x 3, the positions of the input.
   const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
+  /// The eigenpairs of the input at its own scale; null with signals of the user's.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
+  /// Candidates that were given up so far, over all runs.
   const Refusals& refusals() const { return m_refusals; }
+  /// Of the mesh as it is now.
   std::size_t number_of_vertices() const { return m_number_of_vertices; }
+  /// Of the input, in its own unit.
   double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
   double error() const { return (std::max)(0., m_core.total()); }
@@ -277,7 +300,9 @@ public:
   {
     return m_sum_of_squares > 0 ? std::sqrt((std::max)(0., E) / m_sum_of_squares) : 0.;
   }
+  /// Wall seconds of the constructor.
   double seconds_basis() const { return m_seconds_basis; }
+  /// Wall seconds of evaluating every edge once, in the last run.
   double seconds_first_costs() const { return m_seconds_first_costs; }
 
   /// @}
@@ -425,6 +450,8 @@ private:
   Refusals m_refusals;
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -13,6 +13,9 @@
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
 namespace internal {
 
 /// The user's visitor where there is none.
@@ -58,8 +61,10 @@ Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
 } // namespace internal
 
 /*!
- * A handle on a `Spectral_state`, a model of `EdgeCollapseSimplificationVisitor` that keeps the state in step with
+ * A handle on a `Spectral_state` that keeps the state in step with
  * the mesh, and hands every call on to a visitor of the user's.
+ *
+ * \cgalModels{EdgeCollapseSimplificationVisitor}
  *
  * Made by `Spectral_policies::visitor()`. The user's visitor is called before the state in `OnStarted`,
  * where it may still change the mesh, and after it everywhere else. It is copied, as `edge_collapse()` itself copies
@@ -69,11 +74,16 @@ template <class State, class UserVisitor = internal::No_visitor>
 class Spectral_visitor
 {
 public:
+  /// a handle on `state` that also calls `user`
   explicit Spectral_visitor(std::shared_ptr<State> state, UserVisitor user = UserVisitor())
     : m_state(std::move(state))
     , m_user(std::move(user))
   {}
 
+  /// \name Called by `edge_collapse()`
+  /// @{
+
+  /// as in the concept; `OnStarted()` throws `std::invalid_argument` for another mesh than that of the policies
   template <class TriangleMesh>
   void OnStarted(TriangleMesh& mesh)
   {
@@ -130,6 +140,8 @@ public:
     user().OnNonCollapsable(profile);
   }
 
+  /// @}
+
 private:
   decltype(auto) user() { return internal::unwrap_visitor(m_user); }
 
@@ -137,6 +149,8 @@ private:
   std::shared_ptr<void> m_run; // the run ends with the visitor, even when an exception leaves the loop
   UserVisitor m_user;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -15,9 +15,14 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 /*!
- * A model of `StopPredicate`: stops when the mesh has at most the given number of vertices, isolated ones
+ * Stops when the mesh has at most the given number of vertices, isolated ones
  * included. Works with every cost and placement, without a visitor.
+ *
+ * \cgalModels{StopPredicate}
  *
  * CGAL tells a stop predicate edge counts only, and counting vertices is linear while a mesh is being
  * collapsed. Each collapse removes one vertex, and two or three edges: so the vertices are counted at
@@ -30,7 +35,7 @@ template <class TriangleMesh>
 class Vertex_count_stop_predicate
 {
 public:
-  using Triangle_mesh = TriangleMesh;
+  using Triangle_mesh = TriangleMesh; ///< the type of the mesh
 
   /// @param number_of_vertices the target N; 0 never stops
   /// @param mesh the mesh that is simplified
@@ -39,6 +44,7 @@ public:
     , m_mesh(&mesh)
   {}
 
+  /// whether the mesh, after the collapses so far, has at most N vertices
   template <class Cost, class Profile>
   bool operator()(const Cost&, const Profile&, const std::size_t initial_edge_count,
                   const std::size_t current_edge_count) const
@@ -64,6 +70,8 @@ private:
   mutable bool m_counted = false;
   mutable std::size_t m_vertices = 0, m_edges = 0, m_initial_edges = 0;
 };
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
