@@ -23,6 +23,7 @@ using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Surface_mesh = CGAL::Surface_mesh<Point>;
+using Method = SG::Eigenpairs_method;
 using SG::Eigenpairs;
 using SG::Laplace_operator;
 
@@ -33,6 +34,14 @@ constexpr double thetas[] = {0., 0.5};
 Laplace_operator laplace(const shapes::Matrices& mesh, double theta = 0.)
 {
   return SG::laplace_operator(mesh.V, mesh.T, theta);
+}
+
+SG::Eigenpairs_options with_method(Method method, double tolerance = 1e-10)
+{
+  SG::Eigenpairs_options options;
+  options.method = method;
+  options.tolerance = tolerance;
+  return options;
 }
 
 double area(const shapes::Matrices& mesh)
@@ -229,19 +238,20 @@ TEST_CASE("Removed vertices and faces are skipped, a vertex point map is respect
   CHECK(op.mass.sum() == Approx(4. * 17. / 18.));
 }
 
-TEST_CASE("Residuals and orthonormality of eigenpairs in either mass")
+TEST_CASE("Residuals and orthonormality of eigenpairs in either mass, by either method")
 {
   for(const shapes::Matrices& mesh :
       {shapes::bumpy_icosphere_matrices(3), shapes::irregular_grid_matrices(25, 20)})
-    for(const double theta : thetas) {
-      const Laplace_operator op = laplace(mesh, theta);
-      const Eigenpairs pairs = SG::eigenpairs(op, 40);
-      check_pairs(op, pairs);
-      CHECK(pairs.complete);
-      CHECK(pairs.solver.find("spectra+") == 0);
-      CHECK(pairs.values(0) * op.mass.sum() < 1e-10);
-      CHECK(pairs.values(1) * op.mass.sum() > 1.);
-    }
+    for(const double theta : thetas)
+      for(const Method method : {Method::block, Method::spectra}) {
+        const Laplace_operator op = laplace(mesh, theta);
+        const Eigenpairs pairs = SG::eigenpairs(op, 40, with_method(method));
+        check_pairs(op, pairs);
+        CHECK(pairs.complete);
+        CHECK(pairs.solver.find(method == Method::block ? "block+" : "spectra+") == 0);
+        CHECK(pairs.values(0) * op.mass.sum() < 1e-10);
+        CHECK(pairs.values(1) * op.mass.sum() > 1.);
+      }
 }
 
 TEST_CASE("A sphere's spectrum is l(l+1) with multiplicity 2l+1")
@@ -288,26 +298,93 @@ TEST_CASE("On equilateral triangles the averaged mass is far more accurate than 
   CHECK(averaged < 0.02 * lumped);
 }
 
-TEST_CASE("Copies of eigenvalues on several components are all found")
+TEST_CASE("Copies of eigenvalues on several components are all found, by either method")
 {
   const shapes::Matrices mesh = shapes::components_matrices(shapes::icosphere_matrices(3), 3);
-  for(const double theta : thetas) {
-    const Laplace_operator op = laplace(mesh, theta);
-    const Eigenpairs pairs = SG::eigenpairs(op, 48); // three times 1 + 3 + 5 + 7
-    check_pairs(op, pairs);
-    CHECK(pairs.complete);
-    const Eigenpairs single = SG::eigenpairs(laplace(shapes::icosphere_matrices(3), theta), 16);
-    for(Eigen::Index k = 0; k < 48; ++k)
-      CHECK(pairs.values(k) == Approx(single.values(k / 3)).epsilon(1e-8).margin(1e-10));
-  }
+  for(const double theta : thetas)
+    for(const Method method : {Method::block, Method::spectra}) {
+      const Laplace_operator op = laplace(mesh, theta);
+      const Eigenpairs pairs = SG::eigenpairs(op, 48, with_method(method)); // three times 1 + 3 + 5 + 7
+      check_pairs(op, pairs);
+      CHECK(pairs.complete);
+      const Eigenpairs single = SG::eigenpairs(laplace(shapes::icosphere_matrices(3), theta), 16);
+      for(Eigen::Index k = 0; k < 48; ++k)
+        CHECK(pairs.values(k) == Approx(single.values(k / 3)).epsilon(1e-8).margin(1e-10));
+    }
+}
+
+TEST_CASE("More copies of an eigenvalue than a block has vectors are found")
+{
+  // Twenty components: 20 constants, then 60 copies of the first eigenvalue of a sphere.
+  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
+  const Eigenpairs pairs = SG::eigenpairs(op, 70, with_method(Method::block));
+  check_pairs(op, pairs);
+  CHECK(pairs.complete);
+  const Eigenpairs single = SG::eigenpairs(laplace(shapes::icosphere_matrices(2)), 4);
+  for(Eigen::Index k = 0; k < 70; ++k)
+    CHECK(pairs.values(k) == Approx(k < 20 ? 0. : single.values(1)).epsilon(1e-8).margin(1e-9));
 }
 
 TEST_CASE("A kernel larger than K is returned as such")
 {
   const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
-  const Eigenpairs pairs = SG::eigenpairs(op, 7);
-  check_pairs(op, pairs);
-  CHECK(pairs.values.maxCoeff() * op.mass.sum() < 1e-9);
+  for(const Method method : {Method::block, Method::spectra}) {
+    const Eigenpairs pairs = SG::eigenpairs(op, 7, with_method(method));
+    check_pairs(op, pairs);
+    CHECK(pairs.values.maxCoeff() * op.mass.sum() < 1e-9);
+  }
+}
+
+TEST_CASE("The block method agrees with the reference at every tolerance")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4));
+  const Eigenpairs reference = SG::eigenpairs(op, 60, with_method(Method::spectra));
+  for(const double tolerance : {1e-2, 1e-5, 1e-8, 1e-12}) {
+    const Eigenpairs pairs = SG::eigenpairs(op, 60, with_method(Method::block, tolerance));
+    const double error = (pairs.values - reference.values).cwiseAbs().maxCoeff() / reference.values(59);
+    CHECK(error < (std::max)(10. * tolerance * tolerance, 1e-12));
+    CHECK(pairs.residuals.maxCoeff() < (std::max)(1e3 * tolerance, 1e-9));
+    CHECK(orthonormality_error(op, pairs) < 1e-10);
+  }
+}
+
+TEST_CASE("A small Krylov space restarts and gives the same pairs")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4), 0.5);
+  const Eigenpairs reference = SG::eigenpairs(op, 40);
+  SG::Eigenpairs_options options = with_method(Method::block);
+  for(const int vectors : {72, 100}) {
+    options.maximum_vectors = vectors;
+    const Eigenpairs pairs = SG::eigenpairs(op, 40, options);
+    check_pairs(op, pairs);
+    CHECK((pairs.values - reference.values).cwiseAbs().maxCoeff() < 1e-9 * reference.values(39));
+  }
+  options.maximum_vectors = 71;
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 40, options), ContainsSubstring("maximum_vectors"));
+  options.maximum_vectors = 72;
+  options.maximum_iterations = 1;
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 40, options), ContainsSubstring("did not converge"));
+}
+
+TEST_CASE("Eigenpairs do not depend on the number of threads")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(5), 0.5);
+  SG::Eigenpairs_options options = with_method(Method::block, 1e-6);
+  const Eigenpairs one = SG::eigenpairs(op, 20, options);
+  options.threads = 3;
+  CHECK(SG::eigenpairs(op, 20, options).vectors == one.vectors);
+}
+
+TEST_CASE("Spaces that are exhausted are continued with random vectors")
+{
+  // 320 vertices of high symmetry, and nearly half of the spectrum.
+  const Laplace_operator op = laplace(shapes::torus_matrices(20, 16));
+  const Eigenpairs dense = SG::eigenpairs(op, 150, with_method(Method::dense));
+  for(const Method method : {Method::block, Method::spectra}) {
+    const Eigenpairs pairs = SG::eigenpairs(op, 150, with_method(method));
+    check_pairs(op, pairs);
+    CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(149));
+  }
 }
 
 TEST_CASE("Eigenpairs that the iteration has missed are counted and found")
@@ -349,6 +426,24 @@ TEST_CASE("The dense path agrees with the iteration, and takes K up to n")
   check_pairs(small, all);
 }
 
+TEST_CASE("Panel solves agree with the Cholesky wrapper")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4), 0.5);
+  const Eigen::SparseMatrix<double> A = op.L + op.B;
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 8);
+  Eigen::MatrixXd x(A.rows(), 8);
+  SG::internal::Cholesky(A).solve(b, x);
+  SG::internal::Supernodal_factor factor(A);
+  SG::internal::Panel panel(A.rows());
+  for(Eigen::Index i = 0; i < A.rows(); ++i)
+    for(int c = 0; c < 8; ++c)
+      panel.row(i)[c] = b(factor.order()[i], c);
+  factor.solve(panel, panel, 2);
+  for(Eigen::Index i = 0; i < A.rows(); ++i)
+    for(int c = 0; c < 8; ++c)
+      CHECK(std::abs(panel.row(i)[c] - x(factor.order()[i], c)) < 1e-10);
+}
+
 TEST_CASE("The Cholesky wrapper solves for many columns at once")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
@@ -377,15 +472,17 @@ TEST_CASE("Eigenpairs are the same in every run")
 TEST_CASE("Progress is reported in [0, 1] and can cancel")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
-  std::vector<double> fractions;
-  SG::Eigenpairs_options options;
-  options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
-  SG::eigenpairs(op, 20, options);
-  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
-  CHECK(fractions.front() == 0.);
-  CHECK(fractions.back() == 1.);
-  options.progress = [](double fraction) { return fraction < 0.5; };
-  CHECK_THROWS_AS(SG::eigenpairs(op, 20, options), SG::Cancelled);
+  for(const Method method : {Method::block, Method::spectra, Method::dense}) {
+    std::vector<double> fractions;
+    SG::Eigenpairs_options options = with_method(method);
+    options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
+    SG::eigenpairs(op, 20, options);
+    CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+    CHECK(fractions.front() == 0.);
+    CHECK(fractions.back() == 1.);
+    options.progress = [](double fraction) { return fraction < 0.5; };
+    CHECK_THROWS_AS(SG::eigenpairs(op, 20, options), SG::Cancelled);
+  }
 }
 
 TEST_CASE("Bad meshes are refused by the name of the first offender")
@@ -463,7 +560,7 @@ TEST_CASE("Bad requests for eigenpairs are refused")
 TEST_CASE("An iteration that may not restart takes a larger space")
 {
   const Laplace_operator op = laplace(shapes::icosphere_matrices(4));
-  SG::Eigenpairs_options options;
+  SG::Eigenpairs_options options = with_method(Method::spectra);
   options.maximum_iterations = 1;
   const Eigenpairs pairs = SG::eigenpairs(op, 50, options);
   check_pairs(op, pairs);

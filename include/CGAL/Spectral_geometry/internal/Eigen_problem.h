@@ -75,20 +75,30 @@ public:
     return result;
   }
 
+  // Never goes back, however often an iteration starts again.
   void report(double fraction) const
   {
-    if(m_progress && !m_progress((std::min)(1., (std::max)(0., fraction))))
+    m_fraction = (std::min)(1., (std::max)(m_fraction, fraction));
+    if(m_progress && !m_progress(m_fraction))
       throw Cancelled();
   }
 
   Eigen::VectorXd residuals(const Ritz_pairs& pairs) const
   {
-    Eigen::VectorXd result(pairs.values.size());
-    for(Eigen::Index k = 0; k < result.size(); ++k) { // column by column: no second n x K matrix
-      const Eigen::VectorXd r = m_L * pairs.vectors.col(k) - pairs.values(k) * (m_B * pairs.vectors.col(k));
-      result(k) = std::sqrt(r.cwiseAbs2().cwiseQuotient(m_mass).sum()) / (pairs.values(k) + m_shift);
+    // Eight columns by rows: faster than one by one, and no second n x K matrix.
+    using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
+    const Eigen::Index K = pairs.values.size();
+    Eigen::VectorXd result(K);
+    for(Eigen::Index k = 0; k < K; k += 8) {
+      const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
+      const Block phi = pairs.vectors.middleCols(k, columns);
+      Block r = m_L * phi;
+      const Block b = m_B * phi;
+      r -= b * pairs.values.segment(k, columns).asDiagonal();
+      const Eigen::RowVectorXd squares = m_mass.cwiseInverse().transpose() * r.cwiseAbs2();
+      result.segment(k, columns) = squares.transpose().cwiseSqrt();
     }
-    return result;
+    return result.cwiseQuotient((pairs.values.array() + m_shift).matrix());
   }
 
 private:
@@ -97,6 +107,7 @@ private:
   const Eigen::VectorXd& m_mass;
   const std::function<bool(double)>& m_progress;
   double m_shift;
+  mutable double m_fraction = 0.;
 };
 
 // A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors

@@ -102,7 +102,7 @@ public:
       inverse.deflate(known.vectors);
       return iterate(inverse, number);
     };
-    return make_complete(m_problem, pairs, find_missing);
+    return counting_is_meaningful(m_tolerance) && make_complete(m_problem, pairs, find_missing);
   }
 
 private:

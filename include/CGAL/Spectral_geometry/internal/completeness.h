@@ -35,6 +35,12 @@ inline Gap last_gap(const Eigen_problem& problem, const Eigen::VectorXd& values)
   return {0, -s, -s}; // the values are not ascending from -s: never happens
 }
 
+// Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
+inline bool counting_is_meaningful(double tolerance)
+{
+  return tolerance <= 1e-3;
+}
+
 // The number of eigenvalues below the gap minus the number of those found; factorisations without pivoting can be
 // wrong next to an eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
 inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, Eigen::Index& missing)

@@ -17,10 +17,16 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-// A Krylov space of 2K + 20 vectors must fit into n dimensions; below 300 a dense solve takes milliseconds.
-inline bool dense_is_better(Eigen::Index n, Eigen::Index K)
+// A Krylov space of 2K + 20 vectors must fit into n dimensions.
+inline bool must_be_dense(Eigen::Index n, Eigen::Index K)
 {
-  return n <= 300 || 2 * K + 20 > n;
+  return 2 * K + 20 > n;
+}
+
+// Milliseconds.
+inline bool dense_is_better(Eigen::Index n)
+{
+  return n <= 300;
 }
 
 inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)

@@ -16,6 +16,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -172,6 +173,7 @@ inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::Matr
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
+      solver.threads = (std::max)(solver.threads, options.threads); // the result does not depend on it
       if(options.progress && !solver.progress)
         solver.progress = [&options, &V](const double fraction) {
           return options.progress(

@@ -1,0 +1,369 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_BLOCK_LANCZOS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_BLOCK_LANCZOS_H
+
+#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/Panel_space.h>
+#include <CGAL/Spectral_geometry/internal/Supernodal_factor.h>
+#include <CGAL/Spectral_geometry/internal/completeness.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Block Lanczos with shift and invert, thick restart and partial reorthogonalisation.
+///
+/// The operator is S = s (L + s B)^-1 B with eigenvalues theta = s / (lambda + s) in ]0, 1], the inner product s B. Eight
+/// vectors at a time share each access to the factor and to the basis, and find up to eight copies of a multiple
+/// eigenvalue. S V = V T + W E^T, where T is block tridiagonal (with an arrow after a restart).
+/// See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
+class Block_lanczos
+{
+public:
+  Block_lanczos(const Eigen_problem& problem, double tolerance, Index maximum_iterations,
+                Index maximum_vectors, int threads)
+    : m_problem(problem)
+    , m_tolerance(tolerance)
+    , m_maximum_iterations(maximum_iterations)
+    , m_maximum_vectors(maximum_vectors)
+    , m_factor(problem.shifted(-problem.shift()))
+    , m_mass(problem.shift() * permuted(problem.B(), m_factor.order()))
+    , m_space(m_mass, threads)
+    , m_W(problem.size())
+    , m_BW(problem.size())
+    , m_BV(problem.size())
+    , m_random(1)
+  {}
+
+  // `complete` tells whether no eigenvalue can be missing.
+  Ritz_pairs compute(Index K, bool verify, bool& complete)
+  {
+    m_K = K;
+    set_limits();
+    m_panels = 0;
+    add_random_panel();
+    iterate(rounded_up(K + (std::max)(K / 2, 3 * Index(panel_width))));
+    complete = verify && !may_be_incomplete(m_problem, values());
+    if(verify && !complete && counting_is_meaningful(m_tolerance))
+      complete = find_missing();
+    return pairs();
+  }
+
+private:
+  static Index rounded_up(Index k) { return (k + panel_width - 1) / panel_width * panel_width; }
+  Index dimension() const { return m_panels * panel_width; }
+
+  void set_limits()
+  {
+    // Without restart 3.4 K vectors reach 1e-8. A larger space costs memory, a smaller one more solves.
+    const Index standard = (std::max)(m_K * 36 / 10, m_K + 120);
+    const Index limit = m_maximum_vectors > 0 ? m_maximum_vectors : standard;
+    m_maximum_panels = (std::min)(limit, m_problem.size() - 2 * panel_width) / panel_width;
+    m_kept_panels = (std::min)(rounded_up(m_K + 2 * panel_width) / panel_width, m_maximum_panels - 1);
+    m_T.setZero(m_maximum_panels * panel_width, m_maximum_panels * panel_width);
+  }
+
+  // --- the Krylov space ---
+
+  // The next panel, without a link to those before it.
+  void add_random_panel()
+  {
+    fill_randomly();
+    m_factor.solve(m_W, m_W, m_space.threads()); // smooth vectors are a better start
+    m_link.setZero();
+    orthogonalise_against_all();
+    orthogonalise_against_all();
+    orthonormalise();
+    m_link.setZero();
+    m_loss = 1.; // let the next step reorthogonalise
+    push_panel();
+  }
+
+  void push_panel()
+  {
+    if(static_cast<Index>(m_basis.size()) == m_panels)
+      m_basis.emplace_back(m_problem.size());
+    std::swap(m_basis[m_panels], m_W);
+    ++m_panels;
+  }
+
+  // One step: applies S to the last panel. T grows by its products with the basis, m_W becomes the next panel.
+  void step()
+  {
+    const Index j = m_panels - 1, row = j * panel_width;
+    std::swap(m_BV, m_BW); // left by orthonormalise()
+    m_factor.solve(m_BV, m_W, m_space.threads());
+    const Small_matrix A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
+    m_space.subtract(m_W, m_basis[j], A);
+    if(m_after_restart)
+      orthogonalise_against_all();
+    else if(j > 0)
+      m_space.subtract(m_W, m_basis[j - 1], m_link.transpose());
+    m_after_restart = false;
+    m_T.block<panel_width, panel_width>(row, row) = 0.5 * (A + A.transpose());
+
+    if(m_loss > 1e-11)
+      reorthogonalise();
+    orthonormalise();
+    m_loss /= smallest_singular_value(m_link);
+  }
+
+  // Links the next panel to the last one.
+  void advance()
+  {
+    const Index row = (m_panels - 1) * panel_width;
+    m_T.block<panel_width, panel_width>(row + panel_width, row) = m_link;
+    m_T.block<panel_width, panel_width>(row, row + panel_width) = m_link.transpose();
+    push_panel();
+  }
+
+  // Rounding errors along converged vectors (theta up to 1) grow by theta / sigma in each step, sigma the smallest singular
+  // value of the link. When that has come to a bound well below the square root of the machine precision, where T would
+  // lose digits (Simon 1984), the last two panels are cleaned in one pass over the basis. Every third or fourth step does.
+  void reorthogonalise()
+  {
+    m_space.multiply_mass(m_W, m_BW);
+    Panel& V = m_basis[m_panels - 1];
+    Coefficients H, H_last;
+    m_space.products(m_basis, m_panels, m_BW, H, m_panels - 1, m_BV, H_last);
+    m_space.subtract(m_basis, m_panels, m_W, H, m_panels - 1, V, H_last);
+    m_loss = std::numeric_limits<double>::epsilon();
+  }
+
+  void orthogonalise_against_all()
+  {
+    if(m_panels == 0)
+      return;
+    m_space.multiply_mass(m_W, m_BW);
+    Coefficients H, none;
+    m_space.products(m_basis, m_panels, m_BW, H, 0, m_BW, none);
+    m_space.subtract(m_basis, m_panels, m_W, H, 0, m_BW, none);
+  }
+
+  // W = Q R by Cholesky, twice; m_link = R, m_BW = s B Q.
+  void orthonormalise()
+  {
+    m_link.setIdentity();
+    m_space.multiply_mass(m_W, m_BW);
+    for(int pass = 0; pass < 2; ++pass) {
+      const Small_matrix G = m_space.product(m_W, m_BW);
+      const Eigen::LLT<Small_matrix> llt(G);
+      const Small_matrix R = llt.matrixU();
+      if(llt.info() != Eigen::Success || !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
+         !(R.diagonal().minCoeff() > 1e-12)) {
+        replace_dependent_vectors(G);
+        return;
+      }
+      const Small_matrix inverse = R.triangularView<Eigen::Upper>().solve(Small_matrix::Identity());
+      m_space.transform(m_W, inverse);
+      m_space.transform(m_BW, inverse);
+      m_link = R * m_link;
+    }
+  }
+
+  // The space is (nearly) invariant along some directions: those become random vectors without a link.
+  void replace_dependent_vectors(const Small_matrix& G)
+  {
+    const Eigen::SelfAdjointEigenSolver<Small_matrix> solver(G);
+    const Small_matrix Q = solver.eigenvectors();
+    Small_matrix T = Small_matrix::Zero(), R = Small_matrix::Zero();
+    std::vector<int> replaced;
+    for(int c = 0; c < panel_width; ++c) {
+      const double value = solver.eigenvalues()(c);
+      if(value > 1e-24 && value > 1e-14 * solver.eigenvalues()(panel_width - 1)) {
+        T.col(c) = Q.col(c) / std::sqrt(value);
+        R.row(c) = Q.col(c).transpose() * std::sqrt(value);
+      } else
+        replaced.push_back(c);
+    }
+    m_space.transform(m_W, T);
+    for(Index i = 0; i < m_space.size(); ++i)
+      for(const int c : replaced)
+        m_W.row(i)[c] = random_entry() / std::sqrt(m_problem.size());
+    const Small_matrix link = R * m_link;
+    for(int pass = 0; pass < 3; ++pass) {
+      orthogonalise_against_all();
+      m_space.multiply_mass(m_W, m_BW);
+      const Small_matrix U = Eigen::LLT<Small_matrix>(m_space.product(m_W, m_BW)).matrixU();
+      if(!(U.diagonal().minCoeff() > 0.))
+        throw std::runtime_error(
+            "Eigenpairs: the block Lanczos iteration broke down; choose the method 'spectra'.");
+      const Small_matrix inverse = U.triangularView<Eigen::Upper>().solve(Small_matrix::Identity());
+      m_space.transform(m_W, inverse);
+      m_space.transform(m_BW, inverse);
+    }
+    m_link = link;
+  }
+
+  static double smallest_singular_value(const Small_matrix& R)
+  {
+    const Eigen::SelfAdjointEigenSolver<Small_matrix> solver(R.transpose() * R, Eigen::EigenvaluesOnly);
+    return (std::max)(1e-12, std::sqrt((std::max)(0., solver.eigenvalues()(0))));
+  }
+
+  double random_entry() { return double(m_random() >> 11) * (2. / 9007199254740992.) - 1.; }
+
+  void fill_randomly()
+  {
+    for(Index i = 0; i < m_space.size(); ++i)
+      for(int c = 0; c < panel_width; ++c)
+        m_W.row(i)[c] = random_entry();
+  }
+
+  // --- Ritz pairs ---
+
+  // Starts again from the Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
+  // eight more copies.
+  bool find_missing()
+  {
+    for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
+      m_problem.report(0.85);
+      Index missing = 0;
+      if(!count_missing(m_problem, values(), missing))
+        return false;
+      if(missing == 0)
+        return true;
+      compress(rounded_up(m_K));
+      add_random_panel();
+      iterate(m_maximum_panels * panel_width);
+    }
+    return false;
+  }
+
+  // Extends the space until the K largest Ritz values have converged.
+  void iterate(Index next_check)
+  {
+    Index last_dimension = 0;
+    double last_worst = 1.;
+    for(Index restarts = 0;;) {
+      step();
+      m_problem.report(0.85 * (std::min)(1., double(dimension()) / (3.4 * m_K + 40.)));
+      const bool full = m_panels == m_maximum_panels;
+      if(full || dimension() >= next_check) {
+        const double worst = solve_projected();
+        if(worst <= m_tolerance)
+          return;
+        next_check = dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
+        last_worst = worst;
+        last_dimension = dimension();
+      }
+      if(!full) {
+        advance();
+        continue;
+      }
+      if(++restarts > m_maximum_iterations)
+        throw std::runtime_error(
+            "Eigenpairs: the block Lanczos iteration did not converge to the tolerance for " +
+            std::to_string(m_K) + " eigenpairs; raise the tolerance or the number of iterations.");
+      restart();
+      next_check = last_dimension = 0;
+    }
+  }
+
+  // Residuals fall geometrically, faster and faster: half of the way that the last two suggest. A check costs as much as
+  // two steps.
+  Index distance_to_next_check(double worst, double last_worst, Index distance) const
+  {
+    const double rate = std::log(last_worst / worst) / double(distance);
+    if(!(rate > 0.))
+      return 2 * panel_width;
+    const double way = 0.6 * std::log(worst / m_tolerance) / rate;
+    return rounded_up(static_cast<Index>((std::min)(way, 6. * panel_width)) + 1);
+  }
+
+  // Eigenpairs of T; returns the largest residual of the K first ones relative to their theta.
+  double solve_projected()
+  {
+    const Index m = dimension();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m_T.topLeftCorner(m, m));
+    if(solver.info() != Eigen::Success)
+      throw std::runtime_error("Eigenpairs: the projected eigenproblem did not converge.");
+    m_theta = solver.eigenvalues().reverse();
+    m_Y = solver.eigenvectors().rowwise().reverse();
+    const Eigen::MatrixXd bottom = m_link * m_Y.bottomRows(panel_width).leftCols(m_K);
+    return bottom.colwise().norm().transpose().cwiseQuotient(m_theta.head(m_K)).maxCoeff();
+  }
+
+  // Replaces the basis by its first Ritz vectors.
+  void compress(Index kept)
+  {
+    m_space.rotate(m_basis, m_panels, m_Y.leftCols(kept));
+    m_panels = kept / panel_width;
+    m_T.setZero();
+    m_T.diagonal().head(kept) = m_theta.head(kept);
+  }
+
+  // Thick restart (Wu and Simon 2000): S X = X Theta + W E_bottom.
+  void restart()
+  {
+    const Index kept = m_kept_panels * panel_width, m = dimension();
+    const Eigen::MatrixXd arrow = m_link * m_Y.block(m - panel_width, 0, panel_width, kept);
+    compress(kept);
+    m_T.block(kept, 0, panel_width, kept) = arrow;
+    m_T.block(0, kept, kept, panel_width) = arrow.transpose();
+    push_panel();
+    m_after_restart = true;
+    m_loss = 1.;
+  }
+
+  Eigen::VectorXd values() const
+  {
+    return (m_problem.shift() * (m_theta.head(m_K).array().inverse() - 1.)).max(0.).matrix();
+  }
+
+  // Ritz vectors in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
+  Ritz_pairs pairs()
+  {
+    compress(rounded_up(m_K));
+    m_basis.erase(m_basis.begin() + m_panels, m_basis.end()); // before memory for the result is taken
+    Ritz_pairs result{values(), Eigen::MatrixXd(m_problem.size(), m_K)};
+    const double scale = std::sqrt(m_problem.shift());
+    for_each_task(static_cast<int>(m_K), m_space.threads(), [&](int k) {
+      const Panel& panel = m_basis[k / panel_width];
+      for(Index i = 0; i < m_space.size(); ++i)
+        result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
+    });
+    return result;
+  }
+
+  const Eigen_problem& m_problem;
+  double m_tolerance;
+  Index m_maximum_iterations, m_maximum_vectors;
+  Supernodal_factor m_factor;
+  Sparse_matrix m_mass; // s B in the order of the factor
+  Panel_space m_space;
+
+  Index m_K = 0, m_maximum_panels = 0, m_kept_panels = 0;
+  std::vector<Panel> m_basis; // the first m_panels are in use
+  Index m_panels = 0;
+  Panel m_W, m_BW, m_BV; // the next panel, its product with s B, that of the last panel
+  Small_matrix m_link;   // R of the next panel
+  Eigen::MatrixXd m_T;   // projected operator
+  Eigen::VectorXd m_theta;
+  Eigen::MatrixXd m_Y; // its eigenpairs, descending
+  double m_loss = 1.;  // estimated loss of orthogonality
+  bool m_after_restart = false;
+  std::mt19937_64 m_random;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_BLOCK_LANCZOS_H

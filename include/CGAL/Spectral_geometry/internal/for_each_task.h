@@ -1,0 +1,46 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FOR_EACH_TASK_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FOR_EACH_TASK_H
+
+#include <algorithm>
+#include <atomic>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Calls f(0) .. f(count - 1), on several threads in any order. Tasks must not depend on each other nor throw; sums over tasks
+/// are up to the caller, in the order of the tasks, so that no result depends on the number of threads.
+template <class Function>
+void for_each_task(int count, int threads, const Function& f)
+{
+  std::atomic<int> next(0);
+  const auto work = [&] {
+    for(int i = next++; i < count; i = next++)
+      f(i);
+  };
+  const int helpers = (std::min)(threads, count) - 1;
+  std::vector<std::thread> others;
+  others.reserve((std::max)(0, helpers)); // a vector that cannot grow would leave running threads behind
+  try {
+    for(int t = 0; t < helpers; ++t)
+      others.emplace_back(work);
+  } catch(const std::system_error&) {
+    // no thread left: those that are there do all tasks
+  }
+  work();
+  for(std::thread& t : others)
+    t.join();
+}
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FOR_EACH_TASK_H
