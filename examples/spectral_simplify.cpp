@@ -7,6 +7,7 @@
 #include "io/Progress_bar.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
+#include "io/mesh_repair.h"
 #include "io/output_files.h"
 #include "report/html_report.h"
 #include "report/single_run.h"
@@ -50,7 +51,8 @@ constexpr const char* eigenpairs_files[] = {
 // Makes room for every output, so that what cannot be written is known before the work.
 void announce(Output_files& files, const Arguments& a)
 {
-  for(const std::string& path : {a.output, a.restriction, a.prolongation, a.map, a.json, a.report}) {
+  for(const std::string& path :
+      {a.output, a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired}) {
     if(!path.empty())
       files.add(path);
   }
@@ -193,12 +195,29 @@ void write_outputs(const Output_files& files, const Arguments& a, const Mesh& me
   }
 }
 
+Mesh input_mesh(const Arguments& a, Repair_log& log)
+{
+  if(!a.repair)
+    return to_mesh(read_polygon_soup(a.input), a.input, ", or add --repair");
+  return to_mesh(repaired_soup(read_polygon_soup(a.input), log), a.input, ", which --repair could not do");
+}
+
+// What the mesh does not allow, apart from what the simplification itself warns of.
+std::vector<std::string> warnings_of_input(const Arguments& a, const Mesh& mesh, const std::size_t target)
+{
+  return SG::diagnose_mesh(mesh).warnings(static_cast<std::size_t>(a.eigenvectors), target);
+}
+
 void run(const Arguments& a)
 {
-  Mesh mesh = read_mesh(a.input);
+  Repair_log repairs;
+  Mesh mesh = input_mesh(a, repairs);
   const std::size_t target = checked_target(a, num_vertices(mesh));
+  const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
   Output_files files;
   announce(files, a);
+  if(!a.repaired.empty())
+    write_mesh(files.temporary(a.repaired), mesh, a.repaired);
 
   Both_meshes meshes;
   if(!a.no_evaluation || !a.prolongation.empty())
@@ -212,6 +231,8 @@ void run(const Arguments& a)
   if(interrupted)
     throw SG::Cancelled();
 
+  report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
+  report.repairs = repairs.changes();
   report.input = a.input;
   report.output = a.output;
   report.placement = a.placement;

@@ -25,10 +25,10 @@ struct Arguments
   long eigenvectors = 100;
   std::string placement = "on_edge", mass = "lumped";
   int threads = 1;
-  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false;
-  std::string restriction, prolongation, map, eigenpairs, json, report; // empty: not wanted
-  std::string command;                                                  // as it was typed
-  std::string help;                                                     // the text, if it was asked for
+  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false;
+  std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
+  std::string command;                                                            // as it was typed
+  std::string help; // the text, if it was asked for
 
   bool wants_matrices() const
   {
@@ -68,6 +68,14 @@ inline boost::program_options::options_description described(Arguments& a)
       "keeps the eigenvalues of coarse meshes much closer");
   add("binary", po::bool_switch(&a.binary), "a restriction of ones and zeros: it picks vertices of INPUT");
   add("preserve-border", po::bool_switch(&a.preserve_border), "no edge is drawn away from the border");
+  add("repair", po::bool_switch(&a.repair),
+      "make INPUT an oriented manifold of triangles first and say what was changed: polygons are "
+      "triangulated, vertices of "
+      "equal position merged, copies of faces, isolated vertices and degenerate faces removed, faces "
+      "oriented, "
+      "sheets that share an edge or a vertex separated, borders stitched");
+  add("repaired", text(a.repaired, "mesh.ply"),
+      "write the repaired mesh; with --repair the matrices and maps number its vertices, not INPUT's");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
       "threads for the costs; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),
@@ -118,6 +126,10 @@ inline void check(const Arguments& a)
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
   if(a.no_evaluation && !a.report.empty())
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
+  if(!a.repaired.empty() && !a.repair)
+    refuse("--repaired writes what --repair makes: add --repair.");
+  if(!a.repaired.empty())
+    mesh_format(a.repaired);
   mesh_format(a.input);
   if(mesh_format(a.output) == ".stl" && a.wants_matrices())
     refuse(

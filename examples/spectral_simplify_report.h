@@ -11,9 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
 
@@ -26,6 +29,7 @@ struct Simplification_report
   std::string input, output, placement, mass;
   bool binary = false;
   Eigen::Index number_of_eigenvectors = 0;
+  std::vector<std::pair<std::string, std::size_t>> repairs; // what --repair did, and how often
 };
 
 // `floor`: what good linear elements of the same number have; 0 when no estimate is known.
@@ -39,6 +43,12 @@ inline void print_norm(const char* name, double norm, double floor)
 
 inline void print_table(const Simplification_report& r)
 {
+  if(!r.repairs.empty()) {
+    std::printf("repaired:\n");
+    for(const auto& [what, count] : r.repairs)
+      std::printf("  %8zu %s\n", count, what.c_str());
+    std::printf("\n");
+  }
   std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", r.input.c_str(), r.result.input_vertices,
               r.output.c_str(), r.result.output_vertices, r.result.stop_reason_name());
   if(r.evaluation) {
@@ -73,7 +83,10 @@ inline nlohmann::json to_json(const Simplification_report& r)
                          {"seconds_eigenpairs", r.result.seconds_eigenpairs},
                          {"seconds_collapse", r.result.seconds_collapse},
                          {"seconds_total", r.result.seconds_total},
-                         {"stop_reason", r.result.stop_reason_name()}};
+                         {"stop_reason", r.result.stop_reason_name()},
+                         {"repairs", nlohmann::json::object()}};
+  for(const auto& [what, count] : r.repairs)
+    json["repairs"][what] = count;
   for(const char* name :
       {"norm_L", "norm_D", "norm_L_input_scale", "norm_D_extended", "floor_norm_L", "floor_norm_D",
        "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio", "seconds_evaluation"})

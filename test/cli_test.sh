@@ -177,16 +177,55 @@ done
 printf 'OFF\n999999999999 3 0\n0 0 0\n' | bad header.off "not a valid off file"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | bad points.off "no faces"
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n3 1 2 4\n' |
-  bad quad.off "face 1 .* 4 vertices: triangulate"
+  bad quad.off "face 1 .* 4 vertices: triangulate.*--repair"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | bad index.off "off"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n' | bad twice.off "face 1 .* twice"
-printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' | bad branch.off "faces 0 and 2"
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' | bad branch.off "edge from vertex 0 to vertex 1 .* more than two faces"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 3 2\n3 0 1 2\n' | bad extra.off "off"
-printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n' | bad double.off "faces 0 and 1"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n' | bad double.off "face 1 .* vertices of face 0"
 printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n' | bad bowtie.off "touch"
-printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | bad isolated.off "4"
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | bad isolated.off "vertex 4 .* isolated"
 printf 'v 0 0 0\nv 1 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' | bad nan.obj "obj\\|finite"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | bad line.off "area\\|mass"
+
+# --- repair -----------------------------------------------------------------------------------------------------------
+
+# repairs FILE PATTERN: refused as it is, usable after the repair, which says PATTERN and writes a mesh that needs none.
+repairs()
+{
+  broken=$1
+  change=$2
+  cat >"$broken"
+  refuses "$broken without --repair" "add --repair" "$broken" out.off --vertices 4 --eigenvectors 2
+  set -- --ratio 1 --eigenvectors 2 --no-evaluation --quiet
+  runs "repair of $broken" "$broken" out.off --repair --repaired fixed.off --json repair.json "$@"
+  grep -q -e "$change" repair.json || fail "repair of $broken: '$change' is not in $(cat repair.json)"
+  runs "$broken, repaired" fixed.off out.off "$@"
+}
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 1 4 5 2\n' |
+  repairs quads.off '"polygons triangulated": 2'
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' |
+  repairs sheets.off "doubled to separate sheets"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n' | repairs copies.off '"copies of faces removed": 1'
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n' | repairs edge.off "used a vertex twice"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 3 2\n' | repairs turned.off '"faces turned round": 1'
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n' | repairs bow.off '"vertices doubled to separate sheets": 1'
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' |
+  repairs lonely.off '"isolated vertices removed": 1'
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 1e-14 0\n3 0 1 4\n3 0 4 2\n3 0 2 3\n' |
+  repairs needle.off "degenerate faces removed"
+runs "the repair is in the table" quads.off out.off --repair --ratio 1 --eigenvectors 2 --no-evaluation
+grep -q '2 polygons triangulated' said || fail "the repair is not in $(cat said)"
+runs "sound meshes are left alone" shape.off out.off --repair --repaired same.off --ratio 1 --eigenvectors 2 --json no.json
+runs "a copy" shape.off copy.off --ratio 1 --eigenvectors 2
+cmp -s same.off copy.off || fail "--repair changed a mesh without faults"
+grep -q '"repairs": {}' no.json || fail "--repair of a mesh without faults says $(cat no.json)"
+refuses "beyond repair" "which --repair could not do" line.off out.off --repair --vertices 3 --eigenvectors 2
+refuses "a repaired mesh without repair" "add --repair" shape.off out.off --vertices 200 --repaired new.off
+"$program" tetrahedra.off stuck.off --vertices 6 --eigenvectors 1 --no-evaluation >said 2>complained ||
+  fail "two components and one eigenvector: $(cat complained)"
+grep -q 'needs* at least 8 vertices' complained || fail "no warning of the target: $(cat complained)"
+grep -q 'constant on each of the 2 components' complained || fail "no warning of K: $(cat complained)"
 
 # --- outputs that cannot be written -----------------------------------------------------------------------------------
 

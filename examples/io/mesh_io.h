@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_IO_MESH_IO_H
 #define SPECTRAL_EXAMPLES_IO_MESH_IO_H
 
+#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
@@ -19,11 +21,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <stdexcept>
 #include <streambuf>
 #include <string>
-#include <utility>
 #include <vector>
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -92,53 +92,32 @@ inline Polygon_soup read_polygon_soup(const std::string& path)
   return soup;
 }
 
-// Throws at the first face that is no triangle of three different, existing vertices.
-inline void check_triangles(const Polygon_soup& soup, const std::string& path)
+inline CGAL::Spectral_geometry::Mesh_diagnosis diagnose(const Polygon_soup& soup)
 {
-  for(std::size_t f = 0; f < soup.polygons.size(); ++f) {
-    const std::vector<std::size_t>& polygon = soup.polygons[f];
-    const std::string name = "face " + std::to_string(f) + " (counted from 0) of '" + path + "' ";
-    if(polygon.size() != 3)
-      throw std::runtime_error(name + "has " + std::to_string(polygon.size()) +
-                               " vertices: triangulate the mesh first.");
-    for(const std::size_t v : polygon) {
-      if(v >= soup.points.size())
-        throw std::runtime_error(name + "uses a vertex that does not exist.");
-    }
-    if(polygon[0] == polygon[1] || polygon[1] == polygon[2] || polygon[2] == polygon[0])
-      throw std::runtime_error(name + "uses a vertex twice: remove degenerate faces first.");
-  }
+  Eigen::MatrixXd V(Eigen::Index(soup.points.size()), 3);
+  for(std::size_t v = 0; v < soup.points.size(); ++v)
+    V.row(Eigen::Index(v)) << soup.points[v].x(), soup.points[v].y(), soup.points[v].z();
+  return CGAL::Spectral_geometry::diagnose_polygon_soup(V, soup.polygons);
 }
 
-// Throws at the first place where the triangles do not form an oriented surface without branches.
-inline void check_manifold(const Polygon_soup& soup, const std::string& path)
+// Makes a mesh of what was read from `path`; throws with the first obstacle and with `help`, what to do about it.
+inline Mesh to_mesh(const Polygon_soup& soup, const std::string& path, const std::string& help)
 {
-  std::map<std::pair<std::size_t, std::size_t>, std::size_t> face_of_halfedge;
-  for(std::size_t f = 0; f < soup.polygons.size(); ++f) {
-    for(int i = 0; i < 3; ++i) {
-      const std::size_t v = soup.polygons[f][i], w = soup.polygons[f][(i + 1) % 3];
-      const auto [other, is_new] = face_of_halfedge.try_emplace({v, w}, f);
-      if(!is_new)
-        throw std::runtime_error("'" + path + "' is not an oriented manifold: its faces " +
-                                 std::to_string(other->second) + " and " + std::to_string(f) +
-                                 " (counted from 0) run along the edge from vertex " + std::to_string(v) +
-                                 " to " + std::to_string(w) + " in the same direction; repair it first.");
-    }
-  }
-  if(!CGAL::Polygon_mesh_processing::is_polygon_soup_a_polygon_mesh(soup.polygons))
-    throw std::runtime_error("'" + path +
-                             "' is not a manifold: parts of it touch in a single vertex; repair it first.");
+  const CGAL::Spectral_geometry::Mesh_diagnosis diagnosis = diagnose(soup);
+  const std::vector<std::string> obstacles = diagnosis.obstacles();
+  if(!obstacles.empty())
+    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() + help + ".");
+  if(diagnosis.number_of_faces == 0)
+    throw std::runtime_error("'" + path + "' has no faces left" + help + ".");
+  Mesh mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  return mesh;
 }
 
 // Reads a triangle mesh; its vertices have the order of the file (of first appearance for STL).
 inline Mesh read_mesh(const std::string& path)
 {
-  const Polygon_soup soup = read_polygon_soup(path);
-  check_triangles(soup, path);
-  check_manifold(soup, path);
-  Mesh mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
-  return mesh;
+  return to_mesh(read_polygon_soup(path), path, ", or let spectral_simplify --repair do it");
 }
 
 // Writes a mesh, its vertices in the order of `vertices(mesh)`, to the file `file`, which errors call `name`.

@@ -1,0 +1,587 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_MESH_DIAGNOSIS_H
+#define CGAL_SPECTRAL_GEOMETRY_MESH_DIAGNOSIS_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
+/// \brief how often something was found in a mesh, and where first.
+struct Mesh_finding
+{
+  std::size_t count = 0;  ///< how often
+  std::size_t first = 0;  ///< the first vertex or face concerned, counted from 0
+  std::size_t second = 0; ///< what belongs to it: the other face or vertex, or the number of corners
+
+  /// \brief counts one more.
+  void add(const std::size_t where, const std::size_t partner = 0)
+  {
+    if(count++ == 0) {
+      first = where;
+      second = partner;
+    }
+  }
+};
+
+/// \brief a connected component: vertices that faces join.
+struct Mesh_component
+{
+  std::size_t vertices = 0; ///< how many it has
+  std::size_t faces = 0;    ///< how many it has
+  bool closed = true;       ///< no edge of it has one face only
+  std::size_t first = 0;    ///< its first vertex
+  /// what no collapse goes below: 4 vertices if closed, 3 otherwise
+  std::size_t least_vertices() const { return closed ? 4 : 3; }
+};
+
+/// \brief what `diagnose_polygon_soup()` and `diagnose_mesh()` found, counted, with the first offender of each kind.
+struct Mesh_diagnosis
+{
+  std::size_t number_of_vertices = 0; ///< isolated ones included
+  std::size_t number_of_faces = 0;    ///< sound or not
+
+  /// \name Obstacles: the Laplace operator or a halfedge structure is impossible with any of them
+  /// @{
+  Mesh_finding non_finite_vertices; ///< vertices with a coordinate that is infinite or not a number
+  Mesh_finding foreign_indices;     ///< faces that use a vertex that does not exist
+  Mesh_finding repeated_vertices;   ///< faces that use a vertex twice, or have fewer than three
+  Mesh_finding polygons; ///< faces with more than three vertices; `second` is how many the first has
+  Mesh_finding
+      duplicate_faces; ///< faces with the vertices of an earlier one, which `second` is for the first
+  Mesh_finding non_manifold_edges; ///< edges of more than two faces; from vertex `first` to vertex `second`
+  Mesh_finding misoriented_edges;  ///< edges along which their two faces, `first` and `second`, run alike
+  Mesh_finding non_manifold_vertices; ///< vertices where parts of the surface touch in nothing but the vertex
+  Mesh_finding isolated_vertices;     ///< vertices that no face uses
+  Mesh_finding massless_vertices;     ///< vertices all of whose faces have zero area
+  Mesh_finding overflowing_faces;     ///< needles with a cotangent above 1e12, or areas that overflow
+  /// @}
+
+  /// \name What is handled
+  /// @{
+  Mesh_finding zero_length_edges; ///< from vertex `first` to `second`; merged before the first collapse
+  Mesh_finding zero_area_faces;   ///< degenerate to rounding, zero-length edges included; contribute nothing
+  Mesh_finding
+      coincident_vertices; ///< vertices at the position of another, `second`, that they share no edge with
+  /// @}
+
+  std::vector<Mesh_component>
+      components; ///< in the order of their first vertices; isolated vertices are none
+
+  /// \brief whether the mesh can be simplified as it is.
+  bool usable() const { return number_of_faces != 0 && obstacles().empty(); }
+
+  /// \brief one clause for each kind of obstacle, without a full stop: how many, where first, what helps. The most
+  /// elementary comes first; what follows may be its consequence.
+  std::vector<std::string> obstacles() const;
+
+  /// \brief one clause for each thing that is unusual but handled, without a full stop.
+  std::vector<std::string> remarks() const;
+
+  /// \brief what to expect of `K` eigenvectors and a target of `N` vertices on this mesh: one sentence for each reason
+  /// for which less is preserved than was asked for.
+  std::vector<std::string> warnings(std::size_t K, std::size_t N) const;
+
+  /// \brief a lower bound of the number of vertices that collapses lead to: 4 for each closed component, 3 for each
+  /// open one. Handles and borders need more.
+  std::size_t least_vertices() const
+  {
+    std::size_t sum = 0;
+    for(const Mesh_component& c : components)
+      sum += c.least_vertices();
+    return sum;
+  }
+};
+
+namespace internal {
+
+/// Disjoint sets with path halving.
+class Disjoint_sets
+{
+public:
+  explicit Disjoint_sets(const std::size_t n)
+    : m_parent(n)
+  {
+    std::iota(m_parent.begin(), m_parent.end(), std::size_t(0));
+  }
+
+  std::size_t find(std::size_t i)
+  {
+    while(m_parent[i] != i)
+      i = m_parent[i] = m_parent[m_parent[i]];
+    return i;
+  }
+
+  /// The smaller representative stays one.
+  void unite(const std::size_t i, const std::size_t j)
+  {
+    const std::size_t a = find(i), b = find(j);
+    m_parent[(std::max)(a, b)] = (std::min)(a, b);
+  }
+
+private:
+  std::vector<std::size_t> m_parent;
+};
+
+/// The steps of a diagnosis. Faces that are no polygons of different, existing vertices are counted and left out
+/// of all that follows.
+class Mesh_examination
+{
+public:
+  using Polygons = std::vector<std::vector<std::size_t>>;
+
+  Mesh_examination(const Eigen::MatrixXd& V, const Polygons& polygons)
+    : m_V(V)
+    , m_polygons(polygons)
+    , m_n(std::size_t(V.rows()))
+  {}
+
+  Mesh_diagnosis run()
+  {
+    m_result.number_of_vertices = m_n;
+    m_result.number_of_faces = m_polygons.size();
+    examine_vertices();
+    examine_faces();
+    find_duplicates();
+    collect_sides();
+    examine_edges();
+    examine_fans();
+    examine_areas();
+    find_coincident_vertices();
+    collect_components();
+    return m_result;
+  }
+
+private:
+  struct Side // of a face, along an edge
+  {
+    std::size_t low, high, face;
+    bool forward;
+    bool operator<(const Side& other) const
+    {
+      return std::tie(low, high, face) < std::tie(other.low, other.high, other.face);
+    }
+  };
+
+  bool finite(const std::size_t v) const { return m_V.row(Eigen::Index(v)).allFinite(); }
+
+  bool same_position(const std::size_t v, const std::size_t w) const
+  {
+    return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
+  }
+
+  void examine_vertices()
+  {
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(!finite(v))
+        m_result.non_finite_vertices.add(v);
+  }
+
+  void examine_faces()
+  {
+    m_sound.assign(m_polygons.size(), false);
+    std::vector<bool> used(m_n, false);
+    std::vector<std::size_t> sorted;
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      sorted = m_polygons[f];
+      std::sort(sorted.begin(), sorted.end());
+      const bool foreign = !sorted.empty() && sorted.back() >= m_n;
+      const bool repeated =
+          sorted.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+      for(const std::size_t v : sorted)
+        if(v < m_n)
+          used[v] = true;
+      if(foreign)
+        m_result.foreign_indices.add(f);
+      else if(repeated)
+        m_result.repeated_vertices.add(f);
+      else {
+        m_sound[f] = true;
+        if(sorted.size() > 3)
+          m_result.polygons.add(f, sorted.size());
+      }
+    }
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(!used[v])
+        m_result.isolated_vertices.add(v);
+  }
+
+  void find_duplicates()
+  {
+    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sets;
+    sets.reserve(m_polygons.size());
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f]) {
+        sets.emplace_back(m_polygons[f], f);
+        std::sort(sets.back().first.begin(), sets.back().first.end());
+      }
+    std::sort(sets.begin(), sets.end());
+    std::vector<std::pair<std::size_t, std::size_t>> duplicates;
+    for(std::size_t i = 1, first = 0; i < sets.size(); ++i)
+      if(sets[i].first == sets[first].first)
+        duplicates.emplace_back(sets[i].second, sets[first].second);
+      else
+        first = i;
+    add_sorted(duplicates, m_result.duplicate_faces);
+  }
+
+  void collect_sides()
+  {
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      const std::vector<std::size_t>& polygon = m_polygons[f];
+      for(std::size_t i = 0; m_sound[f] && i < polygon.size(); ++i) {
+        const std::size_t v = polygon[i], w = polygon[(i + 1) % polygon.size()];
+        m_sides.push_back({(std::min)(v, w), (std::max)(v, w), f, v < w});
+      }
+    }
+    std::sort(m_sides.begin(), m_sides.end());
+  }
+
+  void examine_edges()
+  {
+    m_border.assign(m_n, false);
+    std::vector<std::pair<std::size_t, std::size_t>> misoriented;
+    for(std::size_t i = 0, j; i < m_sides.size(); i = j) {
+      const Side& side = m_sides[i];
+      for(j = i; j < m_sides.size() && m_sides[j].low == side.low && m_sides[j].high == side.high;)
+        ++j;
+      if(j - i > 2)
+        m_result.non_manifold_edges.add(side.low, side.high);
+      else if(j - i == 2 && side.forward == m_sides[i + 1].forward)
+        misoriented.emplace_back(side.face, m_sides[i + 1].face);
+      else if(j - i == 1)
+        m_border[side.low] = m_border[side.high] = true;
+      if(same_position(side.low, side.high))
+        m_result.zero_length_edges.add(side.low, side.high);
+    }
+    add_sorted(misoriented, m_result.misoriented_edges);
+  }
+
+  // The corners of a vertex that edges join form one fan.
+  void examine_fans()
+  {
+    struct Arm
+    {
+      std::size_t vertex, neighbor, corner;
+      bool operator<(const Arm& other) const
+      {
+        return std::tie(vertex, neighbor, corner) < std::tie(other.vertex, other.neighbor, other.corner);
+      }
+    };
+    std::vector<Arm> arms;
+    std::vector<std::size_t> vertex_of_corner;
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      const std::vector<std::size_t>& polygon = m_polygons[f];
+      const std::size_t size = polygon.size();
+      for(std::size_t i = 0; m_sound[f] && i < size; ++i) {
+        arms.push_back({polygon[i], polygon[(i + 1) % size], vertex_of_corner.size()});
+        arms.push_back({polygon[i], polygon[(i + size - 1) % size], vertex_of_corner.size()});
+        vertex_of_corner.push_back(polygon[i]);
+      }
+    }
+    std::sort(arms.begin(), arms.end());
+    Disjoint_sets corners(vertex_of_corner.size());
+    for(std::size_t i = 1; i < arms.size(); ++i)
+      if(arms[i].vertex == arms[i - 1].vertex && arms[i].neighbor == arms[i - 1].neighbor)
+        corners.unite(arms[i].corner, arms[i - 1].corner);
+    std::vector<std::size_t> fans(m_n, 0);
+    for(std::size_t c = 0; c < vertex_of_corner.size(); ++c)
+      if(corners.find(c) == c)
+        ++fans[vertex_of_corner[c]];
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(fans[v] > 1)
+        m_result.non_manifold_vertices.add(v, fans[v]);
+  }
+
+  // Polygons are left to their triangulation.
+  void examine_areas()
+  {
+    enum State : unsigned char { unused, massless, massive };
+    std::vector<State> state(m_n, unused);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      const std::vector<std::size_t>& p = m_polygons[f];
+      if(!m_sound[f] || !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return finite(v); }))
+        continue;
+      double area = 1;
+      if(p.size() == 3) {
+        const Triangle_cotangents t = triangle_cotangents(
+            m_V.row(Eigen::Index(p[0])), m_V.row(Eigen::Index(p[1])), m_V.row(Eigen::Index(p[2])));
+        area = t.area;
+        if(area == 0)
+          m_result.zero_area_faces.add(f);
+        else if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(area))
+          m_result.overflowing_faces.add(f);
+      }
+      for(const std::size_t v : p)
+        state[v] = (std::max)(state[v], area == 0 ? massless : massive);
+    }
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(state[v] == massless)
+        m_result.massless_vertices.add(v);
+  }
+
+  void find_coincident_vertices()
+  {
+    std::vector<std::size_t> order;
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(finite(v))
+        order.push_back(v);
+    const auto position = [&](const std::size_t v) {
+      return std::make_tuple(m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2));
+    };
+    std::sort(order.begin(), order.end(), [&](const std::size_t v, const std::size_t w) {
+      return position(v) != position(w) ? position(v) < position(w) : v < w;
+    });
+    const auto joined = [&](const std::size_t v, const std::size_t w) {
+      const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{v, w, 0, false});
+      return side != m_sides.end() && side->low == v && side->high == w;
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for(std::size_t i = 1, first = 0; i < order.size(); ++i)
+      if(position(order[i]) != position(order[first]))
+        first = i;
+      else if(!joined(order[first], order[i]) && !joined(order[i - 1], order[i]))
+        pairs.emplace_back(order[i], order[first]);
+    add_sorted(pairs, m_result.coincident_vertices);
+  }
+
+  void collect_components()
+  {
+    Disjoint_sets sets(m_n);
+    for(const Side& side : m_sides)
+      sets.unite(side.low, side.high);
+    std::vector<std::size_t> component(m_n, std::size_t(-1));
+    for(const Side& side : m_sides)
+      component[sets.find(side.low)] = 0;
+    for(std::size_t v = 0; v < m_n; ++v) {
+      const std::size_t root = sets.find(v);
+      if(component[root] == std::size_t(-1)) // isolated
+        continue;
+      if(root == v) {
+        component[v] = m_result.components.size();
+        m_result.components.emplace_back();
+        m_result.components.back().first = v;
+      }
+      Mesh_component& c = m_result.components[component[root]];
+      ++c.vertices;
+      c.closed = c.closed && !m_border[v];
+    }
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f])
+        ++m_result.components[component[sets.find(m_polygons[f][0])]].faces;
+  }
+
+  static void add_sorted(std::vector<std::pair<std::size_t, std::size_t>>& pairs, Mesh_finding& finding)
+  {
+    std::sort(pairs.begin(), pairs.end());
+    for(const auto& [first, second] : pairs)
+      finding.add(first, second);
+  }
+
+  const Eigen::MatrixXd& m_V;
+  const Polygons& m_polygons;
+  std::size_t m_n;
+  std::vector<bool> m_sound, m_border;
+  std::vector<Side> m_sides; // sorted
+  Mesh_diagnosis m_result;
+};
+
+/// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `does` is in the singular and the plural.
+inline std::string finding_clause(const Mesh_finding& finding, const std::size_t total, const bool faces,
+                                  const std::string& singular, const std::string& plural)
+{
+  const std::string kind = faces ? "face" : "vertex", kinds = faces ? "faces" : "vertices";
+  const std::string first = kind + " " + std::to_string(finding.first) + " (counted from 0)";
+  if(finding.count == 1)
+    return first + " " + singular;
+  return std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds + " " + plural +
+         ", the first is " + first;
+}
+
+/// The same for edges, which have no number but two ends.
+inline std::string edge_clause(const Mesh_finding& finding, const std::string& singular,
+                               const std::string& plural)
+{
+  const std::string first = "from vertex " + std::to_string(finding.first) + " to vertex " +
+                            std::to_string(finding.second) + " (counted from 0)";
+  if(finding.count == 1)
+    return "the edge " + first + " " + singular;
+  return std::to_string(finding.count) + " edges " + plural + ", the first runs " + first;
+}
+
+} // namespace internal
+
+inline std::vector<std::string> Mesh_diagnosis::obstacles() const
+{
+  using std::to_string;
+  std::vector<std::string> result;
+  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many,
+                            const std::string& help) {
+    if(f.count != 0)
+      result.push_back(internal::finding_clause(f, number_of_vertices, false, one, many) + ": " + help);
+  };
+  const auto faces = [&](const Mesh_finding& f, const std::string& one, const char* many,
+                         const std::string& help) {
+    if(f.count != 0)
+      result.push_back(internal::finding_clause(f, number_of_faces, true, one, many) + ": " + help);
+  };
+  vertices(non_finite_vertices, "has a coordinate that is not a finite number",
+           "have a coordinate that is not a finite number", "correct it or remove the faces around");
+  faces(foreign_indices, "uses a vertex that does not exist", "use a vertex that does not exist",
+        "correct the indices");
+  faces(repeated_vertices, "uses a vertex twice or has fewer than three",
+        "use a vertex twice or have fewer than three", "remove such faces");
+  const std::string corners = "has " + to_string(polygons.second) + " vertices";
+  faces(polygons, corners, "have more than three vertices",
+        (polygons.count > 1 ? "it " + corners + "; " : std::string()) + "triangulate the faces");
+  const std::string twin = "has the vertices of face " + to_string(duplicate_faces.second);
+  faces(duplicate_faces, twin, "have the vertices of an earlier one",
+        (duplicate_faces.count > 1 ? "it " + twin + "; " : std::string()) + "remove the copies");
+  if(non_manifold_edges.count != 0)
+    result.push_back(
+        internal::edge_clause(non_manifold_edges, "has more than two faces", "have more than two faces") +
+        ": separate the sheets");
+  if(misoriented_edges.count != 0)
+    result.push_back("the faces " + to_string(misoriented_edges.first) + " and " +
+                     to_string(misoriented_edges.second) +
+                     " (counted from 0) run along their common edge in the same direction, " +
+                     (misoriented_edges.count == 1 ? std::string("one edge")
+                                                   : to_string(misoriented_edges.count) + " edges") +
+                     " in all: orient the faces alike");
+  vertices(non_manifold_vertices, "is where parts of the surface touch in a single vertex",
+           "are where parts of the surface touch in a single vertex", "give each part a vertex of its own");
+  vertices(isolated_vertices, "is isolated, no face uses it", "are isolated, no face uses them",
+           "remove them");
+  faces(overflowing_faces, "is a needle or too large, its cotangents or its area overflow",
+        "are needles or too large, their cotangents or their area overflow",
+        "collapse the shortest edges, remesh or rescale the mesh");
+  vertices(massless_vertices, "has no mass because all its faces have zero area",
+           "have no mass because all their faces have zero area", "remove such faces");
+  return result;
+}
+
+inline std::vector<std::string> Mesh_diagnosis::remarks() const
+{
+  std::vector<std::string> result;
+  if(zero_length_edges.count != 0)
+    result.push_back(internal::edge_clause(zero_length_edges, "has no length", "have no length") +
+                     ": their ends are merged first");
+  if(zero_area_faces.count != 0)
+    result.push_back(
+        internal::finding_clause(zero_area_faces, number_of_faces, true, "has zero area", "have zero area") +
+        ": they contribute nothing to the operator");
+  if(coincident_vertices.count != 0)
+    result.push_back(internal::finding_clause(coincident_vertices, number_of_vertices, false,
+                                              "lies where another vertex lies",
+                                              "lie where another vertex lies") +
+                     ": seams stay open unless they are stitched");
+  if(components.size() > 1) {
+    const auto smallest =
+        std::min_element(components.begin(), components.end(),
+                         [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+    result.push_back("there are " + std::to_string(components.size()) + " components, the smallest of " +
+                     std::to_string(smallest->vertices) + " vertices around vertex " +
+                     std::to_string(smallest->first) + " (counted from 0): each of them is kept");
+  }
+  return result;
+}
+
+inline std::vector<std::string> Mesh_diagnosis::warnings(const std::size_t K, const std::size_t N) const
+{
+  using std::to_string;
+  std::vector<std::string> result;
+  if(N < least_vertices())
+    result.push_back("A target of " + to_string(N) +
+                     " vertices cannot be reached: " + to_string(components.size()) +
+                     (components.size() == 1 ? " component needs" : " components need") + " at least " +
+                     to_string(least_vertices()) + " vertices.");
+  if(components.size() > 1 && K <= components.size())
+    result.push_back("The " + to_string(K) + " eigenvectors asked for are constant on each of the " +
+                     to_string(components.size()) +
+                     " components, whose shapes they do not see: ask for more than there are components.");
+  else if(components.size() > 1) {
+    const auto smallest =
+        std::min_element(components.begin(), components.end(),
+                         [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+    if(K >= smallest->vertices)
+      result.push_back("The smallest of " + to_string(components.size()) + " components, around vertex " +
+                       to_string(smallest->first) + " (counted from 0), has " +
+                       to_string(smallest->vertices) + " vertices and as many modes, fewer than the " +
+                       to_string(K) +
+                       " eigenvectors asked for, which belong to the larger components mostly.");
+  }
+  return result;
+}
+
+/// \brief examines points and faces that need not form a mesh, as they were read from a file.
+///
+/// \param V         n x 3 positions
+/// \param polygons  for each face the indices of its vertices, counted from 0
+///
+/// Takes \f$O(m \log m)\f$ for m faces and changes nothing.
+inline Mesh_diagnosis diagnose_polygon_soup(const Eigen::MatrixXd& V,
+                                            const std::vector<std::vector<std::size_t>>& polygons)
+{
+  return internal::Mesh_examination(V, polygons).run();
+}
+
+/// \brief examines a mesh, which may have faces of any number of vertices; vertices and faces are counted from 0 in the
+/// order of `vertices(pm)` and `faces(pm)`.
+///
+/// \tparam PolygonMesh a model of `FaceListGraph` and `HalfedgeGraph`
+/// \param pm the mesh
+/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go through `CGAL::to_double`
+template <class PolygonMesh, class NamedParameters = parameters::Default_named_parameters>
+Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm, const NamedParameters& np = parameters::default_values())
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                       get_const_property_map(vertex_point, pm));
+  auto index = get(CGAL::dynamic_vertex_property_t<std::size_t>(), pm);
+  std::vector<double> coordinates;
+  std::size_t n = 0;
+  for(const auto v : vertices(pm)) {
+    put(index, v, n++);
+    const auto& p = get(points, v);
+    for(const double x : {to_double(p.x()), to_double(p.y()), to_double(p.z())})
+      coordinates.push_back(x);
+  }
+  std::vector<std::vector<std::size_t>> polygons;
+  for(const auto f : faces(pm)) {
+    polygons.emplace_back();
+    for(const auto v : vertices_around_face(halfedge(f, pm), pm))
+      polygons.back().push_back(get(index, v));
+  }
+  return diagnose_polygon_soup(Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+                                   coordinates.data(), Eigen::Index(n), 3),
+                               polygons);
+}
+
+/// @}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_MESH_DIAGNOSIS_H
