@@ -91,6 +91,7 @@ SMS::Spectral_options spectral_options(const Arguments& a, Progress_bar& bar)
   SMS::Spectral_options options;
   options.number_of_eigenvectors = a.eigenvectors;
   options.placement = a.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
+                      : a.placement == "free"   ? SMS::Spectral_placement_strategy::free
                                                 : SMS::Spectral_placement_strategy::on_edge;
   options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   options.binary = a.binary;

@@ -60,7 +60,7 @@ inline boost::program_options::options_description described(Arguments& a)
   add("ratio", po::value<double>()->value_name("R"), "instead: as a fraction of INPUT's, in ]0, 1]");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep, the constant one included; N should be at least 3 K");
-  add("placement", text(a.placement, "on_edge|midpoint")->default_value(a.placement),
+  add("placement", text(a.placement, "on_edge|midpoint|free")->default_value(a.placement),
       "where the vertex goes that replaces an edge");
   add("mass", text(a.mass, "lumped|averaged")->default_value(a.mass),
       "the mass matrix of the eigenproblem: lumped as in the paper, or the mean of lumped and consistent, "
@@ -116,8 +116,8 @@ inline void check(const Arguments& a)
   }
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
-  if(a.placement != "on_edge" && a.placement != "midpoint")
-    refuse("--placement is '" + a.placement + "', it must be on_edge or midpoint.");
+  if(a.placement != "on_edge" && a.placement != "midpoint" && a.placement != "free")
+    refuse("--placement is '" + a.placement + "', it must be on_edge, midpoint or free.");
   if(a.mass != "lumped" && a.mass != "averaged")
     refuse("--mass is '" + a.mass + "', it must be lumped or averaged.");
   if(a.threads < 1)

@@ -62,7 +62,7 @@ refuses()
 # --- what it writes ---------------------------------------------------------------------------------------------------
 
 all="--restriction P.mtx --prolongation Q.mtx --map map.txt --eigenpairs pairs --json out.json"
-for variant in "" "--mass averaged" "--placement midpoint" "--binary" "--preserve-border --threads 1"; do
+for variant in "" "--mass averaged" "--placement midpoint" "--placement free" "--binary" "--preserve-border --threads 1"; do
   runs "simplification $variant" shape.off coarse.off --vertices 250 --eigenvectors 25 $all $variant
   "$check" . shape.off coarse.off || fail "outputs of '$variant'"
   grep -q '|C|_L' said || fail "no table with '$variant'"
@@ -127,7 +127,7 @@ refuses "unknown option" "sideways" shape.off out.off --vertices 100 --sideways
 refuses "no target" "how far" shape.off out.off
 refuses "two targets" "both" shape.off out.off --vertices 100 --ratio 0.5
 refuses "a target that is no number" "many" shape.off out.off --vertices many
-refuses "unknown placement" "--placement is 'free'" shape.off out.off --vertices 100 --placement free
+refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
 refuses "pairs without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --eigenpairs d

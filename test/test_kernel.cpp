@@ -81,7 +81,8 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
   const double theta = GENERATE(0., 0.5);
   const bool binary = GENERATE(false, true);
   const Spectral_placement_strategy placement =
-      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint,
+               Spectral_placement_strategy::free);
   CAPTURE(bordered, theta, binary, SMS::placement_name(placement));
   const shapes::Matrices input = bordered ? wavy_grid_matrices(16, 14) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, 9);
@@ -113,7 +114,7 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
   }
   CHECK(worst_f < 1e-12);
   CHECK(worst_slow < 1e-12);
-  if(!binary)
+  if(!binary && placement != Spectral_placement_strategy::free)
     CHECK(worst_v < 1e-12);
 }
 
@@ -352,7 +353,8 @@ TEST_CASE("Binary weights round to the nearer end; a tie keeps the larger mass, 
 TEST_CASE("preserve_border keeps the border vertex of an edge that has one, whole")
 {
   const Spectral_placement_strategy placement =
-      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint,
+               Spectral_placement_strategy::free);
   const shapes::Matrices input = wavy_grid_matrices(9, 8);
   const Basis basis = eigenbasis(input, 0, 7);
   const Slow_mesh mesh(input, basis);
@@ -374,6 +376,8 @@ TEST_CASE("preserve_border keeps the border vertex of an edge that has one, whol
       CHECK(c.weight == (mesh.on_border(e.second, faces) ? 1. : 0.));
       CHECK(c.point == on_edge(mesh, e, c.weight));
       CHECK(relative_difference(c.cost, mesh.energy_after(e, c.weight, c.point) - mesh.energy()) < 1e-9);
+    } else if(kind == border_edge && placement == Spectral_placement_strategy::free) {
+      CHECK((c.point - on_edge(mesh, e, c.weight)).norm() < 1e-14);
     } else
       CHECK(c.cost == free.evaluate(Slot(e.first), Slot(e.second), kernel).cost);
   }

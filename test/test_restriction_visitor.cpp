@@ -127,7 +127,8 @@ TEST_CASE("P agrees with that of the spectral policies, run side by side")
 {
   SMS::Spectral_options options = options_with(8);
   options.placement =
-      GENERATE(SMS::Spectral_placement_strategy::midpoint, SMS::Spectral_placement_strategy::on_edge);
+      GENERATE(SMS::Spectral_placement_strategy::midpoint, SMS::Spectral_placement_strategy::on_edge,
+               SMS::Spectral_placement_strategy::free);
   const shapes::Matrices input = GENERATE(shapes::bumpy_icosphere_matrices(3), grid_with_zero_length_edges());
   Mesh mesh = make_mesh(input);
   const Visitor visitor(mesh);

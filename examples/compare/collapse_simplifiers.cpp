@@ -126,7 +126,8 @@ std::vector<Simplifier> collapse_simplifiers(const std::vector<Basis>& bases, in
   std::vector<Simplifier> result;
   for(const Basis& basis : bases)
     for(const auto placement :
-        {SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::midpoint})
+        {SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::midpoint,
+         SMS::Spectral_placement_strategy::free})
       result.push_back(spectral(placement, basis, threads));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>>("plane"));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));

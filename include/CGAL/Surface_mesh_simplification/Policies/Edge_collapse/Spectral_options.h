@@ -25,13 +25,25 @@ namespace Surface_mesh_simplification {
 /// Where the vertex that replaces an edge is put (section 3.4 of the paper).
 enum class Spectral_placement_strategy {
   midpoint, ///< strategy (i): the middle of the edge; one evaluation per candidate
-  on_edge   ///< strategy (ii): the minimiser along the edge of a parabola through three samples
+  on_edge,  ///< strategy (ii): the minimiser along the edge of a parabola through three samples
+  /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the edge, or the
+  /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there. The weights come
+  /// from the projection on the edge, so P times the fine positions is no longer the coarse positions.
+  free
 };
 
 /// The name of a placement as the programs spell it.
 inline const char* placement_name(const Spectral_placement_strategy placement)
 {
-  return placement == Spectral_placement_strategy::midpoint ? "midpoint" : "on_edge";
+  switch(placement) {
+  case Spectral_placement_strategy::midpoint:
+    return "midpoint";
+  case Spectral_placement_strategy::free:
+    return "free";
+  case Spectral_placement_strategy::on_edge:
+    break;
+  }
+  return "on_edge";
 }
 
 /// What a run is doing; see `Spectral_options::progress`.
@@ -73,7 +85,8 @@ struct Spectral_options
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
   bool binary = false;
 
-  /// On an edge with exactly one border vertex, keeps the position and the value of that vertex.
+  /// On an edge with exactly one border vertex, keeps the position and the value of that vertex. With the
+  /// placement `free`, edges of the border are collapsed to a point on them.
   bool preserve_border = false;
 
   /// Signals F to preserve instead of eigenvectors, n x K, rows in the order of `vertices(mesh)`;

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_quadric.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
 
@@ -351,13 +352,71 @@ private:
     return s;
   }
 
-  // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples.
+  // The sum of the normals around both ends, weighted by area.
+  Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for(const Spectral_slot c : {u, v}) {
+      const Spectral_ring& ring = m_fields.rings[c];
+      for(std::size_t i = 0; i < ring.size(); ++i)
+        if(ring[i].face)
+          normal +=
+              (m_fields.points[ring[i].vertex] - m_fields.points[c])
+                  .cross(m_fields.points[ring[Spectral_rings::next(ring, i)].vertex] - m_fields.points[c]);
+    }
+    return normal;
+  }
+
+  Spectral_sample sample_off_edge(const Spectral_slot u, const Spectral_slot v, Eigen::Vector3d point) const
+  {
+    Spectral_sample s;
+    if(m_parameters.single_precision_points)
+      point = point.cast<float>().cast<double>();
+    s.point = point;
+    s.weight = projected_weight(u, v, point);
+    return s;
+  }
+
+  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
+  // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
+  Spectral_sample best_free_sample(const Spectral_slot u, const Spectral_slot v,
+                                   const Spectral_sample* on_edge, Spectral_sample best,
+                                   Spectral_collapse_kernel& kernel) const
+  {
+    using Quadric = Spectral_placement_quadric;
+    Quadric quadric;
+    if(!quadric.set_frame(m_fields.points[u], m_fields.points[v], normal_at_edge(u, v)))
+      return best;
+    constexpr int n = Quadric::number_of_samples, first = Quadric::number_on_edge;
+    Spectral_sample samples[n];
+    double costs[n];
+    std::copy(on_edge, on_edge + first, samples);
+    for(int i = first; i < n; ++i)
+      samples[i] = sample_off_edge(u, v, quadric.point(i));
+    for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
+      kernel.evaluate(samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
+    for(int i = 0; i < n; ++i) {
+      costs[i] = samples[i].cost;
+      if(costs[i] < best.cost)
+        best = samples[i];
+    }
+    if(!quadric.fit(costs))
+      return best;
+    Spectral_sample minimiser = sample_off_edge(u, v, quadric.minimiser());
+    kernel.evaluate(&minimiser, 1);
+    return minimiser.cost < best.cost ? minimiser : best;
+  }
+
+  // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
+  // there.
   Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v,
                               Spectral_collapse_kernel& kernel) const
   {
     Spectral_sample samples[3];
+    bool pinned_to_edge = false; // it is the border, which is to be preserved
     if(m_parameters.preserve_border) {
       const bool border_u = m_fields.rings.is_border(u), border_v = m_fields.rings.is_border(v);
+      pinned_to_edge = border_u && border_v;
       if(border_u != border_v) {
         samples[0] = sample_at(u, v, border_v ? 1. : 0.);
         kernel.evaluate(samples, 1);
@@ -387,6 +446,8 @@ private:
       if(minimiser.cost < best.cost)
         best = minimiser;
     }
+    if(m_parameters.placement == Spectral_placement_strategy::free && !pinned_to_edge)
+      return best_free_sample(u, v, samples, best, kernel);
     return best;
   }
 

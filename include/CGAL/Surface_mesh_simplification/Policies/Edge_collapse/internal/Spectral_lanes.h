@@ -80,9 +80,24 @@ constexpr std::size_t spectral_padding = 8;
 
 // Lanes are never returned or passed by value: that ABI would depend on -m flags.
 
+// Not by memcpy: GCC splits that into the halves of the baseline before the AVX2 variant of the caller comes to see it.
+
 CGAL_SPECTRAL_INLINE void spectral_load(Spectral_lanes& x, const double* p)
 {
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+  x = *reinterpret_cast<const Spectral_lanes*>(p);
+#else
   std::memcpy(&x, p, sizeof(x));
+#endif
+}
+
+CGAL_SPECTRAL_INLINE void spectral_store(double* p, const Spectral_lanes& x)
+{
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+  *reinterpret_cast<Spectral_lanes*>(p) = x;
+#else
+  std::memcpy(p, &x, sizeof(x));
+#endif
 }
 
 CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)

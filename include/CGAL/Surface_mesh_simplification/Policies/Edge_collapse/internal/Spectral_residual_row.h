@@ -50,7 +50,7 @@ CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fi
     }
     f += z;
     squares += f * f;
-    std::memcpy(R + k, &f, sizeof(f));
+    spectral_store(R + k, f);
   }
   return spectral_sum(squares);
 }
