@@ -5,7 +5,7 @@
 # A project outside this tree: configured, built and run against an installed copy and by add_subdirectory.
 
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
-set(consumer_options -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+set(consumer_options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
 if(Spectra_DIR)
   list(APPEND consumer_options -DSpectra_DIR=${Spectra_DIR})
@@ -15,12 +15,13 @@ if(SPECTRA_INCLUDE_DIR)
 endif()
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
+# A debug build takes half the time to compile.
 function(spectral_add_consumer_test name source options program)
   add_test(NAME "${name}"
            COMMAND ${CMAKE_CTEST_COMMAND}
                    --build-and-test "${source}" "${CMAKE_CURRENT_BINARY_DIR}/${name}"
                    --build-generator ${CMAKE_GENERATOR} --build-noclean --build-target ${program}
-                   --build-options ${consumer_options} ${options}
+                   --build-options ${consumer_options} -DCMAKE_BUILD_TYPE=Debug ${options}
                    --test-command ${program} ${ARGN})
   set_tests_properties("${name}" PROPERTIES LABELS consumer TIMEOUT 1200)
 endfunction()
@@ -28,11 +29,25 @@ endfunction()
 add_test(NAME "install" COMMAND ${CMAKE_COMMAND} --install "${PROJECT_BINARY_DIR}" --prefix "${prefix}")
 set_tests_properties("install" PROPERTIES LABELS consumer FIXTURES_SETUP installed)
 
+set(solver "simplicial")
+if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
+  set(solver "cholmod")
+endif()
 spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer)
+                           "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer ${solver})
 spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
                            "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR}" consumer)
-set_tests_properties("consumer-find-package" PROPERTIES FIXTURES_REQUIRED installed)
+spectral_add_consumer_test("consumer-without-cholmod" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
+                           "-DSpectral_mesh_simplification_ROOT=${prefix};-DSPECTRAL_WITH_CHOLMOD=OFF" consumer simplicial)
+set_tests_properties("consumer-find-package" "consumer-without-cholmod" PROPERTIES FIXTURES_REQUIRED installed)
+
+# Without CMake and without the optional libraries: the compiler, the folder include/, and the flags of the manual.
+add_test(NAME "consumer-include-folder"
+         COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}"
+                 "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
+                 "${CMAKE_CURRENT_BINARY_DIR}/include-folder" ${CGAL_INCLUDE_DIRS} ${Spectra_INCLUDE_DIR}
+                 $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+set_tests_properties("consumer-include-folder" PROPERTIES LABELS consumer TIMEOUT 1200 FIXTURES_REQUIRED installed)
 
 # The examples' own CMakeLists.txt, outside of the project.
 if(TARGET make_demo_shape)

@@ -12,7 +12,7 @@
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices)
+Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices, std::string& solver)
 {
   SMS::Spectral_options options;
   options.number_of_eigenvectors = 20;
@@ -21,5 +21,6 @@ Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices)
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor()));
+  solver = spectral.eigenpairs()->solver;
   return spectral.restriction();
 }
