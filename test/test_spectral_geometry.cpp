@@ -3,6 +3,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/Lanczos_eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>

@@ -7,15 +7,11 @@
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
-#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
-#include <CGAL/Spectral_geometry/internal/Lanczos_eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
 #include <Eigen/Core>
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 namespace CGAL {
@@ -89,49 +85,16 @@ struct Eigenpairs_options
 /// \throws std::invalid_argument when K or an option is out of range or L, B differ in size;
 ///         std::runtime_error when the factorisation or the iteration fails;
 ///         Cancelled when the progress callback returned false
-inline Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
-                             const Eigenpairs_options& options = {})
-{
-  using Method = Eigenpairs_method;
-  const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
-  problem.check(K, options.tolerance, options.maximum_iterations);
-  if(options.threads < 1)
-    throw std::invalid_argument("Eigenpairs: the number of threads must be positive.");
-  if(options.maximum_vectors != 0 && options.maximum_vectors < K + 32)
-    throw std::invalid_argument(
-        "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = " + std::to_string(K + 32) + ", but is " +
-        std::to_string(options.maximum_vectors) + ".");
-
-  internal::Ritz_pairs pairs;
-  Eigenpairs result;
-  problem.report(0.);
-  if(options.method == Method::dense || internal::must_be_dense(problem.size(), K) ||
-     (options.method == Method::automatic && internal::dense_is_better(problem.size()))) {
-    pairs = internal::dense_eigenpairs(problem, K);
-    result.solver = "dense";
-    result.complete = true;
-  } else if(options.method == Method::spectra) {
-    internal::Lanczos_eigenpairs lanczos(problem, options.tolerance, options.maximum_iterations);
-    pairs = lanczos.compute(K);
-    result.complete = options.verify && lanczos.complete(pairs);
-    result.solver = "spectra+" + internal::Cholesky::name();
-  } else {
-    internal::Block_lanczos lanczos(problem, options.tolerance, options.maximum_iterations,
-                                    options.maximum_vectors, options.threads);
-    pairs = lanczos.compute(K, options.verify, result.complete);
-    result.solver = "block+" + internal::Cholesky::name();
-  }
-  internal::fix_signs(pairs.vectors);
-  result.residuals = problem.residuals(pairs);
-  result.values = std::move(pairs.values);
-  result.vectors = std::move(pairs.vectors);
-  problem.report(1.);
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
+                                                    const Eigenpairs_options& options = {});
 
 /// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
+#endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H

@@ -1,0 +1,20 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILE_H
+#define CGAL_SPECTRAL_GEOMETRY_COMPILE_H
+
+/*!
+\file
+\brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of all others.
+
+Without that macro the package is header-only and this file is not needed. With it defined in every source file of a program,
+`CGAL::Spectral_geometry::eigenpairs()` and `CGAL::Spectral_geometry::closest_point_interpolation()` are only declared, and
+exactly one of the source files includes this header, which defines them: each of the others compiles several seconds faster.
+*/
+
+#include <CGAL/Spectral_geometry/internal/closest_point_interpolation_impl.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
+
+#endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H
