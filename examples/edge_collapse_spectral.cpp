@@ -24,12 +24,14 @@ int main(int argc, char* argv[])
     std::cerr << "usage: edge_collapse_spectral INPUT OUTPUT N, INPUT being a triangle mesh\n";
     return EXIT_FAILURE;
   }
+  //! [policies]
   SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
   SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(std::strtoul(argv[3], nullptr, 10), mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor()));
   const auto P = spectral.restriction();
+  //! [policies]
   std::cout << "P, which takes functions to the coarse mesh, is " << P.rows() << " x " << P.cols() << '\n';
   return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
                                                                                              : EXIT_FAILURE;
