@@ -41,7 +41,10 @@ END {
     out = out (display ? "<center>" html "</center>" : html)
     text = substr(text, end + 3)
   }
-  printf "%s%s", out, text
+  out = out text
+  gsub(/Eq\. /, "Eq.\\\\ ", out) # or a first sentence ends there
+  gsub(/et al\. /, "et al.\\\\ ", out)
+  printf "%s", out
 }
 
 # Takes one argument off the global `rest`: a group in braces, a command, or one character.

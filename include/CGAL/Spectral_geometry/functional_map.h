@@ -111,8 +111,8 @@ inline double laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen
 }
 
 /*!
-returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et al. 2020,
-**not squared**. Frobenius norm; no unit.
+returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et al. 2020, **not
+squared**. Frobenius norm; no unit.
 
 With more rows (coarse modes) than columns a fine eigenvector may also land on coarse modes beyond the number
 of columns without counting as lost.
