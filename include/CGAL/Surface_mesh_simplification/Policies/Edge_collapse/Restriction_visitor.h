@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
@@ -39,10 +40,12 @@ public:
   using Slots = Fine_vertex_slots<TriangleMesh>;
   using vertex_descriptor = typename Slots::vertex_descriptor;
 
-  explicit Restriction_tracker(TriangleMesh& mesh)
+  /// `kept`: a flag for each vertex whose position and values the placement keeps, or nothing.
+  explicit Restriction_tracker(TriangleMesh& mesh, std::vector<char> kept = {})
     : m_mesh(&mesh)
     , m_slots(mesh, "Restriction_visitor")
-    , m_forest(m_slots.size())
+    , m_log(m_slots.size())
+    , m_kept_flags(std::move(kept))
   {}
 
   void check_mesh(const TriangleMesh& mesh)
@@ -76,18 +79,41 @@ public:
       m_weight = 0.5;
     }
     m_open = false;
+    if(is_kept_slot(m_removed) ||
+       is_kept_slot(m_kept)) { // on an edge without length the weight is still open
+      m_weight = is_kept_slot(m_kept) ? 0. : 1.;
+      m_kept_flags[std::size_t(m_kept)] = m_kept_flags[std::size_t(m_removed)] = true;
+    }
     // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
     const Eigen::Index kept = m_slots.slot(kept_vertex);
+    const Eigen::Vector3d point = to_vector(get(profile.vertex_point_map(), kept_vertex));
     if(kept == m_kept)
-      m_forest.merge(m_removed, m_kept, m_weight);
+      m_log.merge(m_removed, m_kept, m_weight, point);
     else {
       CGAL_assertion(kept == m_removed);
-      m_forest.merge(m_kept, m_removed, 1 - m_weight);
+      m_log.merge(m_kept, m_removed, 1 - m_weight, point);
     }
   }
 
   const Slots& slots() const { return m_slots; }
-  const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+  const Collapse_log& log() const { return m_log; }
+
+  /// Whether a vertex is to be kept, or stands for one that is.
+  bool is_kept(const vertex_descriptor v) const
+  {
+    return !m_kept_flags.empty() && is_kept_slot(m_slots.slot(v));
+  }
+
+  /// The positions, in `vertices(mesh)` as it is now, of those that are kept.
+  std::vector<std::size_t> kept_indices() const
+  {
+    std::vector<std::size_t> result;
+    const std::vector<Eigen::Index> slots = m_slots.current();
+    for(std::size_t i = 0; i < slots.size(); ++i)
+      if(is_kept_slot(slots[i]))
+        result.push_back(i);
+    return result;
+  }
 
 private:
   template <class Point>
@@ -96,9 +122,15 @@ private:
     return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
+  bool is_kept_slot(const Eigen::Index s) const
+  {
+    return !m_kept_flags.empty() && m_kept_flags[std::size_t(s)] != 0;
+  }
+
   const TriangleMesh* m_mesh;
   Slots m_slots;
-  Spectral_geometry::Merge_forest m_forest;
+  Collapse_log m_log;
+  std::vector<char> m_kept_flags;
   bool m_open = false;
   Eigen::Index m_removed = 0, m_kept = 0;
   double m_weight = 0; // of the removed slot
@@ -147,24 +179,34 @@ public:
     , m_user(std::move(user))
   {}
 
+  /// What is tracked, shared with others.
+  explicit Restriction_visitor(std::shared_ptr<internal::Restriction_tracker<Triangle_mesh>> tracker,
+                               User_visitor user = User_visitor())
+    : m_tracker(std::move(tracker))
+    , m_user(std::move(user))
+  {}
+
   /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in that at
   /// construction. Rows sum to 1 and columns have at most one nonzero.
   ///
   /// @throws std::logic_error when the mesh has got new vertices
   Eigen::SparseMatrix<double> restriction() const
   {
-    return m_tracker->forest().restriction(m_tracker->slots().current());
+    return m_tracker->log().forest().restriction(m_tracker->slots().current());
   }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Eigen::Index> map = m_tracker->forest().vertex_map(m_tracker->slots().current());
+    const std::vector<Eigen::Index> map = m_tracker->log().forest().vertex_map(m_tracker->slots().current());
     return std::vector<std::size_t>(map.begin(), map.end());
   }
 
   /// The merges in the order in which they happened.
-  const Spectral_geometry::Merge_forest& forest() const { return m_tracker->forest(); }
+  const Spectral_geometry::Merge_forest& forest() const { return m_tracker->log().forest(); }
+
+  /// The merges and the points, from which `Collapse_replay` makes every level of detail.
+  const Collapse_log& log() const { return m_tracker->log(); }
 
   /// \name Called by `edge_collapse()`
   /// @{

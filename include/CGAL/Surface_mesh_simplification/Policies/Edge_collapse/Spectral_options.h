@@ -12,9 +12,12 @@
 
 #include <Eigen/Core>
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
@@ -103,6 +106,20 @@ struct Spectral_options
   /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
   Eigen::VectorXd weights;
 
+  /// Vertices that survive, as positions in `vertices(mesh)`, from 0; a readable map from vertices to `bool` passed as the
+  /// named parameter `vertex_is_constrained_map` does the same. A collapse next to one ends on it: its position
+  /// and its values stay exactly what they were (its row of P is a single 1), and two of them are never merged.
+  /// Which of its two handles a mesh goes on with after a collapse is CGAL's choice: the vertex map says where
+  /// each went. Edge constraints do not promise this: they keep edges. Works together with them (see
+  /// `Spectral_filter`), with `preserve_border` (an edge from a kept inner vertex to a border vertex that is
+  /// not kept stays) and with `pre_simplify`.
+  std::vector<std::size_t> kept_vertices;
+
+  /// `spectral_edge_collapse()` only: stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
+  /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
+  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number.
+  double maximum_error = std::numeric_limits<double>::infinity();
+
   /// `spectral_edge_collapse()` only: first reduces a mesh of more vertices to this number with CGAL's
   /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
   /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
@@ -111,13 +128,35 @@ struct Spectral_options
   /// Number of threads that evaluate costs; from 1. The result does not depend on it.
   int threads = 1;
 
-  /// Called now and then with the phase and how far it is. Returning `false` cancels: while the
-  /// eigenpairs or the first costs are computed `Spectral_geometry::Cancelled` is thrown and the mesh
-  /// is untouched; inside the loop `spectral_edge_collapse()` stops with a valid mesh and its P.
+  /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
+  /// cancels: while the eigenpairs or the first costs are computed `Spectral_geometry::Cancelled` is thrown and
+  /// the mesh is untouched; inside a loop `spectral_edge_collapse()` stops between two collapses and returns a
+  /// valid mesh with the P of what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
+
+  /// Cancels as the callback does, from another thread or a signal handler, when it becomes true; it is looked at between
+  /// two collapses, before each report, and never changed. Must outlive the policies. Null: nobody cancels.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// @}
+
+namespace internal {
+
+inline bool is_cancelled(const Spectral_options& options)
+{
+  return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
+}
+
+/// Calls the progress callback, if any; `false` means that the user cancelled.
+inline bool report_progress(const Spectral_options& options, const Spectral_phase phase,
+                            const double fraction, const std::size_t number_of_vertices)
+{
+  return !is_cancelled(options) &&
+         (!options.progress || options.progress(Spectral_progress{phase, fraction, number_of_vertices}));
+}
+
+} // namespace internal
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL

@@ -7,10 +7,14 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_error_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_filter.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_state.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
@@ -89,7 +93,9 @@ public:
    *
    * @param mesh a triangle mesh without isolated vertices
    * @param options see `Spectral_options`
-   * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets
+   * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets;
+   *        `vertex_is_constrained_map`, a readable map from vertices to `bool`: those to be kept, in addition to
+   *        `Spectral_options::kept_vertices`. It is read here and not again
    *
    * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the first
    * offender
@@ -123,12 +129,27 @@ public:
     return Spectral_visitor<State, Visitor>(m_state, std::move(user_visitor));
   }
 
+  /// Where there are vertices to keep and the placement is wrapped, in `Constrained_placement` for instance: the
+  /// filter that `edge_collapse()` must get.
+  Spectral_filter<State> filter() const { return Spectral_filter<State>(m_state); }
+
+  /// The same, which also asks yours; it is copied.
+  template <class Filter>
+  Spectral_filter<State, Filter> filter(Filter user_filter) const
+  {
+    return Spectral_filter<State, Filter>(m_state, std::move(user_filter));
+  }
+
   /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call, columns in that
   /// at construction. Rows sum to 1 and columns have at most one nonzero.
   Eigen::SparseMatrix<double> restriction() const { return m_state->restriction(); }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const { return m_state->vertex_map(); }
+
+  /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every level of detail
+  /// between the input and the current mesh.
+  Collapse_log log() const { return m_state->log(); }
 
   /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric coordinates of the
   /// closest point of the current mesh. Rows sum to 1.
@@ -150,6 +171,9 @@ public:
   /// sqrt(E / sum_k lambda_k^2), which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
   /// the signals are constant (K = 1 for instance): P carries constants over exactly.
   double relative_error() const { return m_state->relative_error(); }
+
+  /// The same, shared.
+  std::shared_ptr<State> shared_state() const { return m_state; }
 
   /// What the three handles share.
   State& state() { return *m_state; }

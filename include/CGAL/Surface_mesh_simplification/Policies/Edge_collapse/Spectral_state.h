@@ -7,8 +7,10 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
@@ -77,10 +79,11 @@ public:
   /// Why candidates were given up when their turn came.
   struct Refusals
   {
-    std::size_t topology = 0;  ///< CGAL's link condition and the like
-    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
-    std::size_t filter = 0;    ///< the `filter` named parameter
-    std::size_t placement = 0; ///< no position without a degenerate triangle
+    std::size_t topology = 0; ///< CGAL's link condition and the like
+    std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;   ///< the `filter` named parameter
+    /// no position without a degenerate triangle, or none that leaves kept vertices where they are
+    std::size_t placement = 0;
   };
 
   /// Reads the mesh, finds the basis. Throws `std::invalid_argument` for a mesh, an option or a basis that
@@ -99,6 +102,7 @@ public:
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
     m_number_of_vertices = std::size_t(m_slots.size());
+    m_core.set_kept(kept_vertices(np));
 
     internal::Spectral_basis basis = internal::spectral_basis(m_fine_points, matrices.T, m_options);
     m_eigenpairs = basis.eigenpairs;
@@ -205,8 +209,8 @@ public:
       capture_zero_length_merge(kept, ring);
     m_pending.open = m_selecting = false;
     --m_number_of_vertices;
-    m_core.commit(m_pending.removed, kept, m_pending.weight, to_vector(get(m_vpm, kept_vertex)),
-                  std::move(ring));
+    m_log_points.push_back(to_vector(get(m_vpm, kept_vertex)));
+    m_core.commit(m_pending.removed, kept, m_pending.weight, m_log_points.back(), std::move(ring));
     if(!in_loop)
       m_core.drop_candidates_around(kept);
     else if(m_batched)
@@ -226,6 +230,11 @@ public:
     m_placement_found = c.collapsible;
     if(!c.collapsible)
       return Optional_point();
+    // An end stays what it is, whatever its number type.
+    if(c.point == m_core.fields().points[slot(profile.v0())])
+      return Optional_point(Point(profile.p0()));
+    if(c.point == m_core.fields().points[slot(profile.v1())])
+      return Optional_point(Point(profile.p1()));
     return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
   }
 
@@ -240,11 +249,39 @@ public:
       return Optional_cost(largest_cost());
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
+    if(m_core.moves_kept_vertex(u, v, point))
+      return Optional_cost(largest_cost());
     const internal::Spectral_candidate& c = m_core.candidate(u, v, m_selecting);
     const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
     if(!(value < double(std::numeric_limits<float>::max())))
       return Optional_cost(largest_cost());
     return Optional_cost(FT(value));
+  }
+
+  /// The relative error after the collapse of a selected candidate, to rounding; that of now if it cannot be collapsed.
+  /// `cost` is the one in CGAL's queue, which may be of before some collapses nearby: the candidate is evaluated
+  /// again, unless a wrapper of the placement has chosen another point.
+  template <class Profile, class Cost>
+  double relative_error_after(const Profile& profile, const Cost& cost)
+  {
+    double change = CGAL::to_double(cost);
+    if(!(change < double((std::numeric_limits<float>::max)())))
+      return relative_error();
+    const Slot u = slot(profile.v0()), v = slot(profile.v1());
+    const internal::Spectral_candidate* c = m_core.candidates().find(u, v);
+    if(c != nullptr && c->collapsible && CGAL::to_double(FT(c->cost)) == change)
+      change = m_core.cost_at(u, v, Eigen::Vector3d(c->point)); // a copy: it may be moved
+    return std::isfinite(change) ? relative_error(error() + change) : relative_error();
+  }
+
+  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or merge two of them.
+  template <class Profile, class OptionalPoint>
+  bool lets_through(const Profile& profile, const OptionalPoint& placement)
+  {
+    // CGAL has got as far as to ask, whether or not a wrapper has asked our own placement.
+    m_placement_asked = m_placement_found = true;
+    return placement &&
+           !m_core.moves_kept_vertex(slot(profile.v0()), slot(profile.v1()), to_vector(*placement));
   }
 
   /// @}
@@ -267,6 +304,9 @@ public:
     const std::vector<Eigen::Index> map = m_core.forest().vertex_map(slots);
     return std::vector<std::size_t>(map.begin(), map.end());
   }
+
+  /// The merges so far and where each left its vertex.
+  Collapse_log log() const { return Collapse_log(m_core.forest(), m_log_points); }
 
   /// The slots of `vertices(mesh)`, in that order.
   std::vector<Eigen::Index> current_slots() const { return m_slots.current(); }
@@ -307,11 +347,13 @@ public:
 
   /// @}
 
+  /// Whether `Spectral_options::cancel` asks to stop.
+  bool is_cancelled() const { return internal::is_cancelled(m_options); }
+
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_phase phase, const double fraction) const
   {
-    return !m_options.progress ||
-           m_options.progress(Spectral_progress{phase, fraction, m_number_of_vertices});
+    return internal::report_progress(m_options, phase, fraction, m_number_of_vertices);
   }
 
   /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
@@ -362,6 +404,20 @@ private:
                                  [](const auto& a, const auto& b) { return a.vertex < b.vertex; }),
                 ring.end());
     return ring;
+  }
+
+  template <class NamedParameters>
+  std::vector<char> kept_vertices(const NamedParameters& np) const
+  {
+    std::vector<char> flags = internal::kept_vertex_flags(*m_mesh, m_options.kept_vertices, np);
+    if(!flags.empty())
+      internal::check_kept_vertices_apart(
+          *m_mesh, [&](const vertex_descriptor v) { return flags[slot(v)] != 0; },
+          [&](const vertex_descriptor v) { return slot(v); },
+          [&](const vertex_descriptor v, const vertex_descriptor w) {
+            return m_fine_points.row(slot(v)) == m_fine_points.row(slot(w));
+          });
+    return flags;
   }
 
   void read_geometry()
@@ -437,6 +493,7 @@ private:
   Eigen::MatrixXd m_fine_points;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
   internal::Spectral_collapse_core m_core;
+  std::vector<Eigen::Vector3d> m_log_points; // where each merge left its vertex
   double m_area = 0, m_sum_of_squares = 0;
   std::size_t m_number_of_vertices = 0;
 

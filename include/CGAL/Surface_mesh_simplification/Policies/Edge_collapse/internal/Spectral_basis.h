@@ -47,6 +47,9 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
   if(options.threads < 1)
     throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
                                 ", use a number from 1.");
+  if(!(options.maximum_error >= 0))
+    throw std::invalid_argument("Spectral_options: maximum_error is " + to_string(options.maximum_error) +
+                                ", use a number from 0.");
   if(options.signals.size() != 0 && options.eigenpairs)
     throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
   if(options.signals.size() != 0 && options.signals.rows() != n)
@@ -174,11 +177,12 @@ inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::Matr
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
       solver.threads = (std::max)(solver.threads, options.threads); // the result does not depend on it
-      if(options.progress && !solver.progress)
-        solver.progress = [&options, &V](const double fraction) {
-          return options.progress(
-              Spectral_progress{Spectral_phase::eigenpairs, fraction, std::size_t(V.rows())});
-        };
+      // A callback of the solver's own is asked as well.
+      solver.progress = [&options, &V](const double fraction) {
+        const auto& own = options.eigenpairs_options.progress;
+        return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(V.rows())) &&
+               (!own || own(fraction));
+      };
       pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
           Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
     }

@@ -110,6 +110,18 @@ public:
     m_candidates.clear();
   }
 
+  /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
+  void set_kept(std::vector<char> kept) { m_kept = std::move(kept); }
+
+  bool is_kept(const Spectral_slot s) const { return !m_kept.empty() && m_kept[s] != 0; }
+
+  /// Whether a collapse to `point` would move a vertex that is to be kept, or merge two of them.
+  bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  {
+    return (is_kept(u) && (is_kept(v) || point != m_fields.points[u])) ||
+           (is_kept(v) && point != m_fields.points[v]);
+  }
+
   const Spectral_fields& fields() const { return m_fields; }
   const Spectral_cost_parameters& parameters() const { return m_parameters; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
@@ -164,7 +176,7 @@ public:
   }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
-  /// an edge without length.
+  /// an edge without length; all of it on an end that is to be kept.
   double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
   {
     return rounded(u, v, projected_edge_weight(m_fields.points[u], m_fields.points[v], point));
@@ -213,6 +225,8 @@ public:
               const Eigen::Vector3d& point, Spectral_ring ring)
   {
     m_forest.merge(removed, kept, weight);
+    if(is_kept(removed))
+      m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
     merge_rows(m_fields.F, removed, kept, weight);
     if(m_fields.Z.size() != 0)
       merge_rows(m_fields.Z, removed, kept, weight);
@@ -332,6 +346,8 @@ private:
 
   double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
   {
+    if(is_kept(u) || is_kept(v))
+      return is_kept(u) ? 0. : 1.;
     if(!m_parameters.binary)
       return alpha;
     if(alpha != 0.5)
@@ -407,21 +423,38 @@ private:
     return minimiser.cost < best.cost ? minimiser : best;
   }
 
+  struct Fixed_ends
+  {
+    bool u, v;
+    bool on_border; // the whole edge is the border, which is to be preserved
+  };
+
+  // The ends that the merged vertex must lie on.
+  Fixed_ends fixed_ends(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Fixed_ends fixed{is_kept(u), is_kept(v), false};
+    if(m_parameters.preserve_border) {
+      const bool border_u = m_fields.rings.is_border(u), border_v = m_fields.rings.is_border(v);
+      fixed.on_border = border_u && border_v;
+      fixed.u = fixed.u || (border_u && !border_v);
+      fixed.v = fixed.v || (border_v && !border_u);
+    }
+    return fixed;
+  }
+
   // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
   // there.
   Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v,
                               Spectral_collapse_kernel& kernel) const
   {
     Spectral_sample samples[3];
-    bool pinned_to_edge = false; // it is the border, which is to be preserved
-    if(m_parameters.preserve_border) {
-      const bool border_u = m_fields.rings.is_border(u), border_v = m_fields.rings.is_border(v);
-      pinned_to_edge = border_u && border_v;
-      if(border_u != border_v) {
-        samples[0] = sample_at(u, v, border_v ? 1. : 0.);
-        kernel.evaluate(samples, 1);
-        return samples[0];
-      }
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(fixed.u && fixed.v)
+      return Spectral_sample(); // of infinite cost
+    if(fixed.u || fixed.v) {
+      samples[0] = sample_at(u, v, fixed.v ? 1. : 0.);
+      kernel.evaluate(samples, 1);
+      return samples[0];
     }
     if(m_parameters.placement == Spectral_placement_strategy::midpoint) {
       samples[0] = sample_at(u, v, 0.5);
@@ -446,7 +479,7 @@ private:
       if(minimiser.cost < best.cost)
         best = minimiser;
     }
-    if(m_parameters.placement == Spectral_placement_strategy::free && !pinned_to_edge)
+    if(m_parameters.placement == Spectral_placement_strategy::free && !fixed.on_border)
       return best_free_sample(u, v, samples, best, kernel);
     return best;
   }
@@ -464,6 +497,7 @@ private:
 
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
+  std::vector<char> m_kept;
   Eigen::Index m_number_of_signals = 0;
   double m_total = 0;
   Spectral_geometry::Merge_forest m_forest;

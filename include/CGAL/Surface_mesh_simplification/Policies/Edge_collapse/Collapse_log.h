@@ -1,0 +1,317 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+
+#include <CGAL/Spectral_geometry/restriction.h>
+
+#include <CGAL/Kernel_traits.h>
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+/*!
+ * The record of a simplification, from which every level of detail between its start and its end can be had
+ * again: the merges in order, those of edges without length before the loop included, and where each left its
+ * vertex. A merge and a point: 48 bytes for each collapse.
+ *
+ * P at any level comes from the log alone, the mesh from `Collapse_replay` with a copy of the input:
+ *
+ * \code
+ * Mesh copy = mesh;
+ * const auto result = SMS::spectral_edge_collapse(mesh, 600, options);
+ * SMS::Collapse_replay<Mesh> replay(copy, result.log);
+ * for(const std::size_t N : {5000, 2000, 1000}) {
+ *   replay.collapse_to(N); // `copy` is what spectral_edge_collapse(copy, N, options) would have made of it
+ *   const Eigen::SparseMatrix<double> P = replay.restriction();
+ * }
+ * \endcode
+ *
+ * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done to the mesh
+ * after the collapses, relocation of its vertices for instance, is not in the log. Neither are vertices that were
+ * moved between two runs.
+ *
+ * Made by `Spectral_policies::log()`, `Restriction_visitor::log()` and `spectral_edge_collapse()`.
+ */
+class Collapse_log
+{
+public:
+  using Index = Eigen::Index; ///< of a slot or of a merge
+
+  /// The log of an empty mesh.
+  Collapse_log() = default;
+
+  /// Nothing has happened to a mesh of n vertices. Throws `std::invalid_argument` if n is negative.
+  explicit Collapse_log(const Index n)
+    : m_forest(n)
+  {}
+
+  /// The merges, and for each where its vertex was put. Throws `std::invalid_argument` if their numbers differ.
+  Collapse_log(Spectral_geometry::Merge_forest forest, std::vector<Eigen::Vector3d> points)
+    : m_forest(std::move(forest))
+    , m_points(std::move(points))
+  {
+    if(m_forest.merges().size() != m_points.size())
+      throw std::invalid_argument("Collapse_log: there are " + std::to_string(m_points.size()) +
+                                  " points for " + std::to_string(m_forest.merges().size()) +
+                                  " merges; give one for each.");
+  }
+
+  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha F_removed. What
+  /// `Merge_forest::merge()` throws.
+  void merge(const Index removed, const Index kept, const double alpha, const Eigen::Vector3d& point)
+  {
+    m_points.reserve(m_points.size() + 1); // so that both get it or none
+    m_forest.merge(removed, kept, alpha);
+    m_points.push_back(point);
+  }
+
+  /// Appends the log of a second simplification that started where this one ended: `slots[i]` is the slot of
+  /// this one that the second calls i. Throws `std::invalid_argument` if they do not fit.
+  void append(const Collapse_log& second, const std::vector<Index>& slots)
+  {
+    if(Index(slots.size()) != second.m_forest.number_of_slots() || slots.size() != number_of_vertices_left())
+      throw std::invalid_argument("Collapse_log: the log to append starts at " +
+                                  std::to_string(second.m_forest.number_of_slots()) + " vertices, but " +
+                                  std::to_string(number_of_vertices_left()) + " are left here, and " +
+                                  std::to_string(slots.size()) + " slots are given; let all three agree.");
+    for(std::size_t i = 0; i < second.m_points.size(); ++i) {
+      const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
+      merge(slots[std::size_t(m.removed)], slots[std::size_t(m.kept)], m.alpha, second.m_points[i]);
+    }
+  }
+
+  /// The merges, from which P at any level follows.
+  const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+
+  /// For each merge the point that its vertex was put on.
+  const std::vector<Eigen::Vector3d>& points() const { return m_points; }
+
+  /// Number of vertices of the input.
+  std::size_t number_of_vertices() const { return std::size_t(m_forest.number_of_slots()); }
+
+  /// Number of vertices at the end of the log: the smallest level that it holds.
+  std::size_t number_of_vertices_left() const { return number_of_vertices() - m_points.size(); }
+
+  /*!
+   * P of the level of N vertices, N x number_of_vertices(): rows in ascending order of slots, which is the order of
+   * `vertices()` of the replayed mesh before its garbage is collected.
+   *
+   * Throws `std::invalid_argument` unless N is from number_of_vertices_left() to number_of_vertices().
+   */
+  Eigen::SparseMatrix<double> restriction(const std::size_t N) const
+  {
+    const Index merges = number_of_merges(N);
+    return m_forest.restriction(m_forest.kept_slots(merges), merges);
+  }
+
+  /// For each vertex of the input the row of restriction(N) that it has gone to. Throws as restriction() does.
+  std::vector<std::size_t> vertex_map(const std::size_t N) const
+  {
+    const Index merges = number_of_merges(N);
+    const std::vector<Index> map = m_forest.vertex_map(m_forest.kept_slots(merges), merges);
+    return std::vector<std::size_t>(map.begin(), map.end());
+  }
+
+  /// How many merges lead to the level of N vertices. Throws as restriction() does.
+  Index number_of_merges(const std::size_t N) const
+  {
+    if(N < number_of_vertices_left() || N > number_of_vertices())
+      throw std::invalid_argument("Collapse_log: a level of " + std::to_string(N) +
+                                  " vertices is asked for; use a number from " +
+                                  std::to_string(number_of_vertices_left()) + " to " +
+                                  std::to_string(number_of_vertices()) + ", those of this log.");
+    return Index(number_of_vertices() - N);
+  }
+
+private:
+  Spectral_geometry::Merge_forest m_forest;
+  std::vector<Eigen::Vector3d> m_points;
+};
+
+/*!
+ * Collapses a copy of the input of a `Collapse_log` to one level after the other, from fine to coarse, without
+ * computing a single cost.
+ *
+ * Each merge is done by `Euler::collapse_edge()` on the edge that the run collapsed. On a copy (`Mesh copy = mesh;`
+ * before the run) the mesh of N vertices is therefore the very one that a run stopped at N leaves: the same connectivity
+ * and coordinates, and the same order of vertices, faces and edges, before garbage is collected. On the same mesh
+ * rebuilt in another way (read from a file again, in another type) connectivity and coordinates are the same, but
+ * the vertex that goes on after a collapse may be the other one of the two, so that the order may differ;
+ * restriction() follows the mesh as it is. Among the edges without length, which are merged before a run asks
+ * whether to stop, there are levels that no run stops at.
+ *
+ * Coordinates that are not `double` are restored from `double`; an end of an edge stays what it is.
+ *
+ * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
+ * @tparam NamedParameters those of the constructor
+ */
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+class Collapse_replay
+{
+public:
+  using Triangle_mesh = TriangleMesh; ///< the type of the mesh
+  /// that of the named parameters, or the mesh's own
+  using Vertex_point_map = typename GetVertexPointMap<Triangle_mesh, NamedParameters>::type;
+
+  /*!
+   * @param mesh a copy of the input of the log, as it was before the run; must outlive this object
+   * @param log must outlive this object
+   * @param np `vertex_point_map`, and `edge_is_constrained_map` if the run had one: both those of the copy
+   *
+   * @throws std::invalid_argument if the mesh has another number of vertices than the input of the log
+   */
+  Collapse_replay(Triangle_mesh& mesh, const Collapse_log& log,
+                  const NamedParameters& np = parameters::default_values())
+    : m_mesh(&mesh)
+    , m_log(&log)
+    , m_np(np)
+    , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                         get_property_map(vertex_point, mesh)))
+    , m_slots(get(dynamic_vertex_property_t<Index>(), mesh))
+  {
+    Index n = 0;
+    for(const vertex_descriptor v : vertices(mesh))
+      put(m_slots, v, n++);
+    if(std::size_t(n) != log.number_of_vertices())
+      throw std::invalid_argument(
+          "Collapse_replay: the mesh has " + std::to_string(n) + " vertices, but the log starts at " +
+          std::to_string(log.number_of_vertices()) + "; pass a copy of the input as it was before the run.");
+  }
+
+  /*!
+   * Collapses the mesh to N vertices.
+   *
+   * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log to
+   *         number_of_vertices() (a replay goes forward only: begin again with another copy); where two vertices are not
+   *         joined that should be: the mesh is not a copy of the input, and is left where that was found
+   */
+  void collapse_to(const std::size_t N)
+  {
+    const Index end = m_log->number_of_merges(N);
+    if(end < m_done)
+      throw std::invalid_argument("Collapse_replay: a level of " + std::to_string(N) +
+                                  " vertices is asked for, but the mesh has only " +
+                                  std::to_string(number_of_vertices()) +
+                                  " left; go from fine to coarse, or begin again with another copy.");
+    // Afresh: garbage may have been collected meanwhile.
+    m_vertices.resize(m_log->number_of_vertices());
+    for(const vertex_descriptor v : vertices(*m_mesh))
+      m_vertices[std::size_t(get(m_slots, v))] = v;
+    for(; m_done < end; ++m_done)
+      merge(m_log->forest().merges()[std::size_t(m_done)], m_log->points()[std::size_t(m_done)]);
+  }
+
+  /// Number of vertices of the mesh as it is.
+  std::size_t number_of_vertices() const { return m_log->number_of_vertices() - std::size_t(m_done); }
+
+  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    return m_log->forest().restriction(current_slots(), m_done);
+  }
+
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  std::vector<std::size_t> vertex_map() const
+  {
+    const std::vector<Index> map = m_log->forest().vertex_map(current_slots(), m_done);
+    return std::vector<std::size_t>(map.begin(), map.end());
+  }
+
+private:
+  using Point = typename boost::property_traits<Vertex_point_map>::value_type;
+  using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
+  using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
+  using Index = Eigen::Index;
+  using Merge = Spectral_geometry::Merge_forest::Merge;
+  using FT = typename Kernel_traits<Point>::Kernel::FT;
+
+  static Eigen::Vector3d to_vector(const Point& p)
+  {
+    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+  }
+
+  std::vector<Index> current_slots() const
+  {
+    std::vector<Index> slots;
+    for(const vertex_descriptor v : vertices(*m_mesh))
+      slots.push_back(get(m_slots, v));
+    return slots;
+  }
+
+  halfedge_descriptor halfedge_between(const vertex_descriptor from, const vertex_descriptor to) const
+  {
+    const halfedge_descriptor null = boost::graph_traits<Triangle_mesh>::null_halfedge();
+    for(const halfedge_descriptor h : halfedges_around_target(halfedge(to, *m_mesh), *m_mesh))
+      if(source(h, *m_mesh) == from)
+        return h;
+    return null;
+  }
+
+  void merge(const Merge& m, const Eigen::Vector3d& at)
+  {
+    const vertex_descriptor removed = m_vertices[std::size_t(m.removed)],
+                            kept = m_vertices[std::size_t(m.kept)];
+    const halfedge_descriptor h = halfedge_between(removed, kept);
+    if(h == boost::graph_traits<Triangle_mesh>::null_halfedge())
+      throw std::invalid_argument("Collapse_replay: the vertices " + std::to_string(m.removed) + " and " +
+                                  std::to_string(m.kept) +
+                                  " are not joined by an edge where the log merges them; pass a copy of the "
+                                  "input as it was before the run.");
+    const Point point = at == to_vector(get(m_vpm, kept))      ? Point(get(m_vpm, kept))
+                        : at == to_vector(get(m_vpm, removed)) ? Point(get(m_vpm, removed))
+                                                               : Point(FT(at.x()), FT(at.y()), FT(at.z()));
+    const vertex_descriptor left = collapse(h);
+    // The other of the two, should the halfedges of the copy lie otherwise.
+    m_vertices[std::size_t(m.kept)] = left;
+    put(m_slots, left, m.kept);
+    put(m_vpm, left, point);
+  }
+
+  vertex_descriptor collapse(const halfedge_descriptor h)
+  {
+    if constexpr(internal::is_given<NamedParameters>(internal_np::edge_is_constrained_t()))
+      return Euler::collapse_edge(edge(h, *m_mesh), *m_mesh,
+                                  parameters::get_parameter(m_np, internal_np::edge_is_constrained));
+    else
+      return Euler::collapse_edge(edge(h, *m_mesh), *m_mesh);
+  }
+
+  Triangle_mesh* m_mesh;
+  const Collapse_log* m_log;
+  NamedParameters m_np;
+  Vertex_point_map m_vpm;
+  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Index>>::type m_slots;
+  std::vector<vertex_descriptor> m_vertices; // of each slot that is left
+  Index m_done = 0;
+};
+
+/// @}
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H

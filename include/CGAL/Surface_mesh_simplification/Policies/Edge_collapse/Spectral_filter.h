@@ -1,0 +1,74 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+
+#include <memory>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// A filter that lets everything through.
+struct No_filter
+{
+  template <class Profile>
+  Spectral_optional<typename Profile::Point>
+  operator()(const Profile&, const Spectral_optional<typename Profile::Point>& placement) const
+  {
+    return placement;
+  }
+};
+
+} // namespace internal
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+/*!
+ * For the named parameter `filter` of `edge_collapse()`: refuses a collapse that would move a
+ * vertex of `Spectral_options::kept_vertices`, or merge two of them.
+ *
+ * `Spectral_placement` never proposes one. A placement wrapped around it may: `Constrained_placement` takes the first
+ * end with a constrained edge, whatever is at the other. `spectral_edge_collapse()` uses this filter by itself; with
+ * `edge_collapse()` pass `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
+ */
+template <class State, class UserFilter = internal::No_filter>
+class Spectral_filter
+{
+public:
+  /// made by `Spectral_policies::filter()`
+  explicit Spectral_filter(std::shared_ptr<State> state, UserFilter user = UserFilter())
+    : m_state(std::move(state))
+    , m_user(std::move(user))
+  {}
+
+  /// the placement, or none
+  template <class Profile>
+  internal::Spectral_optional<typename Profile::Point>
+  operator()(const Profile& profile,
+             const internal::Spectral_optional<typename Profile::Point>& placement) const
+  {
+    if(!m_state->lets_through(profile, placement))
+      return internal::Spectral_optional<typename Profile::Point>();
+    return m_user(profile, placement);
+  }
+
+private:
+  std::shared_ptr<State> m_state;
+  UserFilter m_user;
+};
+
+/// @}
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H
