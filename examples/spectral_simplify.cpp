@@ -5,9 +5,11 @@
 // Simplifies a mesh from the command line and says how well its spectrum was kept; --help shows the options.
 
 #include "io/Progress_bar.h"
+#include "io/index_reader.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/mesh_repair.h"
+#include "io/npy_reader.h"
 #include "io/output_files.h"
 #include "report/html_report.h"
 #include "report/single_run.h"
@@ -21,25 +23,31 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
 
-// Set by Ctrl-C. The callbacks look at it, so that the program ends by its own way and leaves no file behind.
-volatile std::sig_atomic_t interrupted = 0;
+// Set by Ctrl-C. The run looks at it, so that the program ends by its own way and leaves no file behind; the second time
+// the signal does what it does to any program.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
-extern "C" void interrupt(int)
+extern "C" void interrupt(int signal)
 {
-  interrupted = 1;
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
 }
 
 // The files of --eigenpairs.
@@ -47,6 +55,24 @@ constexpr const char* eigenpairs_files[] = {
     "fine_eigenvalues.npy", "fine_eigenvectors.npy",  "fine_L.mtx",
     "fine_mass.mtx",        "coarse_eigenvalues.npy", "coarse_eigenvectors.npy",
     "coarse_L.mtx",         "coarse_mass.mtx",        "C.npy"};
+
+// The name of a level: "coarse-600.ply" beside "coarse.ply".
+std::string level_name(const std::string& path, const std::size_t level)
+{
+  const std::filesystem::path p(path);
+  return (p.parent_path() / (p.stem().string() + "-" + std::to_string(level) + p.extension().string()))
+      .string();
+}
+
+// The files that are written for each of --levels.
+std::vector<std::string> files_of_level(const Arguments& a, const std::size_t level)
+{
+  std::vector<std::string> files;
+  for(const std::string& path : {a.output, a.restriction, a.map})
+    if(!path.empty())
+      files.push_back(level_name(path, level));
+  return files;
+}
 
 // Makes room for every output, so that what cannot be written is known before the work.
 void announce(Output_files& files, const Arguments& a)
@@ -56,6 +82,9 @@ void announce(Output_files& files, const Arguments& a)
     if(!path.empty())
       files.add(path);
   }
+  for(const std::size_t level : a.levels)
+    for(const std::string& path : files_of_level(a, level))
+      files.add(path);
   if(!a.eigenpairs.empty()) {
     files.add_folder(a.eigenpairs);
     for(const std::string name : eigenpairs_files)
@@ -68,6 +97,7 @@ struct Both_meshes
 {
   SG::Mesh_matrices fine, coarse;
   SG::Laplace_operator fine_operator, coarse_operator;
+  std::shared_ptr<const SG::Eigenpairs> fine_pairs;
   SG::Eigenpairs coarse_pairs;
 };
 
@@ -86,7 +116,7 @@ const char* phase_name(SMS::Spectral_phase phase)
   return "collapses";
 }
 
-SMS::Spectral_options spectral_options(const Arguments& a, Progress_bar& bar)
+SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, Progress_bar& bar)
 {
   SMS::Spectral_options options;
   options.number_of_eigenvectors = a.eigenvectors;
@@ -99,16 +129,24 @@ SMS::Spectral_options spectral_options(const Arguments& a, Progress_bar& bar)
   options.threads = a.threads;
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
     bar.show(phase_name(progress.phase), progress.fraction);
-    return !interrupted;
+    return true;
   };
+  options.cancel = &interrupted;
+  if(a.max_error)
+    options.maximum_error = *a.max_error;
+  if(!a.keep.empty())
+    options.kept_vertices = read_indices(a.keep, n);
+  if(!a.signals.empty())
+    options.signals = read_signals(a.signals, n);
   return options;
 }
 
 // Compares the spectra; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
 SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
+                                 const Eigen::Index number_of_eigenvectors,
                                  const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
 {
-  const Eigen::Index K = result.eigenpairs->size(), N = meshes.coarse.V.rows();
+  const Eigen::Index N = meshes.coarse.V.rows();
   meshes.fine_operator = SG::laplace_operator(meshes.fine.V, meshes.fine.T, SG::mass_blend(mass));
   meshes.coarse_operator = SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, SG::mass_blend(mass));
   SG::Eigenpairs_options options;
@@ -116,8 +154,14 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
     bar.show("evaluation", fraction);
     return !interrupted;
   };
+  // With signals of the user's, the run has not needed those of the input.
+  meshes.fine_pairs = result.eigenpairs;
+  if(!meshes.fine_pairs || meshes.fine_pairs->vectors.rows() != meshes.fine.V.rows())
+    meshes.fine_pairs = std::make_shared<SG::Eigenpairs>(
+        SG::eigenpairs(meshes.fine_operator, number_of_eigenvectors, options));
+  const Eigen::Index K = meshes.fine_pairs->size();
   meshes.coarse_pairs = SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
-  return SG::evaluate_spectrum(meshes.fine_operator, *result.eigenpairs, meshes.coarse_operator,
+  return SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, meshes.coarse_operator,
                                meshes.coarse_pairs, result.restriction, K);
 }
 
@@ -133,7 +177,7 @@ void write_eigenpairs(const Output_files& files, const std::string& folder, cons
     const std::string path = folder + "/" + name + ".mtx";
     write_matrix_market(files.temporary(path), matrix, path);
   };
-  const SG::Eigenpairs& fine = *result.eigenpairs;
+  const SG::Eigenpairs& fine = *meshes.fine_pairs;
   const Eigen::MatrixXd coarse_vectors = meshes.coarse_pairs.vectors.leftCols(fine.size());
   const Eigen::VectorXd coarse_values = meshes.coarse_pairs.values.head(fine.size());
   npy("fine_eigenvalues", fine.values);
@@ -153,7 +197,9 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
 {
   const auto& result = report.result;
   Simplified run;
-  run.simplifier = a.binary ? "spectral, binary" : "spectral";
+  run.simplifier = a.signals.empty() ? "spectral" : "spectral, own signals";
+  if(a.binary)
+    run.simplifier += ", binary";
   run.placement = a.placement;
   run.metric_mass = a.mass;
   run.requested_vertices = run.vertices = result.output_vertices;
@@ -171,7 +217,29 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   return html_report(comparison);
 }
 
-void write_outputs(const Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
+// The evaluation was interrupted: what it would have made does not appear.
+void drop_evaluation(Output_files& files, const Arguments& a)
+{
+  files.drop(a.report);
+  for(const std::string name : eigenpairs_files)
+    files.drop(a.eigenpairs + "/" + name);
+  files.drop_new_folders();
+}
+
+// What the evaluation makes.
+void write_evaluation(Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
+                      const Simplification_report& report)
+{
+  if(!a.eigenpairs.empty())
+    write_eigenpairs(files, a.eigenpairs, meshes, report.result);
+  if(!a.report.empty()) {
+    std::ofstream stream(files.temporary(a.report));
+    stream << page(a, mesh, meshes, report);
+    finish_writing(stream, a.report);
+  }
+}
+
+void write_outputs(Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
                    const Simplification_report& report)
 {
   write_mesh(files.temporary(a.output), mesh, a.output);
@@ -182,17 +250,14 @@ void write_outputs(const Output_files& files, const Arguments& a, const Mesh& me
                         SG::closest_point_interpolation(meshes.fine.V, meshes.coarse), a.prolongation);
   if(!a.map.empty())
     write_indices(files.temporary(a.map), report.result.vertex_map, a.map);
-  if(!a.eigenpairs.empty())
-    write_eigenpairs(files, a.eigenpairs, meshes, report.result);
+  if(report.evaluation)
+    write_evaluation(files, a, mesh, meshes, report);
+  else
+    drop_evaluation(files, a);
   if(!a.json.empty()) {
     std::ofstream stream(files.temporary(a.json));
     stream << to_json(report).dump(2) << '\n';
     finish_writing(stream, a.json);
-  }
-  if(!a.report.empty()) {
-    std::ofstream stream(files.temporary(a.report));
-    stream << page(a, mesh, meshes, report);
-    finish_writing(stream, a.report);
   }
 }
 
@@ -209,58 +274,115 @@ std::vector<std::string> warnings_of_input(const Arguments& a, const Mesh& mesh,
   return SG::diagnose_mesh(mesh).warnings(static_cast<std::size_t>(a.eigenvectors), target);
 }
 
-void run(const Arguments& a)
+// Writes the levels that the run has reached, from its log and a copy of the input, and returns them.
+std::vector<std::size_t> write_levels(Output_files& files, const Arguments& a, Mesh& copy,
+                                      const SMS::Collapse_log& log)
 {
-  Repair_log repairs;
-  Mesh mesh = input_mesh(a, repairs);
-  const std::size_t target = checked_target(a, num_vertices(mesh));
-  const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
-  Output_files files;
-  announce(files, a);
-  if(!a.repaired.empty())
-    write_mesh(files.temporary(a.repaired), mesh, a.repaired);
+  std::vector<std::size_t> written;
+  SMS::Collapse_replay<Mesh> replay(copy, log);
+  for(const std::size_t level : a.levels) {
+    if(level < log.number_of_vertices_left()) {
+      for(const std::string& path : files_of_level(a, level))
+        files.drop(path);
+      continue;
+    }
+    replay.collapse_to(level);
+    const auto name = [level](const std::string& path) { return level_name(path, level); };
+    write_mesh(files.temporary(name(a.output)), copy, name(a.output));
+    if(!a.restriction.empty())
+      write_matrix_market(files.temporary(name(a.restriction)), replay.restriction(), name(a.restriction));
+    if(!a.map.empty())
+      write_indices(files.temporary(name(a.map)), replay.vertex_map(), name(a.map));
+    written.push_back(level);
+  }
+  return written;
+}
 
-  Both_meshes meshes;
-  if(!a.no_evaluation || !a.prolongation.empty())
-    meshes.fine = SG::mesh_matrices(mesh);
-
-  Progress_bar bar(!a.quiet);
-  const SMS::Spectral_options options = spectral_options(a, bar);
-  Simplification_report report;
-  report.result = SMS::spectral_edge_collapse(mesh, target, options);
-  const auto& result = report.result;
-  if(interrupted)
-    throw SG::Cancelled();
-
-  report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
-  report.repairs = repairs.changes();
+void describe_run(Simplification_report& report, const Arguments& a, const SMS::Spectral_options& options)
+{
   report.input = a.input;
   report.output = a.output;
   report.placement = a.placement;
   report.mass = a.mass;
   report.binary = a.binary;
   report.number_of_eigenvectors = a.eigenvectors;
-  meshes.coarse = SG::mesh_matrices(mesh);
-  if(!a.no_evaluation) {
-    const auto begin = std::chrono::steady_clock::now();
-    report.evaluation = evaluate(meshes, options.mass, result, bar);
-    report.seconds_evaluation =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.max_error = a.max_error;
+  report.kept_vertices = options.kept_vertices.size();
+  report.signals = options.signals.cols();
+}
+
+// How well the spectrum was kept, unless nobody wants to know or it takes the user too long.
+void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, SG::Mass mass,
+              Progress_bar& bar)
+{
+  if(a.no_evaluation || interrupted)
+    return;
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    report.evaluation = evaluate(meshes, mass, a.eigenvectors, report.result, bar);
+  } catch(const SG::Cancelled&) {
+    return;
   }
-  bar.clear();
+  report.seconds_evaluation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
-  write_outputs(files, a, mesh, meshes, report);
-  if(interrupted)
-    throw SG::Cancelled();
-  files.commit();
-
+void say(const Arguments& a, const Simplification_report& report)
+{
+  const auto warn = [](const std::string& sentence) {
+    std::cerr << "spectral_simplify: warning: " << sentence << '\n';
+  };
   if(!a.quiet) {
-    for(const std::string& warning : result.warnings)
-      std::cerr << "spectral_simplify: warning: " << warning << '\n';
+    for(const std::string& warning : report.result.warnings)
+      warn(warning);
     print_table(report);
   }
-  if(!result.explanation.empty())
-    std::cerr << "spectral_simplify: warning: " << result.explanation << '\n';
+  if(!report.result.explanation.empty())
+    warn(report.result.explanation);
+  if(report.levels.size() < a.levels.size())
+    warn("The level of " + std::to_string(a.levels[report.levels.size()]) +
+         " vertices was not reached, so that it and smaller ones are not written.");
+}
+
+void run(const Arguments& a)
+{
+  Repair_log repairs;
+  Mesh mesh = input_mesh(a, repairs);
+  const std::size_t target = checked_target(a, num_vertices(mesh));
+  const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
+  Progress_bar bar(!a.quiet);
+  const SMS::Spectral_options options = spectral_options(a, num_vertices(mesh), bar);
+  Output_files files;
+  announce(files, a);
+  if(!a.repaired.empty())
+    write_mesh(files.temporary(a.repaired), mesh, a.repaired);
+  Mesh copy;
+  if(!a.levels.empty())
+    copy = mesh;
+  Both_meshes meshes;
+  if(!a.no_evaluation || !a.prolongation.empty())
+    meshes.fine = SG::mesh_matrices(mesh);
+
+  Simplification_report report;
+  report.result = SMS::spectral_edge_collapse(mesh, target, options);
+  const auto check_interrupted = [&a] {
+    if(interrupted && a.on_interrupt != "write")
+      throw SG::Cancelled();
+  };
+  check_interrupted();
+  report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
+  report.repairs = repairs.changes();
+  describe_run(report, a, options);
+  meshes.coarse = SG::mesh_matrices(mesh);
+  evaluate(report, a, meshes, options.mass, bar);
+  check_interrupted();
+  bar.clear();
+
+  if(!a.levels.empty())
+    report.levels = write_levels(files, a, copy, report.result.log);
+  write_outputs(files, a, mesh, meshes, report);
+  check_interrupted();
+  files.commit();
+  say(a, report);
 }
 
 int main(int argc, char* argv[])
@@ -273,7 +395,10 @@ int main(int argc, char* argv[])
       std::cout << arguments.help;
     else
       run(arguments);
-    return 0;
+    if(!interrupted)
+      return 0;
+    std::cerr << "spectral_simplify: interrupted, what had been done is written.\n";
+    return 130;
   } catch(const SG::Cancelled&) {
     std::cerr << "spectral_simplify: interrupted, nothing was written.\n";
     return 130;

@@ -9,12 +9,14 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 // The command line of spectral_simplify.
 struct Arguments
@@ -22,13 +24,16 @@ struct Arguments
   std::string input, output;
   std::optional<long> vertices; // this one
   std::optional<double> ratio;  // or that
+  std::optional<double> max_error;
+  std::vector<std::size_t> levels; // descending
   long eigenvectors = 100;
   std::string placement = "on_edge", mass = "lumped";
   int threads = 1;
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
-  std::string command;                                                            // as it was typed
-  std::string help; // the text, if it was asked for
+  std::string keep, signals, on_interrupt = "discard";
+  std::string command; // as it was typed
+  std::string help;    // the text, if it was asked for
 
   bool wants_matrices() const
   {
@@ -58,6 +63,22 @@ inline boost::program_options::options_description described(Arguments& a)
   add("help", "show this text");
   add("vertices", po::value<long>()->value_name("N"), "how many vertices OUTPUT has");
   add("ratio", po::value<double>()->value_name("R"), "instead: as a fraction of INPUT's, in ]0, 1]");
+  add("max-error", po::value<double>()->value_name("E"),
+      "instead or as well: stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the "
+      "spectrum "
+      "closely, 0.14 well; alone, it ends at 3 K vertices at the latest");
+  add("levels", po::value<std::string>()->value_name("N1,N2,..."),
+      "write these numbers of vertices as well, from the same run: OUTPUT-N1, OUTPUT-N2, ..., and with "
+      "--restriction "
+      "and --map a matrix and a map for each; without --vertices and --ratio the smallest is the target");
+  add("keep", text(a.keep, "landmarks.txt"),
+      "vertices of INPUT that stay where they are, one index per line, counted from 0; --map says where they "
+      "are in "
+      "OUTPUT");
+  add("signals", text(a.signals, "F.npy"),
+      "preserve these functions instead of eigenvectors: a NumPy array of float64 or float32, one row for "
+      "each vertex of "
+      "INPUT");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep, the constant one included; N should be at least 3 K");
   add("placement", text(a.placement, "on_edge|midpoint|free")->default_value(a.placement),
@@ -92,9 +113,39 @@ inline boost::program_options::options_description described(Arguments& a)
   add("json", text(a.json, "out.json"), "write the figures of the table and more");
   add("report", text(a.report, "report.html"),
       "write a page with the figures, the functional map and the eigenvalues");
+  add("on-interrupt", text(a.on_interrupt, "discard|write")->default_value(a.on_interrupt),
+      "what Ctrl-C does once vertices have been removed: write nothing, or what there is, without "
+      "evaluation; a second "
+      "Ctrl-C ends the program at once");
   add("no-evaluation", po::bool_switch(&a.no_evaluation), "do not compute how well the spectrum was kept");
   add("quiet", po::bool_switch(&a.quiet), "no table, no progress bar, no warnings");
   return options;
+}
+
+inline std::string shown(const double number)
+{
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+// "5000,1000" as numbers, the largest first.
+inline std::vector<std::size_t> parsed_levels(const std::string& list)
+{
+  std::vector<std::size_t> levels;
+  std::istringstream words(list + ",");
+  for(std::string word; std::getline(words, word, ',');) {
+    if(word.empty() || word.size() > 15 || word.find_first_not_of("0123456789") != std::string::npos ||
+       std::stoull(word) == 0)
+      throw std::runtime_error("--levels is '" + list +
+                               "', it must be positive numbers of vertices separated by commas.");
+    levels.push_back(std::stoull(word));
+  }
+  std::sort(levels.rbegin(), levels.rend());
+  const auto twice = std::adjacent_find(levels.begin(), levels.end());
+  if(twice != levels.end())
+    throw std::runtime_error("--levels names " + std::to_string(*twice) + " twice.");
+  return levels;
 }
 
 inline void check(const Arguments& a)
@@ -103,17 +154,18 @@ inline void check(const Arguments& a)
   if(a.input.empty() || a.output.empty())
     refuse(
         "INPUT and OUTPUT are needed: spectral_simplify INPUT OUTPUT --vertices N; --help shows everything.");
-  if(!a.vertices && !a.ratio)
-    refuse("say how far to simplify: --vertices N or --ratio R.");
+  if(!a.vertices && !a.ratio && !a.max_error && a.levels.empty())
+    refuse("say how far to simplify: --vertices N, --ratio R, --levels N1,N2,... or --max-error E.");
   if(a.vertices && a.ratio)
     refuse("--vertices and --ratio cannot both be given.");
   if(a.vertices && *a.vertices < 1)
     refuse("--vertices is " + std::to_string(*a.vertices) + ", it must be positive.");
-  if(a.ratio && !(*a.ratio > 0 && *a.ratio <= 1)) {
-    std::ostringstream ratio;
-    ratio << *a.ratio;
-    refuse("--ratio is " + ratio.str() + ", it must be greater than 0 and at most 1.");
-  }
+  if(a.ratio && !(*a.ratio > 0 && *a.ratio <= 1))
+    refuse("--ratio is " + shown(*a.ratio) + ", it must be greater than 0 and at most 1.");
+  if(a.max_error && !(*a.max_error > 0 && std::isfinite(*a.max_error)))
+    refuse("--max-error is " + shown(*a.max_error) + ", it must be greater than 0.");
+  if(a.on_interrupt != "discard" && a.on_interrupt != "write")
+    refuse("--on-interrupt is '" + a.on_interrupt + "', it must be discard or write.");
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
   if(a.placement != "on_edge" && a.placement != "midpoint" && a.placement != "free")
@@ -174,6 +226,9 @@ inline Arguments parse_arguments(int argc, char* argv[])
   }
   a.vertices = arguments_internal::optional_value<long>(values, "vertices");
   a.ratio = arguments_internal::optional_value<double>(values, "ratio");
+  a.max_error = arguments_internal::optional_value<double>(values, "max-error");
+  if(values.count("levels"))
+    a.levels = arguments_internal::parsed_levels(values["levels"].as<std::string>());
   arguments_internal::check(a);
   return a;
 }
@@ -183,9 +238,19 @@ inline std::size_t checked_target(const Arguments& a, std::size_t n)
 {
   const std::string size = "'" + a.input + "' has " + std::to_string(n) + " vertices";
   const long rounded = a.ratio ? std::lround(*a.ratio * static_cast<double>(n)) : 0;
-  const long target = a.vertices ? *a.vertices : (rounded > 0 ? rounded : 1);
+  const long advised = 3 * a.eigenvectors; // section 4.3 of the paper
+  const long target = a.vertices          ? *a.vertices
+                      : a.ratio           ? (std::max)(rounded, 1L)
+                      : !a.levels.empty() ? static_cast<long>(a.levels.back())
+                                          : (std::min)(advised, static_cast<long>(n));
+  if(!a.levels.empty() && a.levels.front() > n)
+    throw std::runtime_error("--levels names " + std::to_string(a.levels.front()) + ", but " + size + ".");
   if(static_cast<std::size_t>(target) > n)
     throw std::runtime_error("--vertices is " + std::to_string(target) + ", but " + size + ".");
+  if(!a.levels.empty() && a.levels.back() < static_cast<std::size_t>(target))
+    throw std::runtime_error("--levels names " + std::to_string(a.levels.back()) +
+                             ", but OUTPUT is to have " + std::to_string(target) +
+                             " vertices: name only levels above that.");
   if(static_cast<std::size_t>(a.eigenvectors) >= n)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be below " +
                              std::to_string(n) + ": " + size + ".");

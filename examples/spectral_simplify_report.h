@@ -30,6 +30,10 @@ struct Simplification_report
   bool binary = false;
   Eigen::Index number_of_eigenvectors = 0;
   std::vector<std::pair<std::string, std::size_t>> repairs; // what --repair did, and how often
+  std::optional<double> max_error;
+  std::size_t kept_vertices = 0;
+  Eigen::Index signals = 0;        // 0: eigenvectors
+  std::vector<std::size_t> levels; // those that were written
 };
 
 // `floor`: what good linear elements of the same number have; 0 when no estimate is known.
@@ -62,6 +66,8 @@ inline void print_table(const Simplification_report& r)
     }
     std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
   }
+  std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
+              r.result.relative_error);
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
   std::printf("  total                     %8.2f s\n", r.result.seconds_total);
@@ -79,6 +85,10 @@ inline nlohmann::json to_json(const Simplification_report& r)
                          {"mass", r.mass},
                          {"placement", r.placement},
                          {"binary", r.binary},
+                         {"max_error", r.max_error ? number(*r.max_error) : nlohmann::json()},
+                         {"kept_vertices", r.kept_vertices},
+                         {"signals", r.signals},
+                         {"levels", r.levels},
                          {"relative_error", number(r.result.relative_error)},
                          {"seconds_eigenpairs", r.result.seconds_eigenpairs},
                          {"seconds_collapse", r.result.seconds_collapse},

@@ -92,6 +92,10 @@ runs "without evaluation" shape.off few.off --vertices 200 --eigenvectors 30 --n
 grep -q '"norm_L": null' none.json || fail "without evaluation norm_L is not null"
 "$program" --help | grep -q -e '--preserve-border' || fail "--help does not name --preserve-border"
 
+# The points of the shape as write_mesh() writes them.
+runs "the shape itself" shape.off same.off --ratio 1 --eigenvectors 5 --no-evaluation --quiet
+sed -n '/./p' same.off | tail -n +3 | head -n "$(sed -n '2s/ .*//p' shape.off)" >points
+
 # Two tetrahedra cannot be reduced to five vertices.
 cat >tetrahedra.off <<END
 OFF
@@ -118,6 +122,50 @@ END
 grep -q '2 components' complained || fail "it does not say why the mesh cannot be reduced: $(cat complained)"
 grep -q 'no collapsible edge left' stuck.json || fail "the stop reason is not in $(cat stuck.json)"
 
+# --- levels, errors, landmarks, signals -------------------------------------------------------------------------------
+
+# field NAME FILE: the number of that name in a JSON file of one value per line.
+field()
+{
+  sed -n "s/^ *\"$1\": \([-0-9.e]*\),*$/\1/p" "$2"
+}
+
+runs "levels" shape.off fine.off --levels 200,800,400 --eigenvectors 25 --restriction fine.mtx --map fine.txt \
+  --json levels.json
+for level in 800 400 200; do
+  runs "direct run to $level" shape.off direct.off --vertices $level --eigenvectors 25 --restriction direct.mtx \
+    --map direct.txt --no-evaluation --quiet
+  cmp -s direct.off fine-$level.off || fail "level $level is not the mesh of a direct run"
+  cmp -s direct.mtx fine-$level.mtx || fail "the matrix of level $level is not that of a direct run"
+  cmp -s direct.txt fine-$level.txt || fail "the map of level $level is not that of a direct run"
+done
+cmp -s direct.off fine.off || fail "without a target the smallest level is not OUTPUT"
+"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.14 --eigenvectors 25 --json levels.json \
+  >said 2>complained || fail "levels and an error: $(cat complained)"
+grep -q "error bound reached" levels.json || fail "the error bound did not end the run"
+grep -q "150 vertices was not reached" complained || fail "a level that was not reached is not warned of"
+[ -f fine-800.off ] && [ ! -f fine-150.off ] || fail "the levels that were reached: $(ls fine-*)"
+
+runs "an error" shape.off error.off --max-error 0.12 --eigenvectors 25 --json error.json
+error=$(field relative_error error.json)
+[ "$(echo "$error" | awk '{ print ($1 <= 0.12 && $1 > 0.1) }')" -eq 1 ] || fail "--max-error 0.12 ends at $error"
+runs "an error never reached" shape.off error.off --max-error 5 --eigenvectors 25 --json error.json
+[ "$(field output_vertices error.json)" -eq 75 ] || fail "--max-error alone does not end at 3 K vertices"
+
+printf '7\n100\n\n1999\n' >landmarks.txt
+runs "landmarks" shape.off kept.off --vertices 100 --eigenvectors 25 --keep landmarks.txt --map kept.txt
+for v in 7 100 1999; do
+  position=$(sed -n "$((v + 1))p" points)
+  row=$(sed -n "$((v + 1))p" kept.txt)
+  tail -n +3 kept.off | sed -n '/./p' | sed -n "$((row + 1))p" >here
+  [ "$(cat here)" = "$position" ] || fail "landmark $v was at $position and is at $(cat here)"
+done
+
+runs "signals" shape.off signals.off --vertices 200 --eigenvectors 25 --signals pairs/fine_eigenvectors.npy \
+  --json signals.json
+[ "$(field signals signals.json)" -eq 25 ] || fail "the number of signals is not in the JSON file"
+grep -q '|C|_L' said || fail "no table with --signals"
+
 # --- the command line itself ------------------------------------------------------------------------------------------
 
 refuses "no arguments" "INPUT and OUTPUT"
@@ -127,6 +175,23 @@ refuses "unknown option" "sideways" shape.off out.off --vertices 100 --sideways
 refuses "no target" "how far" shape.off out.off
 refuses "two targets" "both" shape.off out.off --vertices 100 --ratio 0.5
 refuses "a target that is no number" "many" shape.off out.off --vertices many
+refuses "no levels" "--levels is ','" shape.off out.off --levels ,
+refuses "levels that are no numbers" "separated by commas" shape.off out.off --levels 800,few
+refuses "a level twice" "800 twice" shape.off out.off --levels 800,400,800
+refuses "a level below the target" "only levels above" shape.off out.off --levels 800,100 --vertices 200
+refuses "a level above the input" "--levels names 5000" shape.off out.off --levels 5000,100
+refuses "a level that is another output" "twice" shape.off out.off --levels 800,400 --map out-400.off
+refuses "an error of 0" "--max-error is 0" shape.off out.off --max-error 0
+refuses "an error that is no number" "--max-error is nan" shape.off out.off --max-error nan
+refuses "unknown reaction to Ctrl-C" "--on-interrupt is 'cry'" shape.off out.off --vertices 100 --on-interrupt cry
+printf '7\nseven\n' >bad.txt
+refuses "a landmark that is no index" "line 2 of 'bad.txt'" shape.off out.off --vertices 100 --keep bad.txt
+printf '7\n\n99999\n' >bad.txt
+refuses "a landmark that is not there" "line 3 of 'bad.txt'" shape.off out.off --vertices 100 --keep bad.txt
+refuses "no landmarks" "No such file" shape.off out.off --vertices 100 --keep nothing.txt
+refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 100 --signals shape.off
+refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
+  --signals pairs/coarse_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
@@ -259,6 +324,46 @@ kill -TERM "$process"
 wait "$process"
 [ $? -eq 130 ] || fail "an interrupted run does not end with status 130: $(cat complained)"
 [ -z "$(ls -A stopped)" ] || fail "an interrupted run left $(ls -A stopped)"
+
+# Ctrl-C when vertices have been removed, with --on-interrupt write. When that is depends on the machine: the delay is
+# halved between a run that had not got there and one that had ended, in twentieths of a second.
+low=0
+high=400
+ended=
+while [ -z "$ended" ] && [ $((high - low)) -gt 1 ]; do
+  delay=$(((low + high) / 2))
+  [ "$high" -lt 400 ] || delay=$((low * 2 + 2))
+  rm -rf stopped && mkdir stopped
+  "$program" shape.off stopped/out.off --levels 1990,200 --eigenvectors 150 --json stopped/out.json \
+    --eigenpairs stopped/pairs --map stopped/map.txt --on-interrupt write >said 2>complained &
+  process=$!
+  while [ -z "$(ls -A stopped)" ]; do
+    sleep 0.05
+  done
+  sleep "$(echo "$delay" | awk '{ print $1 / 20 }')"
+  kill -INT "$process" 2>/dev/null
+  wait "$process"
+  status=$?
+  if [ "$status" -eq 0 ]; then
+    high=$delay
+  elif grep -q "nothing was written" complained; then
+    low=$delay
+    [ "$status" -eq 130 ] || fail "interrupted too early, it ends with status $status"
+    [ -z "$(ls -A stopped)" ] || fail "interrupted too early, it left $(ls -A stopped)"
+  else
+    ended=yes
+  fi
+done
+[ -n "$ended" ] || fail "no run could be interrupted after the first collapse"
+[ "$status" -eq 130 ] || fail "an interrupted run that wrote does not end with status 130: $(cat complained)"
+grep -q "interrupted, what had been done is written" complained || fail "it does not say what it wrote: $(cat complained)"
+[ -f stopped/out.off ] && [ -f stopped/map.txt ] && [ ! -e stopped/pairs ] || fail "it wrote $(ls -A stopped)"
+vertices=$(field output_vertices stopped/out.json)
+[ "$(sed -n '2s/ .*//p' stopped/out.off)" -eq "$vertices" ] && [ "$vertices" -lt "$n" ] ||
+  fail "the interrupted mesh has $vertices vertices"
+grep -q '"norm_L": null' stopped/out.json || fail "an interrupted run has norms"
+"$program" stopped/out.off again.off --ratio 0.9 --eigenvectors 5 --no-evaluation --quiet ||
+  fail "the interrupted mesh cannot be read"
 
 [ -z "$(find . -name '.*.*')" ] || fail "unfinished files are left: $(find . -name '.*.*')"
 [ "$failures" -eq 0 ] || { echo "$failures failures"; exit 1; }

@@ -59,7 +59,7 @@ public:
 
     // The extension stays: CGAL chooses the format by it.
     const fs::path temporary = folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + "-" +
-                                         std::to_string(m_files.size()) + target.extension().string());
+                                         std::to_string(m_targets.size()) + target.extension().string());
     const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if(descriptor < 0)
       throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno) + ".");
@@ -75,6 +75,27 @@ public:
     if(file == m_files.end())
       throw std::logic_error("the output '" + path + "' was not announced.");
     return file->temporary.string();
+  }
+
+  // The file `path`, which was added, will not be written after all.
+  void drop(const std::string& path)
+  {
+    const auto file =
+        std::find_if(m_files.begin(), m_files.end(), [&](const File& f) { return f.path == path; });
+    if(file == m_files.end())
+      return;
+    std::error_code ignored;
+    std::filesystem::remove(file->temporary, ignored);
+    m_files.erase(file);
+  }
+
+  // Removes the folders that were made, if nothing is written into them after all.
+  void drop_new_folders()
+  {
+    std::error_code ignored;
+    for(auto folder = m_new_folders.rbegin(); folder != m_new_folders.rend(); ++folder)
+      std::filesystem::remove(*folder, ignored); // not if there is anything in it
+    m_new_folders.clear();
   }
 
   // Makes the folder `path` unless it exists; it is removed again if nothing is committed.

@@ -153,7 +153,8 @@ inline bool report_progress(const Spectral_options& options, const Spectral_phas
                             const double fraction, const std::size_t number_of_vertices)
 {
   return !is_cancelled(options) &&
-         (!options.progress || options.progress(Spectral_progress{phase, fraction, number_of_vertices}));
+         (!options.progress || options.progress(Spectral_progress{phase, fraction, number_of_vertices})) &&
+         !is_cancelled(options); // the callback may have waited for somebody
 }
 
 } // namespace internal

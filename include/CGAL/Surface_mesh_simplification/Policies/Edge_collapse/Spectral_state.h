@@ -116,6 +116,7 @@ public:
     parameters.threads = m_options.threads;
     m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,
                      1 / basis.area, parameters);
+    m_options.signals.resize(0, 0); // n x K numbers that are in F now
     m_seconds_basis = seconds_since(begin);
   }
 
