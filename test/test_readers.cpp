@@ -58,8 +58,8 @@ std::string raw(const std::vector<Number>& numbers, const bool reversed = false)
 }
 
 // As numpy.lib.format describes it, not with the writer's code.
-std::string npy(const std::string& type, const std::string& order, const std::string& shape, const std::string& data,
-                const int version = 1)
+std::string npy(const std::string& type, const std::string& order, const std::string& shape,
+                const std::string& data, const int version = 1)
 {
   std::string text = "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
   text.append(117 - text.size(), ' ');
@@ -95,7 +95,8 @@ TEST_CASE("Arrays of both types, orders, byte orders and versions are read")
   CHECK(read(npy(">f8", "False", "3, 2", raw(numbers, true))) == by_rows);
   CHECK(read(npy(">f4", "True", "3, 2", raw(floats, true))) == by_columns);
   CHECK(read(npy("<f8", "False", "3, 2", raw(numbers), 2)) == by_rows);
-  CHECK(read(npy("<f8", "False", "6,", raw(numbers))) == Eigen::Map<const Eigen::VectorXd>(numbers.data(), 6));
+  CHECK(read(npy("<f8", "False", "6,", raw(numbers))) ==
+        Eigen::Map<const Eigen::VectorXd>(numbers.data(), 6));
   CHECK(read(npy("<f8", "False", "0, 2", "")).cols() == 2);
 }
 
@@ -116,7 +117,8 @@ TEST_CASE("Files that are no such array are refused in a sentence")
   CHECK_THROWS_WITH(read(""), ContainsSubstring("not an .npy file"));
   CHECK_THROWS_WITH(read("0.5 0.25\n0.125 1\n"), ContainsSubstring("not an .npy file"));
   CHECK_THROWS_WITH(read(good.substr(0, 60)), ContainsSubstring("damaged"));
-  CHECK_THROWS_WITH(read(good.substr(0, good.size() - 8)), ContainsSubstring("3 x 2 numbers, but it holds 5"));
+  CHECK_THROWS_WITH(read(good.substr(0, good.size() - 8)),
+                    ContainsSubstring("3 x 2 numbers, but it holds 5"));
   CHECK_THROWS_WITH(read(good.substr(0, good.size() - 1)), ContainsSubstring("but it holds 5"));
   CHECK_THROWS_WITH(read(good + "x"), ContainsSubstring("3 x 2"));
   CHECK_THROWS_WITH(read(npy("<i8", "False", "3, 2", raw(numbers))), ContainsSubstring("'<i8'"));
@@ -145,7 +147,8 @@ TEST_CASE("Signals must suit the mesh")
   CHECK_THROWS_WITH(signals(npy("<f8", "False", "3, 2", raw(numbers)), 4),
                     ContainsSubstring("3 rows, but the mesh has 4"));
   CHECK_THROWS_WITH(signals(npy("<f8", "False", "3, 0", ""), 3), ContainsSubstring("no columns"));
-  CHECK_THROWS_WITH(signals(npy("<f8", "False", "3, 2", raw(holed)), 3), ContainsSubstring("row 1, column 1"));
+  CHECK_THROWS_WITH(signals(npy("<f8", "False", "3, 2", raw(holed)), 3),
+                    ContainsSubstring("row 1, column 1"));
 }
 
 TEST_CASE("Indices are read one per line, and a bad line is named")

@@ -26,16 +26,16 @@ namespace Surface_mesh_simplification {
  *
  * \code
  * SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
- * SMS::Spectral_error_stop_predicate stop(spectral, 0.2);
+ * SMS::Spectral_error_stop_predicate stop(spectral, 0.14);
  * \endcode
  *
- * The error is \f$ \varepsilon = \sqrt{E / \sum_k \lambda_k^2} \f$, `Spectral_policies::relative_error()`: 0 for the
+ * The error is \f$ \epsilon = \sqrt{E / \sum_k \lambda_k^2} \f$, `Spectral_policies::relative_error()`: 0 for the
  * input, independent of its scale and size, and for the lumped mass an upper bound of the commutativity norm,
- * \f$ |C|_L \le \varepsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of Lescoat et al.).
+ * \f$ |C|_L \le \epsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of Lescoat et al.).
  *
  * *Choosing the bound.* With Weyl's law, \f$ \lambda_k \approx 4 \pi k \f$ at unit area, and \f$ |C| \approx \sqrt K \f$:
- * \f$ |C|_L \le 7.3 K \varepsilon \f$. In practice the norm is a tenth of that at 50 K vertices, half at 10 K, and meets it near
- * 3 K. Measured with K = 100, on_edge (rocker-arm.obj, 10,044 vertices, lumped mass; homer.obj, 6,002, averaged):
+ * \f$ |C|_L \le 7.3 K \epsilon \f$. In practice the norm is a tenth of that at 48 K vertices, four tenths at 12 K and eight
+ * tenths at 6 K; below about 4 K vertices |C| is smaller and the estimate fails. Measured with K = 100, on_edge (rocker-arm.obj, 10,044 vertices, lumped mass; homer.obj, 6,002, averaged):
  *
  * | vertices / K                 | 48    | 24   | 12   | 6    | 3    |
  * |------------------------------|-------|------|------|------|------|

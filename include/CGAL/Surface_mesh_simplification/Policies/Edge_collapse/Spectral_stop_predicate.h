@@ -73,8 +73,11 @@ public:
     return m_cancelled || m_error_reached;
   }
 
-  bool reached() const { return m_reached; }             ///< the number of vertices
-  bool error_reached() const { return m_error_reached; } ///< the bound of the error
+  /// whether the number of vertices ended the run
+  bool reached() const { return m_reached; }
+  /// whether the bound of the error did
+  bool error_reached() const { return m_error_reached; }
+  /// whether the user did
   bool cancelled() const { return m_cancelled; }
 
 private:
