@@ -3,13 +3,13 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-#   include_folder_test.sh COMPILER INCLUDE SOURCES FOLDER [DIRECTORY...]
+#   include_folder_test.sh COMPILER INCLUDE SOURCE SHAPE FOLDER [DIRECTORY...]
 #
-# Copies the headers, compiles the consumer with the copy alone and runs it. The directories are those of CGAL, Eigen
+# Copies the headers, compiles the program SOURCE with the copy alone and runs it on SHAPE. The directories are those of CGAL, Eigen
 # and Spectra, should they stand elsewhere than where the compiler looks. Not optimised, to save time.
 set -eu
-compiler=$1 include=$2 sources=$3 folder=$4
-shift 4
+compiler=$1 include=$2 source=$3 shape=$4 folder=$5
+shift 5
 
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -22,5 +22,6 @@ for directory in "$@"; do
   esac
 done
 cd "$folder"
-"$compiler" -std=c++17 -O0 -I include $flags "$sources"/*.cpp -o consumer -pthread
-./consumer simplicial
+"$compiler" -std=c++17 -O0 -I include $flags "$source" -o program -pthread
+./program "$shape" coarse.off 400
+[ "$(sed -n 's/^\([0-9]*\) [0-9]* 0$/\1/p' coarse.off | head -n 1)" = 400 ]
