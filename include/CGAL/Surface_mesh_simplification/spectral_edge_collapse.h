@@ -299,9 +299,40 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target, Spectra
  * @param number_of_vertices the target N, from 1 to the number of vertices of the mesh. At least 3 K is advised
  *        (section 4.3 of the paper); a smaller one is warned of in the result, unless an error bound is given as well
  * @param options see `Spectral_options`
- * @param np named parameters of `edge_collapse()`: `vertex_point_map`, `geom_traits`, `edge_is_constrained_map` (the
- *        placement is then wrapped in `Constrained_placement`), `filter`, `visitor`; and `vertex_is_constrained_map`,
- *        vertices to keep, see `Spectral_options::kept_vertices`
+ * @param np an optional sequence of named parameters among those below, which are those of `edge_collapse()` and one more
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{the positions of the vertices}
+ *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
+ *     \cgalParamDefault{the mesh's own map}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{geom_traits}
+ *     \cgalParamDescription{the kernel}
+ *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
+ *     \cgalParamDefault{that of the points}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{edge_is_constrained_map}
+ *     \cgalParamDescription{edges that stay as they are; the placement is then wrapped in `Constrained_placement`}
+ *     \cgalParamType{a model of `ReadWritePropertyMap` from edges to `bool`}
+ *     \cgalParamDefault{no edge is constrained}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{vertex_is_constrained_map}
+ *     \cgalParamDescription{vertices to keep, see `Spectral_options::kept_vertices`}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
+ *     \cgalParamDefault{no vertex is}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{filter}
+ *     \cgalParamDescription{refuses placements}
+ *     \cgalParamType{a model of `PlacementFilter`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{visitor}
+ *     \cgalParamDescription{is called at every step}
+ *     \cgalParamType{a model of `EdgeCollapseSimplificationVisitor`}
+ *     \cgalParamDefault{none}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
  *
