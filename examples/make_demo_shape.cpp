@@ -5,12 +5,16 @@
 // Makes the shape of the demonstration: a walking animal whose tail grows back into its back (a closed surface
 // of genus 1) with features from half its length down to toes, spines and wrinkles a few edges wide.
 //
-//   make_demo_shape OUTPUT [--vertices N]
+//   make_demo_shape OUTPUT [--vertices N] [--pose stand|walk|bend] [--shuffle SEED] [--map map.txt]
+//
+// A pose moves the vertices and keeps the triangles: the shapes of two poses are nearly isometric, and it is known
+// which vertex is which.
 //
 // The surface is the zero set of a smooth union of round cones. Marching tetrahedra find its topology,
 // isotropic remeshing gives well-shaped triangles of the wanted number, a few Newton steps put the vertices back
 // onto the zero set.
 
+#include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
 
@@ -24,7 +28,10 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <numeric>
+#include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -163,6 +170,41 @@ private:
   std::vector<Round_cone> m_parts;
 };
 
+// Rotates around an axis through `centre` by `angle`: right-handed around y (`axis` 1) or z (`axis` 2).
+Point rotated(const Point& p, const Point& centre, int axis, double angle)
+{
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Vector d = p - centre;
+  return axis == 1 ? centre + Vector(c * d.x() + s * d.z(), d.y(), c * d.z() - s * d.x())
+                   : centre + Vector(c * d.x() - s * d.y(), s * d.x() + c * d.y(), d.z());
+}
+
+// From 0 at `from` to 1 at `to`, with continuous second derivatives.
+double smooth_step(double x, double from, double to)
+{
+  const double t = std::clamp((x - from) / (to - from), 0., 1.);
+  return t * t * t * (10 + t * (6 * t - 15));
+}
+
+// The legs take a step, the head turns. The joints are smooth turns over a length of the width of the limb; those of
+// the legs begin below the belly.
+Point walking(Point p)
+{
+  const bool front = p.x() > 0, left = p.y() > 0;
+  const Point hip(front ? 0.54 : -0.6, 0, -0.3);
+  const double step = front == left ? 0.4 : -0.4;
+  p = rotated(p, hip, 1, step * smooth_step(-p.z(), 0.39, 0.75));
+  return rotated(p, {0.75, 0.02, 0.4}, 2, 0.6 * smooth_step(0.66 * p.x() + 0.75 * p.z(), 0.62, 1.02));
+}
+
+// The whole animal turns along a circle.
+Point bending(const Point& p)
+{
+  constexpr double curvature = 0.45;
+  const double angle = curvature * p.x(), radius = 1 / curvature - p.y();
+  return {radius * std::sin(angle), 1 / curvature - radius * std::cos(angle), p.z()};
+}
+
 // The zero set of f on a regular grid of cubes of size h, each cut into six tetrahedra around its diagonal: a closed
 // manifold, because neighbouring cubes agree on the diagonals of their common face.
 class Marching_tetrahedra
@@ -296,18 +338,59 @@ Mesh make_shape(std::size_t number_of_vertices)
   }
 }
 
+void pose(Mesh& mesh, const std::string& name)
+{
+  for(const auto v : vertices(mesh))
+    mesh.point(v) = name == "walk" ? walking(mesh.point(v)) : bending(mesh.point(v));
+}
+
+// Renumbers vertices and faces at random. Returns for each vertex its new number.
+std::vector<std::size_t> shuffle(Mesh& mesh, unsigned seed)
+{
+  // std::shuffle differs between libraries, this does not.
+  std::mt19937 random(seed);
+  const auto shuffled = [&](std::size_t n) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    for(std::size_t i = n; i > 1; --i)
+      std::swap(order[i - 1], order[random() % i]);
+    return order;
+  };
+  const std::vector<std::size_t> new_number = shuffled(num_vertices(mesh));
+  std::vector<Point> points(new_number.size());
+  for(std::size_t v = 0; v < new_number.size(); ++v)
+    points[new_number[v]] = mesh.point(Mesh::Vertex_index(static_cast<Mesh::size_type>(v)));
+  std::vector<std::array<std::size_t, 3>> triangles(num_faces(mesh));
+  const std::vector<std::size_t> face_number = shuffled(triangles.size());
+  for(const auto f : faces(mesh)) {
+    std::array<std::size_t, 3>& triangle = triangles[face_number[f]];
+    std::size_t corner = 0;
+    for(const auto v : vertices_around_face(halfedge(f, mesh), mesh))
+      triangle[corner++] = new_number[v];
+  }
+  mesh.clear();
+  PMP::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  return new_number;
+}
+
 int run(int argc, char* argv[])
 {
   namespace po = boost::program_options;
-  std::string output;
-  long number_of_vertices = 25000;
-  po::options_description options("make_demo_shape OUTPUT [--vertices N]\n"
+  std::string output, pose_name = "stand", map;
+  long number_of_vertices = 25000, seed = -1;
+  po::options_description options("make_demo_shape OUTPUT [options]\n"
                                   "Makes a closed surface of genus 1, an animal, in the format that the name "
                                   "OUTPUT ends in (.off, .obj, .ply, .stl)");
   options.add_options()("help", "show this text")                              //
       ("output", po::value(&output), "the file to write (the first argument)") //
       ("vertices", po::value(&number_of_vertices)->default_value(number_of_vertices),
-       "about how many vertices");
+       "about how many vertices") //
+      ("pose", po::value(&pose_name)->default_value(pose_name),
+       "stand, walk or bend: nearly isometric, with the same triangles")                    //
+      ("shuffle", po::value(&seed), "renumber vertices and faces at random with this seed") //
+      ("map", po::value(&map),
+       "write for each vertex its number in OUTPUT, one per line, counted from 0: that of the same vertex in "
+       "another pose");
   po::positional_options_description positions;
   positions.add("output", 1);
   po::variables_map values;
@@ -324,11 +407,27 @@ int run(int argc, char* argv[])
     throw std::runtime_error("--vertices is " + std::to_string(number_of_vertices) +
                              ", it must lie between 1000 and 1000000.");
 
+  if(pose_name != "stand" && pose_name != "walk" && pose_name != "bend")
+    throw std::runtime_error("--pose is '" + pose_name + "', it must be stand, walk or bend.");
+  if(values.count("shuffle") && (seed < 0 || seed > 1000000000))
+    throw std::runtime_error("--shuffle is " + std::to_string(seed) +
+                             ", it must lie between 0 and 1000000000.");
+
   mesh_format(output);
   Output_files files;
   files.add(output);
-  const Mesh mesh = make_shape(static_cast<std::size_t>(number_of_vertices));
+  if(!map.empty())
+    files.add(map);
+  Mesh mesh = make_shape(static_cast<std::size_t>(number_of_vertices));
+  if(pose_name != "stand")
+    pose(mesh, pose_name);
+  std::vector<std::size_t> numbers(num_vertices(mesh));
+  std::iota(numbers.begin(), numbers.end(), std::size_t(0));
+  if(seed >= 0)
+    numbers = shuffle(mesh, static_cast<unsigned>(seed));
   write_mesh(files.temporary(output), mesh, output);
+  if(!map.empty())
+    write_indices(files.temporary(map), numbers, map);
   files.commit();
   std::cout << output << ": " << num_vertices(mesh) << " vertices, " << num_faces(mesh) << " faces\n";
   return 0;

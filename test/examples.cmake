@@ -35,3 +35,10 @@ if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_sha
                                   $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")
   set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
 endif()
+
+if(TARGET spectral_simplify AND TARGET make_demo_shape)
+  add_test(NAME "pyfm-recipe" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/pyfm_recipe_test.sh" $<TARGET_FILE:spectral_simplify>
+                                      "${CMAKE_CURRENT_SOURCE_DIR}/pyfm_recipe.py" "${shape}"
+                                      "${CMAKE_CURRENT_BINARY_DIR}/pyfm")
+  set_tests_properties("pyfm-recipe" PROPERTIES LABELS examples FIXTURES_REQUIRED shape SKIP_RETURN_CODE 77)
+endif()

@@ -1,0 +1,342 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "catch.h"
+#include "shapes.h"
+
+#include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <vector>
+
+using Catch::Approx;
+
+namespace SG = CGAL::Spectral_geometry;
+namespace SMS = CGAL::Surface_mesh_simplification;
+
+namespace {
+
+using Index = Eigen::Index;
+using Map = std::vector<Index>;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+Eigen::MatrixXd random_matrix(Index rows, Index columns, unsigned seed)
+{
+  std::mt19937 random(seed);
+  Eigen::MatrixXd A(rows, columns);
+  for(Index i = 0; i < rows; ++i)
+    for(Index j = 0; j < columns; ++j)
+      A(i, j) = static_cast<double>(random() % 2001) / 1000 - 1;
+  return A;
+}
+
+Map random_permutation(Index n, unsigned seed)
+{
+  std::mt19937 random(seed);
+  Map p(static_cast<std::size_t>(n));
+  std::iota(p.begin(), p.end(), Index(0));
+  for(std::size_t i = p.size(); i > 1; --i)
+    std::swap(p[i - 1], p[random() % i]);
+  return p;
+}
+
+// The mesh whose vertex i is the vertex p[i] of another.
+shapes::Matrices permuted(const shapes::Matrices& mesh, const Map& p)
+{
+  shapes::Matrices result = mesh;
+  std::vector<int> place(p.size());
+  for(std::size_t i = 0; i < p.size(); ++i) {
+    result.V.row(static_cast<Index>(i)) = mesh.V.row(p[i]);
+    place[static_cast<std::size_t>(p[i])] = static_cast<int>(i);
+  }
+  for(Index f = 0; f < mesh.T.rows(); ++f)
+    for(int c = 0; c < 3; ++c)
+      result.T(f, c) = place[static_cast<std::size_t>(mesh.T(f, c))];
+  return result;
+}
+
+// Without a symmetry, rounder than `bumpy_icosphere_matrices()`, on any sphere.
+shapes::Matrices pebble(shapes::Matrices sphere)
+{
+  for(Index i = 0; i < sphere.V.rows(); ++i) {
+    const Eigen::Vector3d d = sphere.V.row(i).transpose().normalized();
+    sphere.V.row(i) = Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
+                      (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3) +
+                       0.08 * std::sin(5 * d.z() + 2 * d.x() + 0.5));
+  }
+  return sphere;
+}
+
+SG::Spectral_shape shape_of(const shapes::Matrices& mesh, Index K)
+{
+  SG::Spectral_shape shape;
+  shape.T = mesh.T;
+  shape.op = SG::laplace_operator(mesh.V, mesh.T, 0.5);
+  const double area = shape.op.mass.sum();
+  shape.op.B /= area;
+  shape.op.mass /= area;
+  shape.pairs = SG::eigenpairs(shape.op, K);
+  return shape;
+}
+
+struct Simplified_shape
+{
+  SG::Spectral_shape fine, coarse;
+  Eigen::SparseMatrix<double> P;
+  std::vector<std::size_t> vertex_map;
+  Eigen::MatrixXd C; // fine to coarse
+};
+
+Simplified_shape simplified(const shapes::Matrices& matrices, std::size_t N, Index K)
+{
+  Mesh mesh;
+  shapes::make_mesh(mesh, matrices);
+  SMS::Spectral_options options;
+  options.number_of_eigenvectors = K;
+  options.mass = SG::Mass::averaged;
+  options.binary = true;
+  const auto result = SMS::spectral_edge_collapse(mesh, N, options);
+  Simplified_shape s;
+  s.P = result.restriction;
+  s.vertex_map = result.vertex_map;
+  s.fine = shape_of(matrices, K);
+  s.coarse = shape_of(SG::mesh_matrices(mesh), K);
+  s.C = SG::functional_map(s.coarse.pairs.vectors, s.coarse.op.B, s.P, s.fine.pairs.vectors);
+  return s;
+}
+
+// Carries the known map (for each vertex of Y one of X) to the coarse meshes and lifts it back; returns the mean distance of where the
+// vertices of Y end on X from where they belong, in square roots of the area.
+double error_of_lift(const shapes::Matrices& X, const shapes::Matrices& Y, const Map& truth)
+{
+  const Index K = 30;
+  const Simplified_shape x = simplified(X, 300, K), y = simplified(Y, 300, K);
+  Map coarse(static_cast<std::size_t>(y.P.rows()));
+  for(Index j = 0; j < y.P.cols(); ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(y.P, j); it; ++it)
+      coarse[static_cast<std::size_t>(it.row())] =
+          static_cast<Index>(x.vertex_map[static_cast<std::size_t>(truth[static_cast<std::size_t>(j)])]);
+  const Eigen::MatrixXd C =
+      SG::functional_map_of_vertex_map(x.coarse.pairs.vectors, y.coarse.pairs.vectors, y.coarse.op.B, coarse);
+  const SG::Lifted_functional_map lifted = SG::lift_functional_map(x.C, C, y.C);
+  CHECK(lifted.rank == K);
+  CHECK(lifted.condition < 2);
+  CHECK(lifted.relative_residual < 1e-10); // as many rows as columns
+  const Map found = SG::target_to_source_map(lifted.C, x.fine.pairs.vectors, y.fine.pairs.vectors);
+  double sum = 0;
+  for(std::size_t i = 0; i < truth.size(); ++i)
+    sum += (X.V.row(found[i]) - X.V.row(truth[i])).norm();
+  return sum / static_cast<double>(truth.size()) / std::sqrt(SG::laplace_operator(X.V, X.T).mass.sum());
+}
+
+Map identity(Index n)
+{
+  Map result(static_cast<std::size_t>(n));
+  std::iota(result.begin(), result.end(), Index(0));
+  return result;
+}
+
+} // namespace
+
+TEST_CASE("A lifted map solves the system of the paper")
+{
+  const Index k = 12;
+  const Eigen::MatrixXd wanted = random_matrix(k, k, 1);
+  const Eigen::MatrixXd to_Y = Eigen::MatrixXd::Identity(15, k) + 0.1 * random_matrix(15, k, 2);
+  const Eigen::MatrixXd to_X = Eigen::MatrixXd::Identity(k, k) + 0.1 * random_matrix(k, k, 3);
+  const Eigen::MatrixXd coarse = to_Y * wanted * to_X.inverse();
+  const SG::Lifted_functional_map lifted = SG::lift_functional_map(to_X, coarse, to_Y);
+  CHECK((lifted.C - wanted).norm() < 1e-12 * wanted.norm());
+  CHECK(lifted.rank == k);
+  CHECK(lifted.relative_residual < 1e-13);
+  const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(to_Y).singularValues();
+  CHECK(lifted.condition == Approx(sigma(0) / sigma(k - 1)));
+}
+
+TEST_CASE("A mode that the coarse target has lost is left out of a lifted map")
+{
+  const Index k = 8;
+  Eigen::MatrixXd to_Y = Eigen::MatrixXd::Identity(k, k);
+  to_Y(k - 1, k - 1) = 1e-3;
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(k, k), coarse = random_matrix(k, k, 4);
+  const SG::Lifted_functional_map lifted = SG::lift_functional_map(I, coarse, to_Y);
+  CHECK(lifted.rank == k - 1);
+  CHECK(lifted.condition == Approx(1e3));
+  CHECK(lifted.C.row(k - 1).norm() < 1e-12);
+  CHECK((lifted.C.topRows(k - 1) - coarse.topRows(k - 1)).norm() < 1e-12);
+  CHECK(lifted.relative_residual == Approx(coarse.row(k - 1).norm() / coarse.norm()));
+  CHECK(SG::lift_functional_map(I, coarse, to_Y, 0.).rank == k);
+  to_Y(k - 1, k - 1) = 0;
+  CHECK(std::isinf(SG::lift_functional_map(I, coarse, to_Y).condition));
+  CHECK_THROWS_AS(SG::lift_functional_map(I, coarse.leftCols(5), to_Y), std::invalid_argument);
+  CHECK_THROWS_AS(SG::lift_functional_map(I, coarse, to_Y, 1.), std::invalid_argument);
+  to_Y(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(SG::lift_functional_map(I, coarse, to_Y), std::invalid_argument);
+}
+
+TEST_CASE("Nearest rows are those of a search through all of them")
+{
+  const Eigen::MatrixXd points = random_matrix(300, 7, 5), queries = random_matrix(101, 7, 6);
+  const Map found = SG::nearest_rows(points, queries);
+  for(Index i = 0; i < queries.rows(); ++i) {
+    const double least = (points.rowwise() - queries.row(i)).rowwise().squaredNorm().minCoeff();
+    CHECK((points.row(found[static_cast<std::size_t>(i)]) - queries.row(i)).squaredNorm() == Approx(least));
+  }
+  CHECK(SG::nearest_rows(points, queries, 3) == found);
+  CHECK(SG::nearest_rows(points, queries.topRows(2), 5) == Map(found.begin(), found.begin() + 2));
+  CHECK_THROWS_AS(SG::nearest_rows(points, queries.leftCols(3)), std::invalid_argument);
+  CHECK_THROWS_AS(SG::nearest_rows(points.topRows(0), queries), std::invalid_argument);
+  CHECK_THROWS_AS(SG::nearest_rows(points, queries, 0), std::invalid_argument);
+}
+
+TEST_CASE("A permutation goes through its functional map and back")
+{
+  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const Map p = random_permutation(X.V.rows(), 7);
+  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(permuted(X, p), 40);
+  const Eigen::MatrixXd C = SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, p);
+  CHECK((C.transpose() * C - Eigen::MatrixXd::Identity(40, 40)).norm() < 1e-7);
+  CHECK(SG::laplacian_commutativity_norm(C, x.pairs.values, y.pairs.values) < 1e-5 * x.pairs.values(39));
+  CHECK(SG::target_to_source_map(C, x.pairs.vectors, y.pairs.vectors) == p);
+  Map inverse(p.size());
+  for(std::size_t i = 0; i < p.size(); ++i)
+    inverse[static_cast<std::size_t>(p[i])] = static_cast<Index>(i);
+  CHECK(SG::source_to_target_map(C, x.pairs.vectors, y.pairs.vectors) == inverse);
+  Map wrong = p;
+  wrong[3] = X.V.rows();
+  CHECK_THROWS_AS(SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, wrong),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(SG::target_to_source_map(C, x.pairs.vectors.leftCols(39), y.pairs.vectors),
+                  std::invalid_argument);
+
+  const Eigen::SparseMatrix<double> points =
+      SG::target_to_source_points(C, x.pairs.vectors, x.T, y.pairs.vectors);
+  CHECK((points * Eigen::VectorXd::Ones(points.cols()) - Eigen::VectorXd::Ones(points.rows())).norm() <
+        1e-10);
+  // An embedded vertex may lie closer to a face through rounding only.
+  CHECK((points * X.V - permuted(X, p).V).cwiseAbs().maxCoeff() < 1e-6);
+}
+
+TEST_CASE("Points of faces are closer than vertices")
+{
+  const shapes::Matrices X = pebble(shapes::icosphere_matrices(2)), Y = pebble(shapes::icosphere_matrices(4));
+  const SG::Spectral_shape x = shape_of(X, 15), y = shape_of(Y, 15);
+  // The first vertices of the finer sphere are those of the coarser: the map is known there.
+  const Eigen::MatrixXd at_vertices = y.pairs.vectors.topRows(X.V.rows());
+  const Eigen::MatrixXd C = (x.pairs.vectors.transpose() * x.op.B) * at_vertices; // from Y to X
+  const Eigen::MatrixXd from_X = C.transpose();
+  const auto points = SG::target_to_source_points(from_X, x.pairs.vectors, x.T, y.pairs.vectors);
+  const Map vertices = SG::target_to_source_map(from_X, x.pairs.vectors, y.pairs.vectors);
+  double of_points = 0, of_vertices = 0;
+  const Eigen::MatrixXd placed = points * X.V;
+  for(Index i = 0; i < Y.V.rows(); ++i) {
+    of_points += (placed.row(i) - Y.V.row(i)).norm();
+    of_vertices += (X.V.row(vertices[static_cast<std::size_t>(i)]) - Y.V.row(i)).norm();
+  }
+  CHECK(of_points < 0.5 * of_vertices);
+}
+
+TEST_CASE("Hierarchical maps of pairs whose map is known")
+{
+  const shapes::Matrices X = pebble(shapes::icosphere_matrices(4));
+  SECTION("a permutation of the vertices")
+  {
+    const Map p = random_permutation(X.V.rows(), 8);
+    CHECK(error_of_lift(X, permuted(X, p), p) < 0.03);
+  }
+  SECTION("a rigid copy")
+  {
+    shapes::Matrices Y = X;
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+    Y.V = (X.V * R.transpose()).rowwise() + Eigen::RowVector3d(3, -2, 5);
+    CHECK(error_of_lift(X, Y, identity(X.V.rows())) < 0.03);
+  }
+  SECTION("a remeshed copy")
+  {
+    shapes::Matrices sphere = shapes::icosphere_matrices(4);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 2).normalized()).toRotationMatrix();
+    sphere.V = sphere.V * R.transpose();
+    const shapes::Matrices Y = pebble(sphere);
+    CHECK(error_of_lift(X, Y, SG::nearest_rows(X.V, Y.V)) < 0.04);
+  }
+  SECTION("a bend")
+  {
+    shapes::Matrices Y = X;
+    for(Index i = 0; i < Y.V.rows(); ++i) {
+      const double angle = 0.2 * X.V(i, 0), radius = 5 - X.V(i, 1);
+      Y.V.row(i) << radius * std::sin(angle), 5 - radius * std::cos(angle), X.V(i, 2);
+    }
+    CHECK(error_of_lift(X, Y, identity(X.V.rows())) < 0.04);
+  }
+}
+
+TEST_CASE("The orientation operator turns with the orientation")
+{
+  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const SG::Spectral_shape x = shape_of(X, 10);
+  const Eigen::VectorXd f = X.V.col(0) + 0.3 * X.V.col(1).cwiseAbs2();
+  const Eigen::MatrixXd O = SG::orientation_operator(X.T, x.pairs.vectors, f);
+  CHECK(O.norm() > 0.1);
+  CHECK((O + O.transpose()).norm() < 1e-10 * O.norm());
+  Eigen::MatrixXi mirrored = X.T;
+  mirrored.col(0).swap(mirrored.col(1));
+  CHECK((SG::orientation_operator(mirrored, x.pairs.vectors, f) + O).norm() < 1e-12 * O.norm());
+  CHECK(SG::orientation_operator(X.T, x.pairs.vectors, Eigen::VectorXd::Ones(f.size())).norm() < 1e-12);
+
+  // On a flat square n . (grad x cross grad y) = 1.
+  const shapes::Matrices square = shapes::grid_matrices(4, 4);
+  const Eigen::MatrixXd xy = square.V.leftCols(2);
+  const Eigen::MatrixXd flat = SG::orientation_operator(square.T, xy, square.V.col(0));
+  CHECK(flat(0, 1) == Approx(0.5)); // the integral of x
+  CHECK(flat(1, 1) == Approx(0.5)); // the integral of y
+  CHECK(std::abs(flat(0, 0)) < 1e-14);
+}
+
+TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
+{
+  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const Map p = random_permutation(X.V.rows(), 9);
+  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(permuted(X, p), 40);
+  const Eigen::VectorXd times = SG::heat_kernel_times(x.pairs, 10);
+  const Eigen::MatrixXd f = SG::heat_kernel_signature(x.pairs, times),
+                        g = SG::heat_kernel_signature(y.pairs, times);
+  const Eigen::MatrixXd wanted =
+      SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, p);
+  const Eigen::MatrixXd C = SG::functional_map_of_descriptors(x, y, f, g, 12);
+  CHECK((C - wanted.topLeftCorner(12, 12)).norm() < 1e-4);
+  const Eigen::MatrixXd refined = SG::zoom_out(C, x, y, 40, 7);
+  CHECK((refined - wanted).norm() < 1e-3);
+  CHECK(SG::target_to_source_map(refined, x.pairs.vectors, y.pairs.vectors) == p);
+  CHECK_THROWS_AS(SG::zoom_out(C, x, y, 41), std::invalid_argument);
+  CHECK_THROWS_AS(SG::zoom_out(C, x, y, 11), std::invalid_argument);
+  CHECK_THROWS_AS(SG::functional_map_of_descriptors(x, y, f, g.leftCols(9), 12), std::invalid_argument);
+
+  // The scores from their definition, with the kernels written out.
+  const double t = 0.01;
+  const auto kernel = [t](const SG::Spectral_shape& s) {
+    const Eigen::MatrixXd decay = (-t * s.pairs.values.array()).exp().matrix().asDiagonal();
+    return Eigen::MatrixXd(s.pairs.vectors * decay * s.pairs.vectors.transpose());
+  };
+  Eigen::MatrixXd carried(y.op.B.rows(), x.op.B.rows());
+  const Eigen::MatrixXd kernel_X = kernel(x);
+  for(Index i = 0; i < carried.rows(); ++i)
+    carried.row(i) = kernel_X.row(p[static_cast<std::size_t>(i)]);
+  const Eigen::MatrixXd slow = kernel(y) * (y.op.B * carried);
+  const Eigen::MatrixXd fast = SG::product_manifold_scores(wanted, x, y, t);
+  CHECK((slow - fast).norm() < 1e-6 * slow.norm());
+  CHECK_THROWS_AS(SG::product_manifold_scores(wanted, x, y, -1.), std::invalid_argument);
+}
