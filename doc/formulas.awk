@@ -10,8 +10,8 @@
 
 BEGIN {
   split("alpha α beta β gamma γ delta δ epsilon ε theta θ lambda λ mu μ nu ν pi π rho ρ sigma σ tau τ phi φ psi ψ " \
-        "omega ω Phi Φ Psi Ψ Lambda Λ Sigma Σ Delta Δ Omega Ω sum ∑ prod ∏ int ∫ top ⊤ dagger † cdot · times × le ≤ leq ≤ " \
-        "ge ≥ geq ≥ ne ≠ neq ≠ approx ≈ sim ∼ in ∈ to → infty ∞ partial ∂ nabla ∇ pm ± ldots … dots … cdots ⋯ " \
+        "omega ω eta η kappa κ xi ξ zeta ζ chi χ varepsilon ε varphi ϕ Pi Π Gamma Γ Theta Θ Xi Ξ Phi Φ Psi Ψ Lambda Λ Sigma Σ Delta Δ Omega Ω sum ∑ prod ∏ int ∫ top ⊤ dagger † cdot · times × le ≤ leq ≤ " \
+        "ge ≥ geq ≥ ne ≠ neq ≠ approx ≈ sim ∼ in ∈ ni ∋ notin ∉ subset ⊂ cup ∪ cap ∩ forall ∀ exists ∃ to → infty ∞ partial ∂ nabla ∇ pm ± ldots … dots … cdots ⋯ " \
         "circ ∘ lVert ‖ rVert ‖ lvert | rvert | Vert ‖ ll ≪ gg ≫ mapsto ↦ langle ⟨ rangle ⟩ star ⋆ odot ⊙ ell ℓ", words, " ")
   for(i = 1; i in words; i += 2)
     symbol[words[i]] = words[i + 1]
