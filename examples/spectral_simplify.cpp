@@ -110,6 +110,8 @@ const char* phase_name(SMS::Spectral_phase phase)
     return "eigenpairs";
   case SMS::Spectral_phase::first_costs:
     return "first costs";
+  case SMS::Spectral_phase::relocation:
+    return "relocation";
   case SMS::Spectral_phase::collapses:
     break;
   }
@@ -126,6 +128,7 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
   options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
+  options.relocate = a.relocate;
   options.threads = a.threads;
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
     bar.show(phase_name(progress.phase), progress.fraction);
@@ -200,6 +203,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   run.simplifier = a.signals.empty() ? "spectral" : "spectral, own signals";
   if(a.binary)
     run.simplifier += ", binary";
+  if(a.relocate)
+    run.simplifier += ", relocation";
   run.placement = a.placement;
   run.metric_mass = a.mass;
   run.requested_vertices = run.vertices = result.output_vertices;

@@ -29,7 +29,7 @@ struct Arguments
   long eigenvectors = 100;
   std::string placement = "on_edge", mass = "lumped";
   int threads = 1;
-  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false;
+  bool binary = false, preserve_border = false, relocate = false, no_evaluation = false, quiet = false, repair = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
@@ -89,6 +89,8 @@ inline boost::program_options::options_description described(Arguments& a)
       "keeps the eigenvalues of coarse meshes much closer");
   add("binary", po::bool_switch(&a.binary), "a restriction of ones and zeros: it picks vertices of INPUT");
   add("preserve-border", po::bool_switch(&a.preserve_border), "no edge is drawn away from the border");
+  add("relocate", po::bool_switch(&a.relocate),
+      "afterwards move the vertices so that the spectrum is kept still better; made for --mass averaged");
   add("repair", po::bool_switch(&a.repair),
       "make INPUT an oriented manifold of triangles first and say what was changed: polygons are "
       "triangulated, vertices of "

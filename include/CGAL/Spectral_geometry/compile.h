@@ -10,11 +10,12 @@
 \brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of all others.
 
 Without that macro the package is header-only and this file is not needed. With it defined in every source file of a program,
-`CGAL::Spectral_geometry::eigenpairs()` and `CGAL::Spectral_geometry::closest_point_interpolation()` are only declared, and
-exactly one of the source files includes this header, which defines them: each of the others compiles several seconds faster.
+`CGAL::Spectral_geometry::eigenpairs()`, `CGAL::Spectral_geometry::closest_point_interpolation()` and
+`CGAL::Spectral_geometry::relocate_positions()` are only declared, and exactly one of the source files includes this header, which defines them: each of the others compiles several seconds faster.
 */
 
 #include <CGAL/Spectral_geometry/internal/closest_point_interpolation_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/relocation_impl.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

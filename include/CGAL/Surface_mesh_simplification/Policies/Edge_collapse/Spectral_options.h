@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
@@ -54,7 +55,8 @@ enum class Spectral_phase {
   pre_simplification, ///< collapsing with a cheap cost down to `Spectral_options::pre_simplify`
   eigenpairs,         ///< solving for the basis
   first_costs,        ///< evaluating every edge once
-  collapses           ///< inside the collapse loop
+  collapses,          ///< inside the collapse loop
+  relocation          ///< moving the vertices that are left, see `Spectral_options::relocate`
 };
 
 /// The argument of `Spectral_options::progress`.
@@ -124,6 +126,13 @@ struct Spectral_options
   /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
   /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
   std::size_t pre_simplify = 0;
+
+  /// `spectral_edge_collapse()` only: moves the vertices that are left so that the spectrum is kept still better, see
+  /// `Spectral_geometry::relocate_positions()`. Made for the averaged mass.
+  bool relocate = false;
+
+  /// How they are moved; its progress callback is replaced by the one below.
+  Spectral_geometry::Relocation_options relocation;
 
   /// Number of threads that evaluate costs; from 1. The result does not depend on it.
   int threads = 1;

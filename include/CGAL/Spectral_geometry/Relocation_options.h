@@ -1,0 +1,88 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_RELOCATION_OPTIONS_H
+#define CGAL_SPECTRAL_GEOMETRY_RELOCATION_OPTIONS_H
+
+#include <CGAL/number_type_config.h>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/*!
+How `relocate_positions()` moves the vertices of a coarse mesh, and what it may not do. The defaults are those
+that were measured.
+*/
+struct Relocation_options
+{
+  /// What a vertex' signals are while it moves.
+  enum class Signals {
+    carried,             ///< P F, the restriction that came with the mesh; it stays as it is
+    carried_and_sampled, ///< both that and F at the closest point of the fine surface: good in either reading
+    sampled ///< F at the closest point alone. The lowest of the three in that reading; the restriction that
+            ///< came with the mesh no longer fits, and the result holds the one to use instead
+  };
+  Signals signals = Signals::carried_and_sampled;
+
+  /// tau lambda_K of `Smoothed_relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
+  /// times faster).
+  double smoothing = 1;
+  /// Weight of E beside the smoothed term, relative to what the two are at the start. Keeps the modes beyond K.
+  double plain = 1;
+  /// The spectrum is compared at unit area on both sides, as the norms of the paper are, unless this is set. The area
+  /// is kept in either case.
+  bool input_scale = false;
+
+  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident edge. Positive.
+  double trust_radius = 0.5;
+  /// No triangle's smallest angle falls below this part of what it was. In [0, 1].
+  double smallest_angle_ratio = 0.5;
+  /// No triangle turns its normal further than this from where it was, radians. In ]0, pi/2].
+  double largest_turn = CGAL_PI / 3;
+  /// Total area, and the volume of a closed mesh, change by at most this part. Positive.
+  double size_tolerance = 0.01;
+  /// Where new self-intersections appear the vertices go back as far as needed.
+  bool keep_free_of_self_intersections = true;
+  /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
+  bool fix_boundary = false;
+  /// No vertex moves further than this from the fine surface unless it was; in the unit of the mesh.
+  double largest_distance = std::numeric_limits<double>::infinity();
+
+  /// Ends when ten steps lower the objective by less than this part.
+  double relative_decrease = 0.005;
+  /// Ends after so many steps; one step is a value and a gradient, seldom two.
+  int maximum_steps = 60;
+  /// Ends after so much time.
+  double maximum_seconds = std::numeric_limits<double>::infinity();
+  /// Called at each step with the fraction of the budget that is spent; returns false to cancel.
+  std::function<bool(double)> progress;
+};
+
+/// What `relocate_positions()` did.
+struct Relocation_result
+{
+  /// E (Eq. 2) with the carried signals before and after, in the scale in which the spectra are compared. It may
+  /// rise while the norms fall: the norms do not see most of it.
+  double E_before = 0, E_after = 0;
+  double objective_before = 0, objective_after = 0; ///< what was minimised
+  int steps = 0;
+  std::size_t moved_vertices = 0;
+  /// vertices that went back, in part or wholly, because of a self-intersection
+  std::size_t reverted_vertices = 0;
+  double seconds = 0;     ///< wall seconds
+  bool resampled = false; ///< whether `restriction` is a new one
+  /// for `Signals::sampled` the restriction of the new positions, otherwise that which was passed
+  Eigen::SparseMatrix<double> restriction;
+};
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_RELOCATION_OPTIONS_H

@@ -1,0 +1,258 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_H
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/Guarded_descent.h>
+#include <CGAL/Spectral_geometry/internal/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/Relocation_objective.h>
+#include <CGAL/Spectral_geometry/internal/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd& V,
+                             const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
+                             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                             const std::vector<bool>& fixed)
+{
+  const auto require = [](const bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("relocation: " + sentence);
+  };
+  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+  };
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(),
+          "P is " + size(P.rows(), P.cols()) + " where " + size(V.rows(), fine.V.rows()) +
+              " is needed, coarse x fine; pass matrices that belong together.");
+  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
+          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
+              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
+              " fine vertices and one column for each signal.");
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    require(V.row(v).allFinite(),
+            vertex_name(v) + " has a coordinate that is not a finite number; repair it.");
+  require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
+          "the list of fixed vertices has " + std::to_string(fixed.size()) + " entries for " +
+              std::to_string(V.rows()) + " vertices; pass one for each, or none.");
+  require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
+          "smoothing and plain must be numbers from 0.");
+  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
+          "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
+  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
+          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
+  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
+          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
+}
+
+/// The directed edges that have a face on their left only: the boundary.
+inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
+{
+  std::map<std::pair<int, int>, int> faces_of;
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      ++faces_of[std::minmax(T(f, k), T(f, (k + 1) % 3))];
+  std::vector<std::pair<int, int>> result;
+  for(const auto& [edge, count] : faces_of)
+    if(count == 1)
+      result.push_back(edge);
+  return result;
+}
+
+/// One relocation from the set-up of its objective to the repair at its end.
+class Relocation
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+             const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+             const double theta, const std::vector<bool>& fixed, const Relocation_options& options)
+    : m_options(options)
+    , m_start(V)
+    , m_T(T)
+    , m_fine(fine)
+    , m_begin(std::chrono::steady_clock::now())
+    , m_guards(m_start, T, Positions(P * fine.V), limits())
+    , m_size(T, m_start, options.size_tolerance)
+  {
+    if(needs_surface())
+      m_closest = std::make_unique<Closest_point_query>(fine);
+    set_guards(fixed);
+    set_objective(P, F, Z, theta);
+  }
+
+  Positions run(Relocation_result& result)
+  {
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+      if(!(triangle_cotangents(m_start.row(m_T(f, 0)), m_start.row(m_T(f, 1)), m_start.row(m_T(f, 2))).area >
+           0))
+        throw std::invalid_argument("relocation: " + face_name(f) +
+                                    " of the coarse mesh has no area; remove it.");
+    Guarded_descent<Relocation_objective, Relocation_guards> descent(
+        *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
+    result.E_before = m_objective->E(m_start);
+    Positions V = m_start;
+    m_guards.admit(m_start, V); // boundary vertices go to the boundary
+    descent.start(V);
+    result.objective_before = descent.value();
+    double last = descent.value();
+    for(result.steps = 0; result.steps < m_options.maximum_steps && seconds() < m_options.maximum_seconds;) {
+      if(m_options.progress && !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
+        throw Cancelled();
+      if(!descent.step())
+        break;
+      if(++result.steps % 10 == 0) {
+        if(descent.value() > (1 - m_options.relative_decrease) * last)
+          break;
+        last = descent.value();
+      }
+    }
+    result.objective_after = descent.value();
+    V = repaired(descent.positions(), result.reverted_vertices);
+    result.E_after = m_objective->E(V);
+    for(Eigen::Index v = 0; v < V.rows(); ++v)
+      result.moved_vertices += V.row(v) != m_start.row(v);
+    result.seconds = seconds();
+    return V;
+  }
+
+private:
+  Relocation_guards::Limits limits() const
+  {
+    return {m_options.trust_radius, m_options.smallest_angle_ratio, std::cos(m_options.largest_turn)};
+  }
+
+  bool needs_surface() const
+  {
+    return m_options.signals != Relocation_options::Signals::carried ||
+           std::isfinite(m_options.largest_distance);
+  }
+
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_begin).count();
+  }
+
+  void set_guards(const std::vector<bool>& fixed)
+  {
+    for(std::size_t v = 0; v < fixed.size(); ++v)
+      if(fixed[v])
+        m_guards.fix(Eigen::Index(v));
+    std::vector<Boundary_segment> boundary;
+    for(const auto& [i, j] : boundary_edges(m_fine.T))
+      boundary.push_back({m_fine.V.row(i), m_fine.V.row(j)});
+    std::vector<bool> on_boundary(std::size_t(m_start.rows()), false);
+    for(const auto& [i, j] : boundary_edges(m_T))
+      on_boundary[std::size_t(i)] = on_boundary[std::size_t(j)] = true;
+    for(std::size_t v = 0; v < on_boundary.size(); ++v)
+      if(on_boundary[v] && (m_options.fix_boundary || boundary.empty()))
+        m_guards.fix(Eigen::Index(v));
+      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
+        m_guards.keep_on(Eigen::Index(v), boundary);
+    if(std::isfinite(m_options.largest_distance))
+      m_guards.set_bound([this](const Eigen::Vector3d& p) {
+        return ((*m_closest)(p).point - p).norm() <= m_options.largest_distance;
+      });
+  }
+
+  void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                     const double theta)
+  {
+    double fine_area = 0;
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+      fine_area += triangle_cotangents(m_fine.V.row(m_fine.T(f, 0)), m_fine.V.row(m_fine.T(f, 1)),
+                                       m_fine.V.row(m_fine.T(f, 2)))
+                       .area;
+    // At unit area on both sides eigenvalues are multiplied by A: those of the fine mesh by A / A~ more.
+    const double scale = m_options.input_scale ? 1. : fine_area / m_size.area();
+    const Eigen::MatrixXd carried_F = P * F, carried_Z = scale * (P * Z);
+    const double largest =
+        scale * std::sqrt((Z.colwise().squaredNorm().array() /
+                           F.colwise().squaredNorm().array().max(std::numeric_limits<double>::min()))
+                              .maxCoeff());
+    if(m_options.signals != Relocation_options::Signals::carried) {
+      m_fine_F = F;
+      m_fine_Z = scale * Z;
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_fine.T, m_fine_F, m_fine_Z);
+    }
+    m_objective = std::make_unique<Relocation_objective>(
+        m_T, carried_F, carried_Z, theta, m_size, m_start, m_sampled.get(),
+        m_options.signals != Relocation_options::Signals::sampled,
+        largest > 0 ? m_options.smoothing / largest : 0., m_options.plain);
+  }
+
+  // Goes back where triangles that were apart meet, and everywhere while the size is out of its bounds.
+  Positions repaired(Positions V, std::size_t& reverted) const
+  {
+    std::vector<char> has_reverted(std::size_t(V.rows()), 0);
+    const Face_pairs before =
+        m_options.keep_free_of_self_intersections ? self_intersecting_faces(m_start, m_T) : Face_pairs();
+    for(int round = 0;; ++round) {
+      std::vector<char> back(std::size_t(V.rows()), 0);
+      bool any = false;
+      if(m_options.keep_free_of_self_intersections)
+        for(const auto& pair : self_intersecting_faces(V, m_T))
+          if(!std::binary_search(before.begin(), before.end(), pair))
+            for(const Eigen::Index f : {pair.first, pair.second})
+              for(int k = 0; k < 3; ++k) {
+                any = true;
+                back[std::size_t(m_T(f, k))] = has_reverted[std::size_t(m_T(f, k))] = 1;
+              }
+      const bool too_large = !m_size.within(V);
+      if(!any && !too_large)
+        break;
+      const double kept = round < 12 ? 0.6 : 0.;
+      if(round >= 24) // single vertices going back have put others in the way
+        V = m_start;
+      for(Eigen::Index v = 0; v < V.rows(); ++v)
+        if(too_large || back[std::size_t(v)])
+          V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
+      m_guards.admit_without_projection(m_start, V);
+    }
+    reverted = std::size_t(std::count(has_reverted.begin(), has_reverted.end(), 1));
+    return V;
+  }
+
+  Relocation_options m_options;
+  Positions m_start;
+  Eigen::MatrixXi m_T;
+  const Mesh_matrices& m_fine;
+  std::chrono::steady_clock::time_point m_begin;
+  Relocation_guards m_guards;
+  Size_bounds m_size;
+  std::unique_ptr<Closest_point_query> m_closest;
+  Position_dependent_signals::Rows m_fine_F, m_fine_Z;
+  std::unique_ptr<Surface_signals> m_sampled;
+  std::unique_ptr<Relocation_objective> m_objective;
+};
+
+} // namespace internal
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_H

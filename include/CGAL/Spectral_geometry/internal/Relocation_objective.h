@@ -1,0 +1,166 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H
+
+#include <CGAL/Spectral_geometry/relocation_energy.h>
+#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Keeps area and volume: a penalty that begins at half of the tolerance, steep enough to end before its whole.
+class Size_bounds
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const double tolerance)
+    : m_T(T)
+    , m_tolerance(tolerance)
+    , m_closed(is_closed(T, V.rows()))
+  {
+    measure(V, m_area, m_volume);
+    // A mesh without volume to speak of (two sheets, say) cannot keep a part of it.
+    m_closed = m_closed && std::abs(m_volume) > 1e-3 * m_area * std::sqrt(m_area) / 10.6;
+  }
+
+  double area() const { return m_area; }
+
+  bool within(const Positions& V) const
+  {
+    double area, volume;
+    measure(V, area, volume);
+    return std::abs(area / m_area - 1) <= m_tolerance &&
+           (!m_closed || std::abs(volume / m_volume - 1) <= m_tolerance);
+  }
+
+  /// In parts of the objective at the start.
+  double penalty(const Positions& V, const double weight, Positions& gradient) const
+  {
+    double area, volume;
+    measure(V, area, volume);
+    const double by_area = slope(area / m_area - 1), by_volume = m_closed ? slope(volume / m_volume - 1) : 0;
+    if(by_area == 0 && by_volume == 0)
+      return 0;
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      Eigen::Vector3d p[3];
+      for(int k = 0; k < 3; ++k)
+        p[k] = V.row(m_T(f, k));
+      const Eigen::Vector3d unit = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+      for(int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
+        const Eigen::Vector3d g = by_area / m_area / 2 * unit.cross(r - q) +
+                                  by_volume / (m_closed ? m_volume : 1.) / 6 * q.cross(r);
+        gradient.row(m_T(f, k)) += weight * g.transpose();
+      }
+    }
+    // slope = 2 steepness h, the penalty is steepness h^2
+    return weight * (by_area * by_area + by_volume * by_volume) / (4 * steepness());
+  }
+
+private:
+  static bool is_closed(const Eigen::MatrixXi& T, const Eigen::Index n)
+  {
+    // Every edge once in either direction: then the directed ones cancel, tested by a sum that others do not cancel.
+    std::vector<std::vector<int>> balance;
+    balance.resize(std::size_t(n));
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k)
+        balance[std::size_t(T(f, k))].push_back(T(f, (k + 1) % 3));
+    for(std::size_t v = 0; v < balance.size(); ++v)
+      for(const int w : balance[v]) {
+        const auto& back = balance[std::size_t(w)];
+        if(std::find(back.begin(), back.end(), int(v)) == back.end())
+          return false;
+      }
+    return true;
+  }
+
+  void measure(const Positions& V, double& area, double& volume) const
+  {
+    area = volume = 0;
+    const Eigen::Vector3d origin = V.row(0);
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      const Eigen::Vector3d p = V.row(m_T(f, 0)).transpose() - origin,
+                            q = V.row(m_T(f, 1)).transpose() - origin,
+                            r = V.row(m_T(f, 2)).transpose() - origin;
+      area += (q - p).cross(r - p).norm() / 2;
+      volume += p.dot(q.cross(r)) / 6;
+    }
+  }
+
+  // At nine tenths of the tolerance it costs as much as all there was at the start.
+  double steepness() const { return 1 / (0.16 * m_tolerance * m_tolerance); }
+
+  double slope(const double change) const
+  {
+    const double beyond = std::abs(change) - m_tolerance / 2;
+    return beyond <= 0 ? 0 : 2 * steepness() * (change > 0 ? beyond : -beyond);
+  }
+
+  Eigen::MatrixXi m_T;
+  double m_tolerance;
+  bool m_closed;
+  double m_area = 0, m_volume = 0;
+};
+
+/// What the descent sees: the smoothed energy, or E alone, and the penalty on the size.
+class Relocation_objective
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                       const double theta, const Size_bounds& size, const Positions& start,
+                       Position_dependent_signals* sampled, const bool carried, const double tau,
+                       const double plain)
+    : m_E(T, F, Z, theta)
+    , m_size(size)
+  {
+    // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
+    if(tau > 0 || sampled) {
+      const double smallest = 1e-6 * size.area() / double(F.rows());
+      const Eigen::Index columns = carried ? F.cols() : 0;
+      m_smoothed = std::make_unique<Smoothed_relocation_energy>(
+          T, F.leftCols(columns), Z.leftCols(columns), theta, (std::max)(tau, smallest), 0., sampled);
+      m_smoothed->value(start);
+      if(m_smoothed->plain_part() > 0)
+        m_smoothed->set_mu(plain * m_smoothed->smoothed_part() / m_smoothed->plain_part());
+    }
+    m_scale = m_smoothed ? m_smoothed->value(start) : E(start);
+  }
+
+  double E(const Positions& V) { return m_E.value(V); }
+
+  double value_and_gradient(const Positions& V, Positions& gradient)
+  {
+    const double value =
+        m_smoothed ? m_smoothed->value_and_gradient(V, gradient) : m_E.value_and_gradient(V, gradient);
+    if(!std::isfinite(value))
+      return value;
+    return value + m_size.penalty(V, m_scale, gradient);
+  }
+
+private:
+  Relocation_energy m_E;
+  std::unique_ptr<Smoothed_relocation_energy> m_smoothed;
+  Size_bounds m_size;
+  double m_scale = 1;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H

@@ -1,0 +1,149 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SIGNALS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SIGNALS_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
+#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Closest points of one surface, asked for again and again.
+class Closest_point_query
+{
+public:
+  struct Answer
+  {
+    Eigen::Index face;
+    Eigen::Vector3d weights, point;
+  };
+
+  explicit Closest_point_query(const Mesh_matrices& surface)
+  {
+    m_faces.reserve(std::size_t(surface.T.rows()));
+    for(Eigen::Index f = 0; f < surface.T.rows(); ++f) {
+      Eigen::Matrix3d corners;
+      for(int c = 0; c < 3; ++c)
+        corners.col(c) = surface.V.row(surface.T(f, c)).transpose();
+      m_faces.emplace_back(f, corners);
+    }
+    m_tree.insert(m_faces.cbegin(), m_faces.cend());
+    m_tree.build();
+  }
+
+  Closest_point_query(const Closest_point_query&) = delete; // the tree points into the faces
+  Closest_point_query& operator=(const Closest_point_query&) = delete;
+
+  Answer operator()(const Eigen::Vector3d& query) const
+  {
+    return answer(query, m_tree.closest_point_and_primitive(to_point(query)).second);
+  }
+
+  /// The same from the answer to a query nearby, which saves half of the search.
+  Answer operator()(const Eigen::Vector3d& query, const Answer& nearby) const
+  {
+    const Face face = m_faces.begin() + nearby.face;
+    const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
+    const auto hint = std::make_pair(to_point(combination(face->corners, weights)), face);
+    return answer(query, m_tree.closest_point_and_primitive(to_point(query), hint).second);
+  }
+
+  const Eigen::Matrix3d& corners(const Eigen::Index face) const { return m_faces[std::size_t(face)].corners; }
+
+private:
+  using Face = std::vector<Indexed_face>::const_iterator;
+
+  static Answer answer(const Eigen::Vector3d& query, const Face face)
+  {
+    const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
+    return {face->id, weights, combination(face->corners, weights)};
+  }
+
+  std::vector<Indexed_face> m_faces;
+  CGAL::AABB_tree<Face_traits> m_tree;
+};
+
+/// Signals of the fine mesh, read off at the closest points of the coarse vertices.
+class Surface_signals : public Position_dependent_signals
+{
+public:
+  /// F and Z: fine x K. All three are kept by reference.
+  Surface_signals(const Closest_point_query& closest, const Eigen::MatrixXi& T, const Rows& F, const Rows& Z)
+    : m_closest(closest)
+    , m_T(T)
+    , m_F(F)
+    , m_Z(Z)
+  {}
+
+  Eigen::Index number_of_signals() const override { return m_F.cols(); }
+
+  void evaluate(const Positions& V, Rows& F, Rows& Z) override
+  {
+    F.resize(V.rows(), m_F.cols());
+    Z.resize(V.rows(), m_F.cols());
+    const bool first = m_answers.size() != std::size_t(V.rows());
+    m_answers.resize(std::size_t(V.rows()));
+    for(Eigen::Index w = 0; w < V.rows(); ++w) {
+      Closest_point_query::Answer& a = m_answers[std::size_t(w)];
+      a = first ? m_closest(V.row(w)) : m_closest(V.row(w), a);
+      const Eigen::RowVector3i t = m_T.row(a.face);
+      F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
+      Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
+    }
+  }
+
+  // The signals are linear in the face. A closest point on an edge stays on it for a while, one in a corner does
+  // not move at all.
+  void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
+  {
+    for(Eigen::Index w = 0; w < gradient.rows(); ++w) {
+      const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
+      const Eigen::Matrix3d& p = m_closest.corners(a.face);
+      const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
+      const double size2 = normal.squaredNorm();
+      int zeros = 0, zero = 0;
+      for(int k = 0; k < 3; ++k)
+        if(!(a.weights(k) > 0)) {
+          ++zeros;
+          zero = k;
+        }
+      if(zeros == 2 || !(size2 > 0))
+        continue;
+      Eigen::Vector3d g = Eigen::Vector3d::Zero();
+      for(int k = 0; k < 3; ++k) {
+        const double slope =
+            by_F.row(w).dot(m_F.row(m_T(a.face, k))) + by_Z.row(w).dot(m_Z.row(m_T(a.face, k)));
+        g += slope / size2 * normal.cross(p.col((k + 2) % 3) - p.col((k + 1) % 3));
+      }
+      if(zeros == 1) {
+        const Eigen::Vector3d edge = (p.col((zero + 2) % 3) - p.col((zero + 1) % 3)).normalized();
+        g = edge.dot(g) * edge;
+      }
+      gradient.row(w) += g.transpose();
+    }
+  }
+
+private:
+  const Closest_point_query& m_closest;
+  const Eigen::MatrixXi& m_T;
+  const Rows &m_F, &m_Z;
+  std::vector<Closest_point_query::Answer> m_answers;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SIGNALS_H

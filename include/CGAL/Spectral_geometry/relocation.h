@@ -1,0 +1,56 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_RELOCATION_H
+#define CGAL_SPECTRAL_GEOMETRY_RELOCATION_H
+
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/*!
+moves the vertices of a coarse mesh so that its Laplace-Beltrami operator agrees better with that of a fine one;
+which triangles there are, and the restriction, stay.
+
+It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) that the functional map sees,
+see `Smoothed_relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle
+is inverted or degenerates, no new self-intersection, total area and volume are kept, no vertex leaves the place its
+signals were taken from, boundary vertices stay on the boundary. The mesh may come from anywhere: from an edge
+collapse with the restriction it carried, or from a remesher with `closest_point_interpolation()`.
+
+Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements has the size of what is to
+be repaired, and a descent cancels it by distorting the shape.
+
+@param V      coarse x 3, the positions, changed in place
+@param T      the triangles of the coarse mesh
+@param P      coarse x fine, the restriction
+@param fine   the fine mesh
+@param F, Z   fine x K, the signals and B^-1 L F; for eigenvectors Phi and Phi Lambda
+@param theta  weight of the consistent mass in B, of both meshes
+@param fixed  for each coarse vertex whether it must stay; empty: none
+
+Throws `std::invalid_argument` for matrices that do not belong together or options out of range, `Cancelled` when the
+progress callback returned false; V is then as it was.
+*/
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
+    Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
+    const std::vector<bool>& fixed = {}, const Relocation_options& options = {});
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/relocation_impl.h>
+#endif
+
+#endif // CGAL_SPECTRAL_GEOMETRY_RELOCATION_H

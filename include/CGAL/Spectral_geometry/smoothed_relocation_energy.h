@@ -1,0 +1,350 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H
+#define CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H
+
+#include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+/// Signals on a coarse mesh that depend on where its vertices are: read off the fine surface, for instance.
+class Position_dependent_signals
+{
+public:
+  using Positions = internal::Operator_geometry::Positions;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  virtual ~Position_dependent_signals() = default;
+  /// K, the number of signals.
+  virtual Eigen::Index number_of_signals() const = 0;
+  /// writes the n x K signals F and their Laplacians Z at the n positions V.
+  virtual void evaluate(const Positions& V, Rows& F, Rows& Z) = 0;
+  /// adds to the gradient what derivatives with respect to the entries of F and Z, where they were evaluated last, mean
+  /// for the positions.
+  virtual void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const = 0;
+};
+
+/*!
+The part of the residual of the metric that the functional map sees, as a function of the positions of a coarse
+mesh, and its gradient: with \f$ R = B Z - L F \f$ and \f$ A = B + \tau L \f$
+\f[ S(V) = \| A^{-1} R \|_B^2 + \mu \sum_w \|R_w\|^2 / M_w . \f]
+In coarse eigenvectors, \f$ C = \widetilde\Phi^\top B F \f$ over all of them, and with eigenvectors as signals,
+\f[ \|A^{-1} R\|_B^2 = \sum_{i,j} \frac{(\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2}{(1 + \tau\widetilde\lambda_i)^2}, \f]
+where E (Eq. 2) has the same sum without the denominator. Most of E lies in coarse modes far beyond K, which
+\f$ \|C\|_L \f$ does not contain: a descent on E spends itself on them. With \f$ \tau \f$ near
+\f$ 1/\lambda_K \f$ the denominator takes them out. The second term is \f$ \mu E \f$; it keeps the modes beyond K
+from being spoiled.
+
+The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
+
+A value or a gradient takes one sparse Cholesky factorisation of A and two solves for each signal. Signals are
+treated 32 at a time, so that what a solve works on stays in the cache.
+*/
+class Smoothed_relocation_energy
+{
+public:
+  using Index = Eigen::Index;
+  using Positions = internal::Operator_geometry::Positions;
+  using Rows = Position_dependent_signals::Rows;
+
+  /*!
+  @param T      m x 3, the triangles of the coarse mesh, an oriented manifold
+  @param F, Z   n x K, the restricted signals and their restricted Laplacians; K may be 0 if `moving` is given
+  @param theta  weight of the consistent mass in B, in [0, 1]
+  @param tau    positive, in the inverse of the unit of eigenvalues
+  @param mu     weight of E, not negative
+  @param moving signals that depend on the positions, or null; not owned
+
+  Throws `std::invalid_argument` if the sizes do not match, an index or a number is out of range.
+  */
+  Smoothed_relocation_energy(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                             const double theta, const double tau, const double mu,
+                             Position_dependent_signals* moving = nullptr)
+    : m_geometry(T, F.rows(), theta)
+    , m_tau(tau)
+    , m_mu(mu)
+    , m_moving(moving)
+  {
+    if(Z.rows() != F.rows() || Z.cols() != F.cols())
+      throw std::invalid_argument("relocation: F is " + std::to_string(F.rows()) + " x " +
+                                  std::to_string(F.cols()) + " and Z " + std::to_string(Z.rows()) + " x " +
+                                  std::to_string(Z.cols()) + "; pass two matrices of one size.");
+    if(!(tau > 0 && mu >= 0))
+      throw std::invalid_argument("relocation: tau must be positive and mu not negative, but they are " +
+                                  std::to_string(tau) + " and " + std::to_string(mu) + ".");
+    for(Index first = 0; first < F.cols(); first += width)
+      m_given.push_back({panel(F, first), panel(Z, first)});
+  }
+
+  Index number_of_vertices() const { return m_geometry.number_of_vertices(); }
+
+  /// The weight of E; the gradient follows.
+  void set_mu(const double mu) { m_mu = mu; }
+
+  /// returns S(V), infinity if a triangle has no area.
+  double value(const Positions& V) { return evaluate(V, nullptr); }
+
+  /// returns S(V) and writes its gradient, n x 3, which is 0 where S is infinite.
+  double value_and_gradient(const Positions& V, Positions& gradient)
+  {
+    gradient.setZero(number_of_vertices(), 3);
+    return evaluate(V, &gradient);
+  }
+
+  /// The two terms where the last value was taken: the smoothed one, and E without its weight.
+  double smoothed_part() const { return m_smoothed; }
+  double plain_part() const { return m_plain; }
+
+private:
+  static constexpr int width = 32, lanes = 8;
+  using Panel = Rows; // of `width` columns
+  using Entries = internal::Operator_geometry::Entries;
+  struct Signals
+  {
+    Panel F, Z;
+  };
+
+  template <class Matrix>
+  static Panel panel(const Matrix& F, const Index first)
+  {
+    Panel result = Panel::Zero(F.rows(), Index(width));
+    const Index columns = (std::min)(Index(width), F.cols() - first);
+    result.leftCols(columns) = F.middleCols(first, columns);
+    return result;
+  }
+
+  double evaluate(const Positions& V, Positions* gradient)
+  {
+    m_smoothed = m_plain = std::numeric_limits<double>::infinity();
+    if(!m_geometry.assemble(V, m_entries) || !factorise())
+      return m_smoothed;
+    m_smoothed = m_plain = 0;
+    Entries derivatives = m_geometry.zero_entries();
+    Entries* const d = gradient ? &derivatives : nullptr;
+    for(const Signals& signals : m_given)
+      add(signals, d);
+    if(m_moving)
+      add_moving(V, gradient, d);
+    if(gradient)
+      m_geometry.add_gradient(derivatives, V, *gradient);
+    return m_smoothed + m_mu * m_plain;
+  }
+
+  void add_moving(const Positions& V, Positions* gradient, Entries* d)
+  {
+    Rows F, Z, by_F, by_Z;
+    m_moving->evaluate(V, F, Z);
+    if(gradient) {
+      by_F.setZero(F.rows(), F.cols());
+      by_Z.setZero(F.rows(), F.cols());
+    }
+    for(Index first = 0; first < F.cols(); first += width) {
+      add({panel(F, first), panel(Z, first)}, d);
+      if(!gradient)
+        continue;
+      const Index columns = (std::min)(Index(width), F.cols() - first);
+      for(Index w = 0; w < F.rows(); ++w) { // R is linear in both
+        Row f{}, z{};
+        add_multiple(2 * m_entries.B_diagonal(w), m_multiplier.row(w).data(), z);
+        for(const auto& entry : m_geometry.row(w)) {
+          const double* const x = m_multiplier.row(entry.neighbour).data();
+          const double L = 2 * m_entries.L(entry.edge);
+          add_multiple(2 * m_entries.B(entry.edge), x, z);
+          add_multiple(-L, x, f);
+          add_multiple(L, m_multiplier.row(w).data(), f);
+        }
+        std::copy_n(f, columns, by_F.row(w).data() + first);
+        std::copy_n(z, columns, by_Z.row(w).data() + first);
+      }
+    }
+    if(gradient)
+      m_moving->add_gradient(by_F, by_Z, *gradient);
+  }
+
+  // A = B + tau L, lower triangle.
+  bool factorise()
+  {
+    const Index n = number_of_vertices();
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(std::size_t(n) + m_geometry.edges().size());
+    Eigen::VectorXd diagonal = m_entries.B_diagonal;
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      const double L = m_tau * m_entries.L(Index(e));
+      diagonal(i) -= L;
+      diagonal(j) -= L;
+      entries.emplace_back((std::max)(i, j), (std::min)(i, j), m_entries.B(Index(e)) + L);
+    }
+    for(Index i = 0; i < n; ++i)
+      entries.emplace_back(int(i), int(i), diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face
+    Eigen::SparseMatrix<double> A(n, n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    if(!m_analysed)
+      m_cholesky.analyzePattern(A);
+    m_analysed = true;
+    m_cholesky.factorize(A);
+    return m_cholesky.info() == Eigen::Success;
+  }
+
+  // x <- A^-1 x, row by row of the factor: what belongs to one vertex is contiguous.
+  void solve(Panel& x) const
+  {
+    using Entry_of_factor = Eigen::SparseMatrix<double>::InnerIterator;
+    const auto& G = m_cholesky.matrixL().nestedExpression();
+    const auto& place = m_cholesky.permutationP().indices();
+    m_scratch.resize(x.rows(), width);
+    double* const y = m_scratch.data();
+    for(Index i = 0; i < x.rows(); ++i)
+      std::copy_n(x.row(i).data(), width, y + place(i) * width);
+    for(Index j = 0; j < x.rows(); ++j) {
+      Entry_of_factor it(G, j); // the diagonal comes first
+      double* const pivot = y + j * width;
+      scale(1 / it.value(), pivot);
+      for(++it; it; ++it)
+        add_multiple(-it.value(), pivot, y + it.row() * width);
+    }
+    for(Index j = x.rows(); j-- > 0;) {
+      Entry_of_factor it(G, j);
+      const double diagonal = it.value();
+      double* const pivot = y + j * width;
+      for(++it; it; ++it)
+        add_multiple(-it.value(), y + it.row() * width, pivot);
+      scale(1 / diagonal, pivot);
+    }
+    for(Index i = 0; i < x.rows(); ++i)
+      std::copy_n(y + place(i) * width, width, x.row(i).data());
+  }
+
+  // With Y = A^-1 R, X = A^-1 B Y and Q = R / M:
+  // dS = Y^T dB Y - 2 X^T dA Y + 2 (X + mu Q)^T (dB Z - dL F) - mu E_w / M_w dM_w.
+  void add(const Signals& s, Entries* d)
+  {
+    const Index n = number_of_vertices();
+    Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
+    Y.setZero(n, width);
+    X.setZero(n, width);
+    Q.setZero(n, width);
+    for(Index w = 0; w < n; ++w) {
+      double* const r = Y.row(w).data();
+      add_multiple(m_entries.B_diagonal(w), s.Z.row(w).data(), r);
+      for(const auto& entry : m_geometry.row(w)) {
+        const double L = m_entries.L(entry.edge);
+        add_multiple(m_entries.B(entry.edge), s.Z.row(entry.neighbour).data(), r);
+        add_difference(-L, s.F.row(entry.neighbour).data(), s.F.row(w).data(), r);
+      }
+      if(m_geometry.row(w).empty())
+        continue;
+      const double mass = m_entries.mass(w), E = dot(r, r) / mass;
+      m_plain += E;
+      add_multiple(m_mu / mass, r, Q.row(w).data());
+      if(d)
+        d->mass(w) -= m_mu * E / mass;
+    }
+    solve(Y);
+    for(Index w = 0; w < n; ++w) {
+      double* const x = X.row(w).data();
+      add_multiple(m_entries.B_diagonal(w), Y.row(w).data(), x);
+      for(const auto& entry : m_geometry.row(w))
+        add_multiple(m_entries.B(entry.edge), Y.row(entry.neighbour).data(), x);
+      m_smoothed += dot(x, Y.row(w).data());
+    }
+    if(!d)
+      return;
+    solve(X);
+    Q += X;
+    add_derivatives(s, *d);
+  }
+
+  void add_derivatives(const Signals& s, Entries& d) const
+  {
+    const Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
+    for(Index w = 0; w < number_of_vertices(); ++w) {
+      const double *const y = Y.row(w).data(), *const x = X.row(w).data();
+      d.B_diagonal(w) += dot(y, y) + 2 * dot(Q.row(w).data(), s.Z.row(w).data()) - 2 * dot(x, y);
+    }
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      const double *const yi = Y.row(i).data(), *const yj = Y.row(j).data(), *const xi = X.row(i).data(),
+                          *const xj = X.row(j).data(), *const qi = Q.row(i).data(),
+                          *const qj = Q.row(j).data(), *const zi = s.Z.row(i).data(),
+                          *const zj = s.Z.row(j).data(), *const fi = s.F.row(i).data(),
+                          *const fj = s.F.row(j).data();
+      double b[lanes] = {}, l[lanes] = {};
+      for(int k = 0; k < width; k += lanes)
+        for(int c = k; c < k + lanes; ++c) {
+          b[c - k] += yi[c] * yj[c] + qi[c] * zj[c] + qj[c] * zi[c] - xi[c] * yj[c] - xj[c] * yi[c];
+          l[c - k] += (qi[c] - qj[c]) * (fi[c] - fj[c]) + m_tau * (xi[c] - xj[c]) * (yi[c] - yj[c]);
+        }
+      d.B(Index(e)) += 2 * sum(b);
+      d.L(Index(e)) += 2 * sum(l);
+    }
+  }
+
+  // Rows of a panel. Plain loops: the compiler turns them into vector instructions, and takes a tenth of
+  // the time it takes for Eigen's expressions.
+  using Row = double[width];
+
+  static void add_multiple(const double a, const double* x, double* y)
+  {
+    for(int c = 0; c < width; ++c)
+      y[c] += a * x[c];
+  }
+
+  static void add_difference(const double a, const double* x, const double* x0, double* y)
+  {
+    for(int c = 0; c < width; ++c)
+      y[c] += a * (x[c] - x0[c]);
+  }
+
+  static void scale(const double a, double* y)
+  {
+    for(int c = 0; c < width; ++c)
+      y[c] *= a;
+  }
+
+  // Eight partial sums: one alone could not be vectorised.
+  static double dot(const double* x, const double* y)
+  {
+    double partial[lanes] = {};
+    for(int k = 0; k < width; k += lanes)
+      for(int c = k; c < k + lanes; ++c)
+        partial[c - k] += x[c] * y[c];
+    return sum(partial);
+  }
+
+  static double sum(const double* partial)
+  {
+    return ((partial[0] + partial[1]) + (partial[2] + partial[3])) +
+           ((partial[4] + partial[5]) + (partial[6] + partial[7]));
+  }
+
+  internal::Operator_geometry m_geometry;
+  double m_tau, m_mu;
+  Position_dependent_signals* m_moving;
+  std::vector<Signals> m_given;
+  Entries m_entries;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
+  bool m_analysed = false;
+  double m_smoothed = 0, m_plain = 0;
+  Panel m_Y, m_X, m_multiplier;
+  mutable Panel m_scratch;
+};
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H

@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/relocation.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+namespace internal {
+
+/// Which vertices may not move: those that are constrained, and both ends of constrained edges.
+template <class TriangleMesh, class NamedParameters>
+std::vector<bool> constrained_vertices(const TriangleMesh& mesh, const NamedParameters& np)
+{
+  using parameters::get_parameter;
+  using Base = typename NamedParameters::base;
+  constexpr bool has_vertices =
+      !std::is_same<typename internal_np::Get_param<Base, internal_np::vertex_is_constrained_t>::type,
+                    internal_np::Param_not_found>::value;
+  constexpr bool has_edges =
+      !std::is_same<typename internal_np::Get_param<Base, internal_np::edge_is_constrained_t>::type,
+                    internal_np::Param_not_found>::value;
+  std::vector<bool> fixed;
+  for(const auto v : vertices(mesh)) {
+    bool constrained = false;
+    if constexpr(has_vertices)
+      constrained = bool(get(get_parameter(np, internal_np::vertex_is_constrained), v));
+    if constexpr(has_edges) {
+      const auto h0 = halfedge(v, mesh);
+      if(h0 != boost::graph_traits<TriangleMesh>::null_halfedge())
+        for(const auto h : halfedges_around_target(h0, mesh))
+          constrained =
+              constrained || bool(get(get_parameter(np, internal_np::edge_is_constrained), edge(h, mesh)));
+    }
+    fixed.push_back(constrained);
+  }
+  (void)np;
+  return fixed;
+}
+
+/// The same for signals: F and Z = B^-1 L F are fine x K. `kept`: further vertices that stay, or empty.
+template <class TriangleMesh, class NamedParameters>
+Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
+                                                   const Spectral_geometry::Mesh_matrices& fine,
+                                                   const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                                                   const double theta,
+                                                   const Spectral_geometry::Relocation_options& options,
+                                                   const std::vector<bool>& kept, const NamedParameters& np)
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
+  using FT = typename Geom_traits::FT;
+  using Point = typename Geom_traits::Point_3;
+  Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
+  const Eigen::MatrixXd before = coarse.V;
+  std::vector<bool> fixed = constrained_vertices(mesh, np);
+  for(std::size_t v = 0; v < kept.size(); ++v)
+    fixed[v] = fixed[v] || kept[v];
+  Spectral_geometry::Relocation_result result =
+      Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, theta, fixed, options);
+  const auto points =
+      choose_parameter(get_parameter(np, internal_np::vertex_point), get_property_map(vertex_point, mesh));
+  Eigen::Index i = 0;
+  for(const auto v : vertices(mesh)) {
+    if(coarse.V.row(i) != before.row(i)) // a point that did not move keeps its own number type's digits
+      put(points, v, Point(FT(coarse.V(i, 0)), FT(coarse.V(i, 1)), FT(coarse.V(i, 2))));
+    ++i;
+  }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+ * Moves the vertices of a coarse mesh so that its Laplace-Beltrami spectrum agrees better with that of a fine mesh:
+ * the mesh form of `Spectral_geometry::relocate_positions()`, which says what is minimised and what is guarded.
+ *
+ * The coarse mesh may come from anywhere. For one that `spectral_edge_collapse()` made, pass the restriction of its
+ * result; for a remeshed one `Spectral_geometry::closest_point_interpolation()` with its vertices as points.
+ *
+ * @param mesh  the coarse mesh; its connectivity stays
+ * @param P     coarse x fine, rows in the order of `vertices(mesh)`
+ * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was simplified
+ * @param pairs eigenpairs of the fine mesh in the same mass, at its own scale; tight ones, since Z is taken as Phi Lambda
+ * @param mass  the mass matrix. Made for `averaged`: with `lumped` the shape is bent to cancel the error of the elements
+ * @param options what to minimise, guards, when to stop
+ * @param np    named parameters: `vertex_point_map`, `geom_traits`, `vertex_is_constrained_map` and
+ *        `edge_is_constrained_map` (both ends stay where they are)
+ *
+ * @return what was done, and the restriction to use from now on
+ *
+ * @throws std::invalid_argument for matrices that do not belong together, or options out of range
+ * @throws Spectral_geometry::Cancelled when the progress callback returns false; the mesh is then as it was
+ */
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Spectral_geometry::Relocation_result
+spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
+                    const Spectral_geometry::Mesh_matrices& fine, const Spectral_geometry::Eigenpairs& pairs,
+                    const Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged,
+                    const Spectral_geometry::Relocation_options& options = {},
+                    const NamedParameters& np = parameters::default_values())
+{
+  return internal::relocate_mesh(mesh, P, fine, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(),
+                                 Spectral_geometry::mass_blend(mass), options, {}, np);
+}
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H

@@ -1,0 +1,568 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Relocation: the energies against slow ones and finite differences, the guards, the one-call form.
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
+
+#include "catch.h"
+#include "collapse_helpers.h"
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/Relocation.h>
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+using Positions = SG::Relocation_energy::Positions;
+using Rows = SG::Position_dependent_signals::Rows;
+using Signals = SG::Relocation_options::Signals;
+
+namespace {
+
+// A coarse mesh that a run made, with all that relocation asks for.
+struct Simplified_mesh
+{
+  shapes::Matrices fine, coarse;
+  Eigen::SparseMatrix<double> P;
+  SG::Laplace_operator op;
+  SG::Eigenpairs pairs; // half as many again as the run used
+
+  Eigen::MatrixXd F() const { return pairs.vectors.leftCols(K); }
+  Eigen::MatrixXd Z() const { return F() * pairs.values.head(K).asDiagonal(); }
+  static constexpr Eigen::Index K = 20;
+};
+
+Simplified_mesh simplified(const shapes::Matrices& fine, const std::size_t N)
+{
+  Simplified_mesh s;
+  s.fine = fine;
+  s.op = SG::laplace_operator(fine.V, fine.T, 0.5);
+  s.pairs = SG::eigenpairs(s.op, 3 * Simplified_mesh::K / 2);
+  auto basis = std::make_shared<SG::Eigenpairs>();
+  basis->values = s.pairs.values.head(Simplified_mesh::K);
+  basis->vectors = s.pairs.vectors.leftCols(Simplified_mesh::K);
+  SMS::Spectral_options options;
+  options.mass = SG::Mass::averaged;
+  options.eigenpairs = basis;
+  Mesh mesh = make_mesh(fine);
+  s.P = SMS::spectral_edge_collapse(mesh, N, options).restriction;
+  s.coarse = SG::mesh_matrices(mesh);
+  return s;
+}
+
+const Simplified_mesh& closed_example()
+{
+  static const Simplified_mesh s = simplified(shapes::bumpy_icosphere_matrices(4), 160);
+  return s;
+}
+
+const Simplified_mesh& open_example()
+{
+  static const Simplified_mesh s = simplified(wavy_grid_matrices(36, 30), 150);
+  return s;
+}
+
+Eigen::MatrixXd relocated(const Simplified_mesh& s, SG::Relocation_result& result,
+                          const SG::Relocation_options& options = {}, const std::vector<bool>& fixed = {})
+{
+  Eigen::MatrixXd V = s.coarse.V;
+  result = SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
+  return V;
+}
+
+SG::Spectral_evaluation evaluated(const Simplified_mesh& s, const Eigen::MatrixXd& V,
+                                  const Eigen::SparseMatrix<double>& P)
+{
+  const SG::Laplace_operator coarse = SG::laplace_operator(V, s.coarse.T, 0.5);
+  return SG::evaluate_spectrum(s.op, s.pairs, coarse, SG::eigenpairs(coarse, s.pairs.size()), P,
+                               Simplified_mesh::K);
+}
+
+Eigen::SparseMatrix<double> sampled(const Simplified_mesh& s, const Eigen::MatrixXd& V)
+{
+  return SG::closest_point_interpolation(V, s.fine);
+}
+
+// Quadratic functions of the position.
+class Polynomial_signals : public SG::Position_dependent_signals
+{
+public:
+  Eigen::Index number_of_signals() const override { return 35; } // more than one panel
+  void evaluate(const Positions& V, Rows& F, Rows& Z) override
+  {
+    m_V = V;
+    F.resize(V.rows(), 35);
+    Z.resize(V.rows(), 35);
+    for(Eigen::Index w = 0; w < V.rows(); ++w)
+      for(int k = 0; k < 35; ++k) {
+        F(w, k) = std::sin(axis(k).dot(V.row(w)) + k);
+        Z(w, k) = 3 * std::cos(axis(k).dot(V.row(w)));
+      }
+  }
+  void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
+  {
+    for(Eigen::Index w = 0; w < m_V.rows(); ++w)
+      for(int k = 0; k < 35; ++k) {
+        const double t = axis(k).dot(m_V.row(w));
+        gradient.row(w) +=
+            (by_F(w, k) * std::cos(t + k) - 3 * by_Z(w, k) * std::sin(t)) * axis(k).transpose();
+      }
+  }
+
+private:
+  static Eigen::Vector3d axis(const int k) { return {1. + k % 3, 0.5 * (k % 5), 1.5 - k % 2}; }
+  Positions m_V;
+};
+
+template <class Energy>
+double gradient_error(Energy& energy, const Positions& V)
+{
+  Positions gradient, direction = Positions::Zero(V.rows(), 3);
+  energy.value_and_gradient(V, gradient);
+  double worst = 0;
+  const double h = 1e-5;
+  for(int trial = 0; trial < 6; ++trial) {
+    for(Eigen::Index i = 0; i < direction.size(); ++i)
+      direction.data()[i] = std::sin(17. * double(i) * (trial + 1) + trial);
+    if(trial > 3) { // one vertex alone
+      const Eigen::Index w = 7 * trial;
+      const Eigen::RowVector3d d = direction.row(w);
+      direction.setZero();
+      direction.row(w) = d;
+    }
+    const double slope = (energy.value(V + h * direction) - energy.value(V - h * direction)) / (2 * h);
+    const double expected = gradient.cwiseProduct(direction).sum();
+    worst = (std::max)(worst, std::abs(slope - expected) / gradient.cwiseProduct(direction).norm());
+  }
+  return worst;
+}
+
+double smallest_angle(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
+{
+  const SG::Triangle_cotangents t = SG::triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
+  return std::atan2(1., t.cot.maxCoeff());
+}
+
+Eigen::Vector3d normal(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
+{
+  const Eigen::Vector3d a = V.row(T(f, 1)) - V.row(T(f, 0)), b = V.row(T(f, 2)) - V.row(T(f, 0));
+  return a.cross(b).normalized();
+}
+
+double volume(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
+{
+  double sum = 0;
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    Eigen::Matrix3d corners;
+    for(int k = 0; k < 3; ++k)
+      corners.row(k) = V.row(T(f, k));
+    sum += corners.determinant() / 6;
+  }
+  return sum;
+}
+
+// What the guards promise and is not so; empty if all is well.
+std::string broken_guard(const Simplified_mesh& s, const Eigen::MatrixXd& V,
+                         const SG::Relocation_options& options = {})
+{
+  const Eigen::MatrixXi& T = s.coarse.T;
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    if(normal(V, T, f).dot(normal(s.coarse.V, T, f)) < std::cos(options.largest_turn) - 1e-9)
+      return "a triangle has turned";
+    if(smallest_angle(V, T, f) < (options.smallest_angle_ratio - 1e-6) * smallest_angle(s.coarse.V, T, f))
+      return "an angle has become too small";
+  }
+  const double area = SG::laplace_operator(V, T).mass.sum() / SG::laplace_operator(s.coarse.V, T).mass.sum();
+  if(std::abs(area - 1) > options.size_tolerance)
+    return "the area has changed";
+  const Eigen::MatrixXd anchors = s.P * s.fine.V;
+  Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = length;
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      for(const int j : {T(f, (k + 1) % 3), T(f, (k + 2) % 3)}) {
+        length(T(f, k)) += (s.coarse.V.row(T(f, k)) - s.coarse.V.row(j)).norm();
+        count(T(f, k)) += 1;
+      }
+  for(Eigen::Index v = 0; v < V.rows(); ++v) // on a border edges are counted once or twice
+    if((V.row(v) - anchors.row(v)).norm() > 1.2 * options.trust_radius * length(v) / count(v))
+      return "vertex " + std::to_string(v) + " has left its ball";
+  if(!SG::internal::self_intersecting_faces(V, T).empty())
+    return "the mesh intersects itself";
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("the cached inner products give E as the assembled matrices do")
+{
+  const Simplified_mesh& s = closed_example();
+  for(const double theta : {0., 0.5, 1.}) {
+    SG::Relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), theta);
+    const double slow =
+        SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, theta), s.P, s.F(), s.Z());
+    CHECK(relative_difference(energy.value(s.coarse.V), slow) < 1e-10);
+    CHECK(energy.values_by_vertex().minCoeff() >= 0);
+    CHECK(relative_difference(energy.values_by_vertex().sum(), slow) < 1e-10);
+  }
+}
+
+TEST_CASE("the smoothed energy is that of dense matrices")
+{
+  const Simplified_mesh& s = open_example();
+  const double tau = 0.01, mu = 0.3;
+  const SG::Laplace_operator op = SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5);
+  const Eigen::MatrixXd B = op.B, A = B + tau * Eigen::MatrixXd(op.L);
+  const Eigen::MatrixXd R = B * (s.P * s.Z()) - op.L * (s.P * s.F());
+  const Eigen::MatrixXd Y = A.llt().solve(R);
+  const double smoothed = Y.cwiseProduct(B * Y).sum();
+  const double plain = SG::restriction_energy(op, s.P, s.F(), s.Z());
+  SG::Smoothed_relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), 0.5, tau, mu);
+  CHECK(relative_difference(energy.value(s.coarse.V), smoothed + mu * plain) < 1e-9);
+  CHECK(relative_difference(energy.smoothed_part(), smoothed) < 1e-9);
+  CHECK(relative_difference(energy.plain_part(), plain) < 1e-9);
+}
+
+TEST_CASE("gradients agree with finite differences, in every mass, with a boundary and without")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()})
+    for(const double theta : {0., 0.5, 1.}) {
+      CAPTURE(theta);
+      const Eigen::MatrixXd F = s->P * s->F(), Z = s->P * s->Z();
+      const Positions V = s->coarse.V;
+      SG::Relocation_energy plain(s->coarse.T, F, Z, theta);
+      CHECK(gradient_error(plain, V) < 1e-5);
+      SG::Smoothed_relocation_energy smoothed(s->coarse.T, F, Z, theta, 0.02, 0.5);
+      CHECK(gradient_error(smoothed, V) < 1e-5);
+      Polynomial_signals moving;
+      SG::Smoothed_relocation_energy both(s->coarse.T, F, Z, theta, 0.02, 0.5, &moving);
+      CHECK(gradient_error(both, V) < 1e-5);
+      SG::Smoothed_relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0.,
+                                                  &moving);
+      CHECK(gradient_error(moving_alone, V) < 1e-5);
+    }
+}
+
+TEST_CASE("signals read off a surface have the slope of its triangles")
+{
+  const shapes::Matrices fine = wavy_grid_matrices(9, 9);
+  const Rows F = rough_signals(fine, 4), Z = 2 * F;
+  const SG::internal::Closest_point_query closest(fine);
+  SG::internal::Surface_signals signals(closest, fine.T, F, Z);
+  Positions V(20, 3); // inside of faces, and off the surface
+  for(Eigen::Index i = 0; i < V.rows(); ++i) {
+    Eigen::Matrix3d corners;
+    for(int k = 0; k < 3; ++k)
+      corners.row(k) = fine.V.row(fine.T(5 * i + 3, k));
+    V.row(i) = (Eigen::RowVector3d(0.3, 0.45, 0.25) * corners) +
+               0.003 * normal(fine.V, fine.T, 5 * i + 3).transpose();
+  }
+  const auto value = [&](const Positions& at) {
+    Rows f, z;
+    signals.evaluate(at, f, z);
+    double sum = 0;
+    for(Eigen::Index i = 0; i < f.size(); ++i)
+      sum += std::sin(double(i)) * f.data()[i] + std::cos(double(i)) * z.data()[i];
+    return sum;
+  };
+  Rows by_F(V.rows(), 4), by_Z(V.rows(), 4);
+  for(Eigen::Index i = 0; i < by_F.size(); ++i) {
+    by_F.data()[i] = std::sin(double(i));
+    by_Z.data()[i] = std::cos(double(i));
+  }
+  value(V);
+  Positions gradient = Positions::Zero(V.rows(), 3), direction(V.rows(), 3);
+  signals.add_gradient(by_F, by_Z, gradient);
+  for(Eigen::Index i = 0; i < direction.size(); ++i)
+    direction.data()[i] = std::sin(5. * double(i) + 1);
+  const double slope = (value(V + 1e-6 * direction) - value(V - 1e-6 * direction)) / 2e-6;
+  CHECK(slope == Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
+}
+
+TEST_CASE("relocation lowers the commutativity with either restriction and keeps every guard")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
+    SG::Relocation_result result;
+    const Eigen::MatrixXd V = relocated(*s, result);
+    CHECK(result.objective_after < 0.9 * result.objective_before);
+    CHECK(result.moved_vertices > std::size_t(V.rows() / 2));
+    CHECK(evaluated(*s, V, s->P).norm_L < 0.9 * evaluated(*s, s->coarse.V, s->P).norm_L);
+    CHECK(evaluated(*s, V, sampled(*s, V)).norm_L <
+          0.9 * evaluated(*s, s->coarse.V, sampled(*s, s->coarse.V)).norm_L);
+    CHECK(broken_guard(*s, V) == "");
+    CHECK((result.restriction - s->P).norm() == 0);
+  }
+  const Simplified_mesh& s = closed_example();
+  SG::Relocation_result result;
+  const double ratio = volume(relocated(s, result), s.coarse.T) / volume(s.coarse.V, s.coarse.T);
+  CHECK(std::abs(ratio - 1) <= 0.01);
+}
+
+TEST_CASE("with sampled signals the closest-point restriction comes back and fits best")
+{
+  const Simplified_mesh& s = closed_example();
+  SG::Relocation_options options;
+  SG::Relocation_result both, alone;
+  const Eigen::MatrixXd V = relocated(s, both, options);
+  options.signals = Signals::sampled;
+  const Eigen::MatrixXd W = relocated(s, alone, options);
+  CHECK((alone.restriction - sampled(s, W)).norm() == 0);
+  CHECK(evaluated(s, W, alone.restriction).norm_L < evaluated(s, V, sampled(s, V)).norm_L);
+  CHECK(broken_guard(s, W) == "");
+}
+
+TEST_CASE("the plain metric alone falls monotonically")
+{
+  const Simplified_mesh& s = closed_example();
+  SG::Relocation_options options;
+  options.signals = Signals::carried;
+  options.smoothing = 0;
+  options.input_scale = true;
+  double last = SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
+  for(const int steps : {1, 5, 20}) {
+    options.maximum_steps = steps;
+    SG::Relocation_result result;
+    const Eigen::MatrixXd V = relocated(s, result, options);
+    CHECK(result.steps == steps);
+    const double E = SG::restriction_energy(SG::laplace_operator(V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
+    CHECK(relative_difference(E, result.E_after) < 1e-9);
+    CHECK(E < last);
+    last = E;
+  }
+}
+
+TEST_CASE("fixed vertices stay, and the distance to the fine surface is bounded")
+{
+  const Simplified_mesh& s = closed_example();
+  std::vector<bool> fixed(std::size_t(s.coarse.V.rows()), false);
+  for(std::size_t v = 0; v < fixed.size(); v += 3)
+    fixed[v] = true;
+  SG::Relocation_options options;
+  const SG::internal::Closest_point_query closest(s.fine);
+  const auto distance = [&](const Eigen::MatrixXd& V, const Eigen::Index v) {
+    return (closest(V.row(v)).point.transpose() - V.row(v)).norm();
+  };
+  options.largest_distance = 0.01;
+  SG::Relocation_result result;
+  const Eigen::MatrixXd V = relocated(s, result, options, fixed);
+  CHECK(result.moved_vertices > 0);
+  for(Eigen::Index v = 0; v < V.rows(); ++v) {
+    if(fixed[std::size_t(v)])
+      CHECK(V.row(v) == s.coarse.V.row(v));
+    CHECK(distance(V, v) <= (std::max)(0.01, distance(s.coarse.V, v)) + 1e-12);
+  }
+  fixed.assign(fixed.size(), true);
+  CHECK(relocated(s, result, {}, fixed) == s.coarse.V);
+}
+
+TEST_CASE("boundary vertices slide along the boundary of the fine mesh, or stay")
+{
+  const Simplified_mesh& s = open_example();
+  std::set<int> on_boundary;
+  for(const auto& [i, j] : SG::internal::boundary_edges(s.coarse.T)) {
+    on_boundary.insert(i);
+    on_boundary.insert(j);
+  }
+  REQUIRE(on_boundary.size() > 10);
+  std::vector<SG::internal::Boundary_segment> segments;
+  for(const auto& [i, j] : SG::internal::boundary_edges(s.fine.T))
+    segments.push_back({s.fine.V.row(i), s.fine.V.row(j)});
+  SG::Relocation_options options;
+  SG::Relocation_result result;
+  const Eigen::MatrixXd V = relocated(s, result, options);
+  std::size_t moved = 0;
+  for(const int v : on_boundary) {
+    const Eigen::Vector3d p = V.row(v);
+    double nearest = 1e9;
+    for(const auto& segment : segments)
+      nearest = (std::min)(nearest, (segment.closest(p) - p).norm());
+    // one that no legal step brings to the boundary stays where the collapses left it
+    CHECK((nearest < 1e-9 || V.row(v) == s.coarse.V.row(v)));
+    moved += V.row(v) != s.coarse.V.row(v);
+  }
+  CHECK(moved > on_boundary.size() / 2);
+  options.fix_boundary = true;
+  const Eigen::MatrixXd W = relocated(s, result, options);
+  for(const int v : on_boundary)
+    CHECK(W.row(v) == s.coarse.V.row(v));
+  CHECK(result.moved_vertices > 0);
+}
+
+TEST_CASE("two sheets that nearly touch do not pass through each other")
+{
+  Simplified_mesh s = closed_example();
+  shapes::Matrices inner = s.coarse;
+  for(Eigen::Index f = 0; f < inner.T.rows(); ++f)
+    std::swap(inner.T(f, 1), inner.T(f, 2));
+  const Eigen::Index n = s.coarse.V.rows(), m = s.coarse.T.rows();
+  Eigen::MatrixXd V(2 * n, 3);
+  V << s.coarse.V, 0.998 * s.coarse.V;
+  Eigen::MatrixXi T(2 * m, 3);
+  T << s.coarse.T, (inner.T.array() + int(n)).matrix();
+  REQUIRE(SG::internal::self_intersecting_faces(V, T).empty());
+  // fixed below, moving above: what is found in between has to be taken back
+  std::vector<bool> fixed(std::size_t(2 * n), false);
+  std::fill(fixed.begin() + n, fixed.end(), true);
+  Eigen::SparseMatrix<double> P(2 * n, s.P.cols());
+  std::vector<Eigen::Triplet<double>> entries;
+  for(Eigen::Index j = 0; j < s.P.outerSize(); ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(s.P, j); it; ++it)
+      for(const Eigen::Index offset : {Eigen::Index(0), n})
+        entries.emplace_back(int(it.row() + offset), int(j), it.value());
+  P.setFromTriplets(entries.begin(), entries.end());
+  SG::Relocation_options options;
+  options.signals = Signals::carried;
+  options.size_tolerance = 0.5; // there is hardly any volume between the sheets
+  Eigen::MatrixXd free = V, guarded = V;
+  options.keep_free_of_self_intersections = false;
+  SG::relocate_positions(free, T, P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
+  REQUIRE(!SG::internal::self_intersecting_faces(free, T).empty());
+  options.keep_free_of_self_intersections = true;
+  const SG::Relocation_result result =
+      SG::relocate_positions(guarded, T, P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
+  CHECK(SG::internal::self_intersecting_faces(guarded, T).empty());
+  CHECK(result.reverted_vertices > 0);
+  CHECK(result.moved_vertices > 0);
+}
+
+TEST_CASE("a cancelled relocation leaves the positions, a spent budget ends it")
+{
+  const Simplified_mesh& s = closed_example();
+  Eigen::MatrixXd V = s.coarse.V;
+  SG::Relocation_options options;
+  int calls = 0;
+  options.progress = [&](const double fraction) {
+    CHECK((fraction >= 0 && fraction <= 1));
+    return ++calls < 4;
+  };
+  CHECK_THROWS_AS(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options),
+                  SG::Cancelled);
+  CHECK(V == s.coarse.V);
+  CHECK(calls == 4);
+  options.progress = nullptr;
+  options.maximum_seconds = 0;
+  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps == 0);
+  options.maximum_seconds = 1e9;
+  options.relative_decrease = 0.9;
+  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps == 10);
+}
+
+TEST_CASE("relocation refuses what does not belong together")
+{
+  const Simplified_mesh& s = closed_example();
+  const auto refusal = [&](const Eigen::MatrixXd& V, const Eigen::SparseMatrix<double>& P,
+                           const SG::Relocation_options& options) {
+    Eigen::MatrixXd copy = V;
+    try {
+      SG::relocate_positions(copy, s.coarse.T, P, s.fine, s.F(), s.Z(), 0.5, {}, options);
+    } catch(const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK_THAT(refusal(s.coarse.V, s.P.transpose(), {}), ContainsSubstring("coarse x fine"));
+  SG::Relocation_options options;
+  options.trust_radius = 0;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("trust_radius"));
+  options = {};
+  options.largest_turn = 2;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_turn"));
+  Eigen::MatrixXd V = s.coarse.V;
+  V.row(s.coarse.T(3, 0)) = V.row(s.coarse.T(3, 1));
+  CHECK_THAT(refusal(V, s.P, {}), ContainsSubstring("face") && ContainsSubstring("no area"));
+  V(5, 1) = std::nan("");
+  CHECK_THAT(refusal(V, s.P, {}), ContainsSubstring("vertex 5"));
+}
+
+TEST_CASE("a remeshed start: any mesh of the surface with its closest-point restriction")
+{
+  const Simplified_mesh& made = closed_example();
+  Simplified_mesh s = made;
+  s.coarse =
+      shapes::bumpy_icosphere_matrices(2); // 162 vertices that no collapse chose, and somewhat disordered
+  for(Eigen::Index i = 0; i < s.coarse.V.size(); ++i)
+    s.coarse.V.data()[i] += 0.05 * std::sin(12.9898 * double(i));
+  s.coarse.V = sampled(s, s.coarse.V) * s.fine.V;
+  s.P = sampled(s, s.coarse.V);
+  REQUIRE(SG::internal::self_intersecting_faces(s.coarse.V, s.coarse.T).empty());
+  Mesh mesh = make_mesh(s.coarse);
+  SG::Eigenpairs pairs = s.pairs;
+  SMS::spectral_relocation(mesh, s.P, s.fine, pairs);
+  const Eigen::MatrixXd V = SG::mesh_matrices(mesh).V;
+  CHECK(evaluated(s, V, sampled(s, V)).norm_L < 0.97 * evaluated(s, s.coarse.V, s.P).norm_L);
+  CHECK(broken_guard(s, V) == "");
+}
+
+TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, constrained edges in place")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
+  SMS::Spectral_options options = options_with(20);
+  options.mass = SG::Mass::averaged;
+  Mesh plain = make_mesh(input), mesh = make_mesh(input);
+  const auto before = SMS::spectral_edge_collapse(plain, 160, options);
+  options.relocate = true;
+  bool told = false;
+  options.progress = [&](const SMS::Spectral_progress& p) {
+    told = told || p.phase == SMS::Spectral_phase::relocation;
+    return true;
+  };
+  auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  const auto after = SMS::spectral_edge_collapse(mesh, 160, options);
+  const shapes::Matrices a = SG::mesh_matrices(plain), b = SG::mesh_matrices(mesh);
+  CHECK(told);
+  CHECK(a.T == b.T);
+  CHECK(a.V != b.V);
+  CHECK((before.restriction - after.restriction).norm() == 0);
+  CHECK(after.E < before.E);
+  CHECK(after.relocation.moved_vertices > 100);
+  const Basis basis = eigen_input(input, options.mass, *after.eigenpairs).basis;
+  CHECK(relative_difference(energy(b, basis, after.restriction), after.E) < 1e-8);
+  CHECK(relative_difference(std::sqrt(after.E / basis.lambda.squaredNorm()), after.relative_error) < 1e-8);
+
+  Mesh held = make_mesh(input);
+  constraints = held.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  int count = 0;
+  std::set<Kernel::Point_3> ends;
+  for(const auto e : edges(held))
+    if(++count % 97 == 0) {
+      constraints[e] = true;
+      ends.insert(held.point(source(e, held)));
+      ends.insert(held.point(target(e, held)));
+    }
+  SMS::spectral_edge_collapse(held, 300, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  for(const auto v : vertices(held))
+    ends.erase(held.point(v));
+  CHECK(ends.empty());
+}
+
+TEST_CASE("a relocation that is cancelled in the one-call form leaves what the collapses made")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  SMS::Spectral_options options = options_with(10);
+  Mesh plain = make_mesh(input), mesh = make_mesh(input);
+  SMS::spectral_edge_collapse(plain, 80, options);
+  options.relocate = true;
+  options.progress = [](const SMS::Spectral_progress& p) {
+    return p.phase != SMS::Spectral_phase::relocation;
+  };
+  const auto result = SMS::spectral_edge_collapse(mesh, 80, options);
+  CHECK(result.stop_reason == SMS::Spectral_edge_collapse_result::Stop_reason::cancelled);
+  CHECK_THAT(result.explanation, ContainsSubstring("cancelled"));
+  CHECK(SG::mesh_matrices(plain).V == SG::mesh_matrices(mesh).V);
+  REQUIRE(result.warnings.size() == 1); // lumped
+  CHECK_THAT(result.warnings[0], ContainsSubstring("averaged"));
+}
