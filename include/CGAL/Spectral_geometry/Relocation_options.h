@@ -16,6 +16,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /*!
 How `relocate_positions()` moves the vertices of a coarse mesh, and what it may not do. The defaults are those
 that were measured.
@@ -29,7 +32,7 @@ struct Relocation_options
     sampled ///< F at the closest point alone. The lowest of the three in that reading; the restriction that
             ///< came with the mesh no longer fits, and the result holds the one to use instead
   };
-  Signals signals = Signals::carried_and_sampled;
+  Signals signals = Signals::carried_and_sampled; ///< the choice among them
 
   /// tau lambda_K of `Smoothed_relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
   /// times faster).
@@ -70,10 +73,12 @@ struct Relocation_result
 {
   /// E (Eq. 2) with the carried signals before and after, in the scale in which the spectra are compared. It may
   /// rise while the norms fall: the norms do not see most of it.
-  double E_before = 0, E_after = 0;
-  double objective_before = 0, objective_after = 0; ///< what was minimised
-  int steps = 0;
-  std::size_t moved_vertices = 0;
+  double E_before = 0;
+  double E_after = 0;             ///< see `E_before`
+  double objective_before = 0;    ///< what was minimised, at the start
+  double objective_after = 0;     ///< and at the end
+  int steps = 0;                  ///< of the descent
+  std::size_t moved_vertices = 0; ///< vertices that are elsewhere now
   /// vertices that went back, in part or wholly, because of a self-intersection
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds
@@ -81,6 +86,8 @@ struct Relocation_result
   /// for `Signals::sampled` the restriction of the new positions, otherwise that which was passed
   Eigen::SparseMatrix<double> restriction;
 };
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

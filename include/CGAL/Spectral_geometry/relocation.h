@@ -17,6 +17,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /*!
 moves the vertices of a coarse mesh so that its Laplace-Beltrami operator agrees better with that of a fine one;
 which triangles there are, and the restriction, stay.
@@ -37,6 +40,7 @@ be repaired, and a descent cancels it by distorting the shape.
 @param F, Z   fine x K, the signals and B^-1 L F; for eigenvectors Phi and Phi Lambda
 @param theta  weight of the consistent mass in B, of both meshes
 @param fixed  for each coarse vertex whether it must stay; empty: none
+@param options what to minimise, guards, when to stop
 
 Throws `std::invalid_argument` for matrices that do not belong together or options out of range, `Cancelled` when the
 progress callback returned false; V is then as it was.
@@ -45,6 +49,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
     Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
     const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
     const std::vector<bool>& fixed = {}, const Relocation_options& options = {});
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -18,6 +18,9 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /*!
 The metric as a function of the positions of a coarse mesh whose triangles and restricted signals stay as
 they are,
@@ -40,7 +43,7 @@ inversions. Whoever moves vertices has to guard them, see `relocate_vertices()`.
 class Relocation_energy
 {
 public:
-  using Index = Eigen::Index;
+  using Index = Eigen::Index; ///< of vertices
   /// n x 3, one position in each row
   using Positions = internal::Operator_geometry::Positions;
 
@@ -64,6 +67,7 @@ public:
     make_products(F, Z);
   }
 
+  /// n.
   Index number_of_vertices() const { return m_geometry.number_of_vertices(); }
 
   /// returns E(V), infinity if a triangle has no area.
@@ -142,6 +146,8 @@ private:
   std::vector<Eigen::MatrixXd> m_products;
   Eigen::VectorXd m_E, m_coefficients, m_image;
 };
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

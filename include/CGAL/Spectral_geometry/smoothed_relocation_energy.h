@@ -21,11 +21,15 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
 /// Signals on a coarse mesh that depend on where its vertices are: read off the fine surface, for instance.
 class Position_dependent_signals
 {
 public:
-  using Positions = internal::Operator_geometry::Positions;
+  using Positions = internal::Operator_geometry::Positions; ///< n x 3, one position in each row
+  /// n x K, one vertex in each row
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   virtual ~Position_dependent_signals() = default;
@@ -57,8 +61,9 @@ treated 32 at a time, so that what a solve works on stays in the cache.
 class Smoothed_relocation_energy
 {
 public:
-  using Index = Eigen::Index;
-  using Positions = internal::Operator_geometry::Positions;
+  using Index = Eigen::Index;                               ///< of vertices
+  using Positions = internal::Operator_geometry::Positions; ///< n x 3, one position in each row
+  /// n x K, one vertex in each row
   using Rows = Position_dependent_signals::Rows;
 
   /*!
@@ -90,6 +95,7 @@ public:
       m_given.push_back({panel(F, first), panel(Z, first)});
   }
 
+  /// n.
   Index number_of_vertices() const { return m_geometry.number_of_vertices(); }
 
   /// The weight of E; the gradient follows.
@@ -105,8 +111,9 @@ public:
     return evaluate(V, &gradient);
   }
 
-  /// The two terms where the last value was taken: the smoothed one, and E without its weight.
+  /// The first term where the last value was taken.
   double smoothed_part() const { return m_smoothed; }
+  /// E, without its weight, where the last value was taken.
   double plain_part() const { return m_plain; }
 
 private:
@@ -343,6 +350,8 @@ private:
   Panel m_Y, m_X, m_multiplier;
   mutable Panel m_scratch;
 };
+
+/// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL

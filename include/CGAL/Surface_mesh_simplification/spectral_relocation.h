@@ -29,6 +29,9 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
 namespace internal {
 
 /// Which vertices may not move: those that are constrained, and both ends of constrained edges.
@@ -127,6 +130,8 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(),
                                  Spectral_geometry::mass_blend(mass), options, {}, np);
 }
+
+/// @}
 
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
