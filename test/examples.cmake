@@ -42,3 +42,16 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
                                       "${CMAKE_CURRENT_BINARY_DIR}/pyfm")
   set_tests_properties("pyfm-recipe" PROPERTIES LABELS examples FIXTURES_REQUIRED shape SKIP_RETURN_CODE 77)
 endif()
+
+if(TARGET shape_matching AND TARGET make_demo_shape)
+  add_test(NAME "matching" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/matching_test.sh" $<TARGET_FILE:shape_matching>
+                                   $<TARGET_FILE:make_demo_shape> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/matching")
+  set_tests_properties("matching" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+endif()
+
+if(TARGET spectral_distances_on_proxy AND TARGET make_demo_shape)
+  add_test(NAME "distances" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/distances_test.sh"
+                                    $<TARGET_FILE:spectral_distances_on_proxy> "${shape}"
+                                    "${CMAKE_CURRENT_BINARY_DIR}/distances")
+  set_tests_properties("distances" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+endif()

@@ -85,6 +85,21 @@ inline std::array<int, 3> sequential_colour(double value)
   return colour;
 }
 
+// A `data:` address of an image of 8 bits per channel. `type` is 2 (red, green, blue) or 3 (`palette`); each row of
+// `pixels` begins with the number of its filter.
+inline std::string png_address(std::ptrdiff_t width, std::ptrdiff_t height, char type,
+                               const std::string& palette, const std::string& pixels)
+{
+  using namespace png_internal;
+  const std::string header =
+      big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height)) +
+      '\x08' + type + std::string(3, '\0'); // 8 bits, no compression, filter or interlace but the usual
+  const std::string png = std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", header) +
+                          (palette.empty() ? "" : chunk("PLTE", palette)) +
+                          chunk("IDAT", zlib_stored(pixels)) + chunk("IEND", "");
+  return "data:image/png;base64," + base64(png);
+}
+
 // A `data:` address of the image of |A|, one pixel per entry; white is zero, entries of `largest` and above
 // are darkest.
 inline std::string matrix_image(const Eigen::MatrixXd& A, double largest = 1)
@@ -99,12 +114,7 @@ inline std::string matrix_image(const Eigen::MatrixXd& A, double largest = 1)
     for(Eigen::Index j = 0; j < A.cols(); ++j)
       pixels += static_cast<char>(std::lround(255 * (std::min)(1., std::abs(A(i, j)) / largest)));
   }
-  const std::string header = big_endian(static_cast<std::uint32_t>(A.cols())) +
-                             big_endian(static_cast<std::uint32_t>(A.rows())) +
-                             std::string("\x08\x03\x00\x00\x00", 5); // 8 bits, palette
-  const std::string png = std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", header) + chunk("PLTE", palette) +
-                          chunk("IDAT", zlib_stored(pixels)) + chunk("IEND", "");
-  return "data:image/png;base64," + base64(png);
+  return png_address(A.cols(), A.rows(), 3, palette, pixels);
 }
 
 #endif // SPECTRAL_EXAMPLES_REPORT_PNG_IMAGE_H

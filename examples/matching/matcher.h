@@ -1,0 +1,47 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_MATCHING_MATCHER_H
+#define SPECTRAL_EXAMPLES_MATCHING_MATCHER_H
+
+#include "proxy.h"
+
+#include <Eigen/Core>
+
+#include <utility>
+#include <vector>
+
+struct Matching_options
+{
+  Eigen::Index initial_modes = 20; // of the map from descriptors
+  Eigen::Index modes = 100;        // of the maps after up-sampling
+  Eigen::Index zoom_step = 4;
+  int filter_iterations = 5; // of the Product Manifold Filter; 0: none
+  int fine_iterations = 2;   // from vertices to functional map and back on the fine meshes
+  int threads = 1;
+  CGAL::Spectral_geometry::Functional_map_weights weights;
+};
+
+// Pairs of vertices of X and Y that are known to correspond.
+using Landmarks = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
+
+struct Match
+{
+  std::vector<Eigen::Index> map;               // for each vertex of fine X the vertex of fine Y
+  Eigen::MatrixXd C;                           // functional map from fine Y to fine X
+  double condition = 1, relative_residual = 0; // of the lift
+  double seconds_coarse = 0, seconds_lift = 0;
+};
+
+// Matches fine X to fine Y over their proxies, which must have equal numbers of vertices.
+Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, const Proxy& coarse_Y,
+                         const Landmarks& landmarks, const Matching_options& options,
+                         const Keep_going& keep_going);
+
+// The same without proxies, from one start and without the filter: several starts and the assignment are beyond meshes of
+// full size.
+Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
+                     const Matching_options& options, const Keep_going& keep_going);
+
+#endif // SPECTRAL_EXAMPLES_MATCHING_MATCHER_H

@@ -1,0 +1,176 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H
+#define SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H
+
+#include "../report/html_report.h"
+#include "../report/mesh_picture.h"
+#include "matcher.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+// One way to match X and Y, with what it cost and how well it went.
+struct Matching_result
+{
+  std::string proxy;
+  std::size_t vertices = 0; // of the meshes that were matched
+  Match match;
+  double seconds_fine = 0;    // eigenpairs of both fine meshes, side by side
+  double seconds_proxies = 0; // simplification and coarse eigenpairs, side by side
+  std::vector<double> errors; // ascending; empty without a ground truth
+
+  double seconds() const
+  {
+    return seconds_fine + seconds_proxies + match.seconds_coarse + match.seconds_lift;
+  }
+
+  double mean_error() const
+  {
+    double sum = 0;
+    for(const double e : errors)
+      sum += e;
+    return errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                          : sum / static_cast<double>(errors.size());
+  }
+
+  // The part of the errors that are at most x.
+  double part_below(double x) const
+  {
+    return static_cast<double>(std::upper_bound(errors.begin(), errors.end(), x) - errors.begin()) /
+           static_cast<double>(errors.size());
+  }
+};
+
+struct Matching_comparison
+{
+  std::string command, X, Y, mass;
+  long modes = 0;
+  std::size_t landmarks = 0;
+  const Shape *shape_X = nullptr, *shape_Y = nullptr;
+  std::vector<Matching_result> results;
+};
+
+inline void print_matching(const Matching_comparison& c)
+{
+  std::printf("%-17s %8s %9s %9s %9s %9s %9s %10s %10s\n", "proxy", "vertices", "eigen, s", "proxy, s",
+              "match, s", "lift, s", "total, s", "mean error", "below 0.05");
+  for(const Matching_result& r : c.results) {
+    std::printf("%-17s %8zu %9.2f %9.2f %9.2f %9.2f %9.2f", r.proxy.c_str(), r.vertices, r.seconds_fine,
+                r.seconds_proxies, r.match.seconds_coarse, r.match.seconds_lift, r.seconds());
+    if(r.errors.empty())
+      std::printf(" %10s %10s\n", "-", "-");
+    else
+      std::printf(" %10.4f %8.1f %%\n", r.mean_error(), 100 * r.part_below(0.05));
+  }
+}
+
+namespace matching_report_internal {
+
+inline std::string result_table(const Matching_comparison& c)
+{
+  using namespace html_internal;
+  std::string html =
+      "<table>\n" + heading_row({"proxy", "vertices", "eigenpairs, s", "proxies, s", "matching, s", "lift, s",
+                                 "total, s", "condition", "mean error", "median", "90 %", "largest"},
+                                1);
+  for(const Matching_result& r : c.results) {
+    const auto quantile = [&](double q) {
+      return r.errors.empty()
+                 ? std::numeric_limits<double>::quiet_NaN()
+                 : r.errors[static_cast<std::size_t>(q * static_cast<double>(r.errors.size() - 1))];
+    };
+    html += "<tr>" + cell(escaped(r.proxy), "td", "l") + cell(std::to_string(r.vertices));
+    for(const double x :
+        {r.seconds_fine, r.seconds_proxies, r.match.seconds_coarse, r.match.seconds_lift, r.seconds(),
+         r.match.condition, r.mean_error(), quantile(0.5), quantile(0.9), quantile(1)})
+      html += cell(formatted(x));
+    html += "</tr>\n";
+  }
+  return html + "</table>\n";
+}
+
+inline std::string error_curves(const Matching_comparison& c)
+{
+  Plot plot;
+  plot.title = "Vertices that are at most so far from the truth";
+  plot.x_label = "geodesic distance / square root of the area";
+  plot.y_label = "per cent";
+  plot.width = 620;
+  plot.height = 400;
+  std::string legend = "<ul class='legend'>\n";
+  for(std::size_t i = 0; i < c.results.size(); ++i) {
+    Curve curve;
+    curve.name = c.results[i].proxy;
+    curve.style = line_style(i, i);
+    curve.markers = false;
+    for(int k = 0; k <= 100; ++k) {
+      curve.x.push_back(0.0025 * k);
+      curve.y.push_back(100 * c.results[i].part_below(0.0025 * k));
+    }
+    legend += "<li>" + svg_sample(curve.style, false) + escaped(curve.name) + "</li>\n";
+    plot.curves.push_back(curve);
+  }
+  return legend + "</ul>\n" + svg(plot);
+}
+
+inline std::string figure(const std::string& picture, const std::string& caption)
+{
+  return "<figure class='wide'><img alt='" + escaped(caption) + "' src='" + picture + "'><figcaption>" +
+         escaped(caption) + "</figcaption></figure>\n";
+}
+
+inline std::string pictures(const Matching_comparison& c)
+{
+  const Eigen::MatrixXd colours = colours_by_position(c.shape_Y->matrices.V);
+  Picture picture;
+  picture.colours = colours;
+  std::string html =
+      "<div class='figures'>\n" + figure(mesh_picture(c.shape_Y->matrices, picture), "Y: " + c.Y);
+  for(const Matching_result& r : c.results) {
+    picture.colours.resize(c.shape_X->matrices.V.rows(), 3);
+    for(std::size_t i = 0; i < r.match.map.size(); ++i)
+      picture.colours.row(static_cast<Eigen::Index>(i)) = colours.row(r.match.map[i]);
+    html += figure(mesh_picture(c.shape_X->matrices, picture), "X: " + c.X + ", proxy " + r.proxy);
+  }
+  return html + "</div>\n";
+}
+
+} // namespace matching_report_internal
+
+// The page: no network, no JavaScript, no other file.
+inline std::string matching_page(const Matching_comparison& c)
+{
+  using namespace matching_report_internal;
+  using html_internal::cell;
+  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+                     "<meta name='viewport' content='width=device-width'><title>Matching " +
+                     escaped(c.X) + " and " + escaped(c.Y) + "</title>\n<style>" + html_internal::style() +
+                     "figure.wide{width:462px}figure.wide img{width:460px;height:330px;image-rendering:auto}"
+                     "</style></head><body>\n<h1>Matching of " +
+                     escaped(c.X) + " and " + escaped(c.Y) + "</h1>\n<table>\n";
+  const auto fact = [&](const std::string& name, const std::string& value) {
+    html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
+  };
+  fact("X, Y", std::to_string(c.shape_X->matrices.V.rows()) + " and " +
+                   std::to_string(c.shape_Y->matrices.V.rows()) + " vertices");
+  fact("Eigenvectors, mass", std::to_string(c.modes) + ", " + escaped(c.mass));
+  fact("Landmarks", std::to_string(c.landmarks));
+  fact("Command", "<code>" + escaped(c.command) + "</code>");
+  html += "</table>\n<h2>Times and geodesic errors</h2>\n" + result_table(c);
+  html +=
+      "<p class='note'>Errors: geodesic distances on Y to the true vertex, in square roots of its area (heat "
+      "method). Condition: of the map that the lift inverts, fine to coarse; 1 when nothing was lost.</p>\n";
+  if(!c.results.empty() && !c.results.front().errors.empty())
+    html += error_curves(c);
+  html += "<h2>Colours of Y carried to X</h2>\n" + pictures(c);
+  return html + "</body></html>\n";
+}
+
+#endif // SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H

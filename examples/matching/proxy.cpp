@@ -1,0 +1,118 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "proxy.h"
+
+#include "../compare/heaviest_vertices.h"
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Eigen::SparseMatrix<double> picking(const std::vector<Eigen::Index>& representative, Eigen::Index n)
+{
+  std::vector<Eigen::Triplet<double>> ones;
+  for(std::size_t i = 0; i < representative.size(); ++i)
+    ones.emplace_back(static_cast<int>(i), static_cast<int>(representative[i]), 1.);
+  Eigen::SparseMatrix<double> P(static_cast<Eigen::Index>(representative.size()), n);
+  P.setFromTriplets(ones.begin(), ones.end());
+  return P;
+}
+
+// In the spectral metric, with the eigenpairs that the fine mesh has anyhow.
+Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, std::size_t vertices,
+                                                SG::Mass mass, const Keep_going& keep_going, Proxy& proxy)
+{
+  SMS::Spectral_options options;
+  options.mass = mass;
+  options.binary = true;
+  SG::Eigenpairs pairs = fine.spectral.pairs; // at the scale of the mesh
+  pairs.values /= fine.area;
+  pairs.vectors /= std::sqrt(fine.area);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
+  options.progress = [&](const SMS::Spectral_progress&) { return keep_going(); };
+  const auto result = SMS::spectral_edge_collapse(mesh, vertices, options);
+  if(!result.explanation.empty() && keep_going())
+    throw std::runtime_error(result.explanation);
+  proxy.vertex_map = result.vertex_map;
+  return result.restriction;
+}
+
+Eigen::SparseMatrix<double> simplify_by_quadrics(Mesh& mesh, std::size_t vertices, Proxy& proxy)
+{
+  const SMS::Restriction_visitor<Mesh> visitor(mesh);
+  SMS::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(vertices, mesh),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(policies.get_placement())
+                         .visitor(visitor));
+  if(mesh.number_of_vertices() != vertices)
+    throw std::runtime_error("Garland-Heckbert ran out of edges at " +
+                             std::to_string(mesh.number_of_vertices()) + " vertices instead of " +
+                             std::to_string(vertices) + ".");
+  proxy.vertex_map = visitor.vertex_map();
+  return visitor.restriction();
+}
+
+} // namespace
+
+const char* proxy_name(Proxy_kind kind)
+{
+  return kind == Proxy_kind::spectral           ? "spectral"
+         : kind == Proxy_kind::garland_heckbert ? "garland_heckbert"
+                                                : "none";
+}
+
+Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going)
+{
+  Shape shape;
+  SG::Laplace_operator op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
+  shape.area = op.mass.sum();
+  op.B /= shape.area;
+  op.mass /= shape.area;
+  SG::Eigenpairs_options options;
+  options.tolerance = 1e-6; // far below the errors of a match
+  options.progress = [&](double) { return keep_going(); };
+  shape.spectral.pairs = SG::eigenpairs(op, (std::min)(modes, op.L.rows()), options);
+  shape.spectral.op = std::move(op);
+  shape.spectral.T = matrices.T;
+  shape.matrices = std::move(matrices);
+  return shape;
+}
+
+Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
+                 Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going)
+{
+  Proxy proxy;
+  const auto begin = std::chrono::steady_clock::now();
+  Mesh coarse = mesh;
+  Eigen::SparseMatrix<double> P;
+  if(kind == Proxy_kind::spectral)
+    P = simplify_spectrally(coarse, fine, vertices, mass, keep_going, proxy);
+  else
+    P = simplify_by_quadrics(coarse, vertices, proxy);
+  proxy.representative = heaviest_vertices(P);
+  proxy.restriction = picking(proxy.representative, P.cols());
+  SG::Mesh_matrices matrices = SG::mesh_matrices(coarse); // garbage is skipped, in the order of P
+  proxy.seconds_simplification = seconds_since(begin);
+  const auto middle = std::chrono::steady_clock::now();
+  proxy.shape = make_shape(std::move(matrices), modes, mass, keep_going);
+  proxy.seconds_eigenpairs = seconds_since(middle);
+  return proxy;
+}

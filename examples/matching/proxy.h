@@ -1,0 +1,51 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_MATCHING_PROXY_H
+#define SPECTRAL_EXAMPLES_MATCHING_PROXY_H
+
+#include "../io/mesh_io.h"
+
+#include <CGAL/Spectral_geometry/functional_map_estimation.h>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+// A mesh with its spectrum at unit area, and the scale that made it so.
+struct Shape
+{
+  CGAL::Spectral_geometry::Mesh_matrices matrices; // as read
+  CGAL::Spectral_geometry::Spectral_shape spectral;
+  double area = 0; // as read
+};
+
+enum class Proxy_kind { spectral, garland_heckbert, none };
+
+const char* proxy_name(Proxy_kind kind);
+
+// A coarse mesh that stands for a fine one; with `Proxy_kind::none` the fine one itself.
+struct Proxy
+{
+  Shape shape;
+  Eigen::SparseMatrix<double> restriction;  // coarse x fine, binary
+  std::vector<Eigen::Index> representative; // for each coarse vertex the fine one that the restriction picks
+  std::vector<std::size_t> vertex_map;      // for each fine vertex the coarse one it went to
+  double seconds_simplification = 0, seconds_eigenpairs = 0;
+};
+
+// Returns false to stop.
+using Keep_going = std::function<bool()>;
+
+Shape make_shape(CGAL::Spectral_geometry::Mesh_matrices matrices, Eigen::Index modes,
+                 CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going);
+
+// Throws std::runtime_error where the mesh cannot be reduced to exactly `vertices`.
+Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
+                 Eigen::Index modes, CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going);
+
+#endif // SPECTRAL_EXAMPLES_MATCHING_PROXY_H

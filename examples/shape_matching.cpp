@@ -1,0 +1,230 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows the options.
+
+#include "io/matrix_io.h"
+#include "io/mesh_io.h"
+#include "io/output_files.h"
+#include "matching/geodesic_error.h"
+#include "matching/matching_arguments.h"
+#include "matching/matching_report.h"
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+
+#include <chrono>
+#include <csignal>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace SG = CGAL::Spectral_geometry;
+
+// Set by Ctrl-C. The callbacks look at it, so that the program ends by its own way and leaves no file behind.
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void interrupt(int)
+{
+  interrupted = 1;
+}
+
+namespace {
+
+bool keep_going()
+{
+  return !interrupted;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// f for X beside f for Y, with more than one thread.
+template <class Function_X, class Function_Y>
+auto side_by_side(int threads, const Function_X& for_X, const Function_Y& for_Y)
+{
+  auto x = std::async(threads > 1 ? std::launch::async : std::launch::deferred, for_X);
+  auto y = for_Y();
+  return std::make_pair(x.get(), std::move(y));
+}
+
+// One run of the program.
+class Run
+{
+public:
+  explicit Run(const Matching_arguments& arguments)
+    : m_arguments(arguments)
+    , m_X(read_mesh(arguments.X))
+    , m_Y(read_mesh(arguments.Y))
+    , m_mass(arguments.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped)
+  {
+    for(const std::string& path : {m_arguments.output, m_arguments.report})
+      if(!path.empty())
+        m_files.add(path);
+    check_sizes();
+    read_correspondences();
+  }
+
+  void run()
+  {
+    compute_fine_shapes();
+    Matching_comparison c;
+    c.command = m_arguments.command;
+    c.X = std::filesystem::path(m_arguments.X).filename().string();
+    c.Y = std::filesystem::path(m_arguments.Y).filename().string();
+    c.mass = m_arguments.mass;
+    c.modes = m_arguments.eigenvectors;
+    c.landmarks = m_landmarks.size();
+    c.shape_X = &m_shape_X;
+    c.shape_Y = &m_shape_Y;
+    for(const Proxy_kind kind : m_arguments.kinds())
+      c.results.push_back(match(kind));
+    if(!m_truth.empty())
+      measure(c.results);
+    write(c);
+    if(!m_arguments.quiet)
+      print_matching(c);
+  }
+
+private:
+  void check_sizes() const
+  {
+    for(const auto& [mesh, path] :
+        {std::make_pair(&m_X, &m_arguments.X), std::make_pair(&m_Y, &m_arguments.Y)})
+      if(static_cast<long>(mesh->number_of_vertices()) < m_arguments.vertices)
+        throw std::runtime_error("--vertices is " + std::to_string(m_arguments.vertices) + ", but '" + *path +
+                                 "' has " + std::to_string(mesh->number_of_vertices()) + " vertices.");
+  }
+
+  void read_correspondences()
+  {
+    const std::size_t n_X = m_X.number_of_vertices(), n_Y = m_Y.number_of_vertices();
+    if(!m_arguments.landmarks.empty())
+      for(const auto& line : read_vertex_lines(m_arguments.landmarks, {n_X, n_Y}))
+        m_landmarks.emplace_back(line[0], line[1]);
+    if(m_arguments.ground_truth.empty())
+      return;
+    for(const auto& line : read_vertex_lines(m_arguments.ground_truth, {n_Y}))
+      m_truth.push_back(line[0]);
+    if(m_truth.size() != n_X)
+      throw std::runtime_error("'" + m_arguments.ground_truth + "' has " + std::to_string(m_truth.size()) +
+                               " lines, it must have one for each of the " + std::to_string(n_X) +
+                               " vertices of X.");
+  }
+
+  void compute_fine_shapes()
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto shape = [&](const Mesh& mesh) {
+      return make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_mass, keep_going);
+    };
+    std::tie(m_shape_X, m_shape_Y) = side_by_side(
+        m_arguments.threads, [&] { return shape(m_X); }, [&] { return shape(m_Y); });
+    m_seconds_fine = seconds_since(begin);
+  }
+
+  Matching_result match(Proxy_kind kind) const
+  {
+    Matching_options options;
+    options.initial_modes = m_arguments.initial_modes;
+    options.modes = m_arguments.eigenvectors;
+    options.filter_iterations = static_cast<int>(m_arguments.filter_iterations);
+    options.fine_iterations = static_cast<int>(m_arguments.fine_iterations);
+    options.threads = m_arguments.threads;
+    Matching_result result;
+    result.proxy = proxy_name(kind);
+    result.seconds_fine = m_seconds_fine;
+    if(kind == Proxy_kind::none) {
+      result.vertices = m_X.number_of_vertices();
+      result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, options, keep_going);
+      return result;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
+      return make_proxy(mesh, fine, kind, static_cast<std::size_t>(m_arguments.vertices),
+                        m_arguments.eigenvectors, m_mass, keep_going);
+    };
+    const auto [coarse_X, coarse_Y] = side_by_side(
+        m_arguments.threads, [&] { return proxy(m_X, m_shape_X); }, [&] { return proxy(m_Y, m_shape_Y); });
+    result.seconds_proxies = seconds_since(begin);
+    result.vertices = static_cast<std::size_t>(m_arguments.vertices);
+    result.match =
+        match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks, options, keep_going);
+    return result;
+  }
+
+  void measure(std::vector<Matching_result>& results) const
+  {
+    std::vector<const std::vector<Eigen::Index>*> maps;
+    for(const Matching_result& r : results)
+      maps.push_back(&r.match.map);
+    Geodesic_error error(m_Y, m_shape_Y.area, m_truth, static_cast<std::size_t>(m_arguments.samples));
+    const auto columns = error.measure(maps, [](double) {
+      if(interrupted)
+        throw SG::Cancelled();
+    });
+    for(std::size_t i = 0; i < results.size(); ++i)
+      results[i].errors = columns[i];
+  }
+
+  void write(const Matching_comparison& c)
+  {
+    if(!m_arguments.output.empty()) {
+      const std::vector<Eigen::Index>& map = c.results.front().match.map;
+      write_indices(m_files.temporary(m_arguments.output), std::vector<std::size_t>(map.begin(), map.end()),
+                    m_arguments.output);
+    }
+    if(!m_arguments.report.empty()) {
+      std::ofstream stream(m_files.temporary(m_arguments.report), std::ios::binary);
+      stream << matching_page(c);
+      finish_writing(stream, m_arguments.report);
+    }
+    if(interrupted)
+      throw SG::Cancelled();
+    m_files.commit();
+  }
+
+  Matching_arguments m_arguments;
+  Mesh m_X, m_Y;
+  SG::Mass m_mass;
+  Output_files m_files;
+  Landmarks m_landmarks;
+  std::vector<Eigen::Index> m_truth;
+  Shape m_shape_X, m_shape_Y;
+  double m_seconds_fine = 0;
+};
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  try {
+    const Matching_arguments arguments = parse_matching_arguments(argc, argv);
+    if(!arguments.help.empty())
+      std::cout << arguments.help;
+    else
+      Run(arguments).run();
+    return 0;
+  } catch(const SG::Cancelled&) {
+    std::cerr << "shape_matching: interrupted, nothing was written.\n";
+    return 130;
+  } catch(const std::bad_alloc&) {
+    std::cerr
+        << "shape_matching: the memory does not suffice for these meshes and this number of eigenvectors.\n";
+  } catch(const std::exception& error) {
+    std::cerr << "shape_matching: " << error.what() << '\n';
+  }
+  return 1;
+}

@@ -1,0 +1,395 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Spectral distances and signatures on a simplified mesh, brought back to the input in three ways and compared with
+// those of the input (section 5.1 of Lescoat et al. 2020); --help shows the options.
+
+#include "compare/heaviest_vertices.h"
+#include "io/mesh_io.h"
+#include "io/output_files.h"
+#include "report/html_report.h"
+#include "report/mesh_picture.h"
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <boost/program_options.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+namespace {
+
+struct Distance_arguments
+{
+  std::string mesh, report, mass = "averaged", command, help;
+  long vertices = 0, eigenvectors = 100, sources = 10;
+};
+
+using Sources = std::vector<Eigen::Index>;
+
+double seconds_of(const std::function<void()>& work)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A mesh with its spectrum at unit area, as in the figures of the paper.
+struct Unit_shape
+{
+  SG::Mesh_matrices matrices;
+  SG::Laplace_operator op;
+  SG::Eigenpairs pairs;
+  double area = 0, seconds = 0; // of the eigenpairs
+
+  Unit_shape(SG::Mesh_matrices mesh, Eigen::Index K, SG::Mass mass)
+    : matrices(std::move(mesh))
+  {
+    op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
+    area = op.mass.sum();
+    op.B /= area;
+    op.mass /= area;
+    seconds = seconds_of([&] { pairs = SG::eigenpairs(op, K); });
+  }
+};
+
+// A kind of distance, from all sources at once.
+struct Distance
+{
+  std::string name;
+  std::function<Eigen::MatrixXd(const SG::Eigenpairs&, const Sources&)> compute;
+};
+
+// Times and energies are those of the fine mesh, for both.
+std::vector<Distance> distances(const SG::Eigenpairs& fine)
+{
+  const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(fine);
+  return {
+      {"diffusion, t = 0.01",
+       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_diffusion_distance(p, s, 0.01); }},
+      {"biharmonic",
+       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_biharmonic_distance(p, s); }},
+      {"commute time",
+       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_commute_time_distance(p, s); }},
+      {"wave kernel", [energies](const SG::Eigenpairs& p, const Sources& s) {
+         return SG::wave_kernel_distance(p, s, energies);
+       }}};
+}
+
+// Both meshes and the ways between them.
+struct Pair
+{
+  Unit_shape fine, coarse;
+  Eigen::SparseMatrix<double> P, Q; // restriction and prolongation
+  std::vector<std::size_t> vertex_map;
+  Eigen::MatrixXd C;
+  double seconds_simplification = 0;
+
+  // Functions on the coarse mesh, one per column, in the way of that number.
+  Eigen::MatrixXd bring_back(int way, const Eigen::MatrixXd& g) const
+  {
+    if(way == 0)
+      return Q * g;
+    if(way == 1)
+      return SG::prolong_through_spectrum(fine.op, fine.pairs, coarse.op, coarse.pairs, C, g);
+    Eigen::MatrixXd f(fine.op.mass.size(), g.cols());
+    for(Eigen::Index i = 0; i < f.rows(); ++i)
+      f.row(i) = g.row(static_cast<Eigen::Index>(vertex_map[static_cast<std::size_t>(i)]));
+    return f;
+  }
+};
+
+constexpr const char* ways[] = {"prolongation", "through the spectrum", "vertex map"};
+
+Pair simplify(const Distance_arguments& a)
+{
+  Mesh mesh = read_mesh(a.mesh);
+  const long n = static_cast<long>(mesh.number_of_vertices());
+  if(a.vertices > n)
+    throw std::runtime_error("--vertices is " + std::to_string(a.vertices) + ", but '" + a.mesh + "' has " +
+                             std::to_string(n) + " vertices.");
+  const SG::Mass mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  Unit_shape fine(SG::mesh_matrices(mesh), a.eigenvectors, mass);
+  SMS::Spectral_options options;
+  options.mass = mass;
+  SG::Eigenpairs pairs = fine.pairs; // at the scale of the mesh
+  pairs.values /= fine.area;
+  pairs.vectors /= std::sqrt(fine.area);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
+  SMS::Spectral_edge_collapse_result result;
+  const double seconds = seconds_of(
+      [&] { result = SMS::spectral_edge_collapse(mesh, static_cast<std::size_t>(a.vertices), options); });
+  if(!result.explanation.empty())
+    throw std::runtime_error(result.explanation);
+  Pair pair{std::move(fine),
+            Unit_shape(SG::mesh_matrices(mesh), a.eigenvectors, mass),
+            result.restriction,
+            {},
+            result.vertex_map,
+            {},
+            seconds};
+  pair.Q = SG::closest_point_interpolation(pair.fine.matrices.V, pair.coarse.matrices);
+  pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
+  return pair;
+}
+
+// Sum of mass |g - f| over sum of mass |f|, mean over the columns.
+double relative_error(const Eigen::VectorXd& mass, const Eigen::MatrixXd& g, const Eigen::MatrixXd& f)
+{
+  const Eigen::RowVectorXd errors = mass.transpose() * (g - f).cwiseAbs(),
+                           sizes = mass.transpose() * f.cwiseAbs();
+  return (errors.array() / sizes.array()).mean();
+}
+
+struct Distance_row
+{
+  std::string name;
+  double errors[3];
+  double seconds_fine = 0, seconds_coarse = 0;
+  Eigen::VectorXd fine, coarse; // of the first source
+};
+
+Distance_row compare(const Distance& distance, const Pair& pair, const Sources& sources)
+{
+  Sources coarse_sources;
+  for(const Eigen::Index s : sources)
+    coarse_sources.push_back(static_cast<Eigen::Index>(pair.vertex_map[static_cast<std::size_t>(s)]));
+  Distance_row row;
+  row.name = distance.name;
+  Eigen::MatrixXd fine, coarse;
+  row.seconds_fine = seconds_of([&] { fine = distance.compute(pair.fine.pairs, sources); });
+  row.seconds_coarse = seconds_of([&] { coarse = distance.compute(pair.coarse.pairs, coarse_sources); });
+  for(int way = 0; way < 3; ++way)
+    row.errors[way] = relative_error(pair.fine.op.mass, pair.bring_back(way, coarse), fine);
+  row.fine = fine.col(0);
+  row.coarse = coarse.col(0);
+  return row;
+}
+
+// Signatures of the coarse mesh against those of the fine one at the heaviest vertex of each cluster: P of a signature,
+// a mean of squares, is not the signature of P. Means over times or energies.
+std::vector<std::pair<std::string, double>> signature_errors(const Pair& pair)
+{
+  const std::vector<Eigen::Index> heaviest = heaviest_vertices(pair.P);
+  const auto error = [&](const Eigen::MatrixXd& fine, const Eigen::MatrixXd& coarse) {
+    Eigen::MatrixXd at_heaviest(coarse.rows(), coarse.cols());
+    for(Eigen::Index i = 0; i < coarse.rows(); ++i)
+      at_heaviest.row(i) = fine.row(heaviest[static_cast<std::size_t>(i)]);
+    return relative_error(pair.coarse.op.mass, coarse, at_heaviest);
+  };
+  const Eigen::VectorXd times = SG::heat_kernel_times(pair.fine.pairs);
+  const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(pair.fine.pairs);
+  return {{"heat kernel signature", error(SG::heat_kernel_signature(pair.fine.pairs, times),
+                                          SG::heat_kernel_signature(pair.coarse.pairs, times))},
+          {"wave kernel signature", error(SG::wave_kernel_signature(pair.fine.pairs, energies),
+                                          SG::wave_kernel_signature(pair.coarse.pairs, energies))}};
+}
+
+struct Summary
+{
+  std::vector<Distance_row> rows;
+  std::vector<std::pair<std::string, double>> signatures;
+
+  double seconds(double Distance_row::*which) const
+  {
+    double sum = 0;
+    for(const Distance_row& row : rows)
+      sum += row.*which;
+    return sum;
+  }
+};
+
+void print(const Pair& pair, const Summary& s)
+{
+  std::printf("%ld -> %ld vertices, simplified in %.2f s\n\n", static_cast<long>(pair.fine.op.mass.size()),
+              static_cast<long>(pair.coarse.op.mass.size()), pair.seconds_simplification);
+  std::printf("%-24s %14s %14s %14s %10s\n", "relative error", "prolongation", "spectrum", "vertex map",
+              "speed-up");
+  for(const Distance_row& row : s.rows)
+    std::printf("%-24s %12.2f %% %12.2f %% %12.2f %% %10.1f\n", row.name.c_str(), 100 * row.errors[0],
+                100 * row.errors[1], 100 * row.errors[2], row.seconds_fine / row.seconds_coarse);
+  for(const auto& [name, error] : s.signatures)
+    std::printf("%-24s %12.2f %% at the heaviest vertices\n", name.c_str(), 100 * error);
+  const double fine = pair.fine.seconds + s.seconds(&Distance_row::seconds_fine);
+  const double coarse = pair.coarse.seconds + s.seconds(&Distance_row::seconds_coarse);
+  std::printf("\neigenpairs and distances: %.3f s fine, %.3f s coarse, %.1f times faster\n", fine, coarse,
+              fine / coarse);
+}
+
+std::string figures(const Pair& pair, const Summary& s)
+{
+  std::string html;
+  for(const Distance_row& row : s.rows) {
+    const double largest = row.fine.maxCoeff();
+    const auto figure = [&](const SG::Mesh_matrices& mesh, const Eigen::VectorXd& squared,
+                            const std::string& caption) {
+      // All but the wave kernel's are squares: their roots are what looks like a distance.
+      const bool is_squared = row.name != "wave kernel";
+      const Eigen::VectorXd shown = is_squared ? Eigen::VectorXd((squared.array() / largest).max(0.).sqrt())
+                                               : Eigen::VectorXd(squared / largest);
+      Picture picture;
+      picture.width = 400;
+      picture.height = 290;
+      picture.colours = colours_of_values(shown);
+      picture.levels = 15 * shown;
+      html += "<figure class='wide'><img alt='" + escaped(caption) + "' src='" + mesh_picture(mesh, picture) +
+              "'><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+    };
+    html += "<h3>" + escaped(row.name) + "</h3>\n<div class='figures'>\n";
+    figure(pair.fine.matrices, row.fine, "computed on the fine mesh");
+    figure(pair.coarse.matrices, row.coarse, "computed on the coarse mesh");
+    for(int way = 0; way < 2; ++way)
+      figure(pair.fine.matrices, pair.bring_back(way, row.coarse).col(0),
+             std::string("brought back: ") + ways[way]);
+    html += "</div>\n";
+  }
+  return html;
+}
+
+std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s)
+{
+  using namespace html_internal;
+  const std::string name = std::filesystem::path(a.mesh).filename().string();
+  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+                     "<meta name='viewport' content='width=device-width'><title>Distances on a proxy: " +
+                     escaped(name) + "</title>\n<style>" + style() +
+                     "figure.wide{width:402px}figure.wide img{width:400px;height:290px;image-rendering:auto}"
+                     "</style></head><body>\n<h1>Spectral distances on a proxy: " +
+                     escaped(name) + "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) +
+                     " vertices, proxy " + std::to_string(pair.coarse.op.mass.size()) + " vertices, " +
+                     std::to_string(a.eigenvectors) + " eigenvectors, " + escaped(a.mass) + " mass, " +
+                     std::to_string(a.sources) + " sources. <code>" + escaped(a.command) + "</code></p>\n";
+  html += "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
+          heading_row({"distance", ways[0], ways[1], ways[2], "fine, s", "coarse, s", "speed-up"}, 1);
+  for(const Distance_row& row : s.rows)
+    html += "<tr>" + cell(escaped(row.name), "td", "l") + cell(percent(row.errors[0])) +
+            cell(percent(row.errors[1])) + cell(percent(row.errors[2])) + cell(formatted(row.seconds_fine)) +
+            cell(formatted(row.seconds_coarse)) + cell(formatted(row.seconds_fine / row.seconds_coarse)) +
+            "</tr>\n";
+  html += "<tr>" + cell("eigenpairs", "td", "l") + "<td></td><td></td><td></td>" +
+          cell(formatted(pair.fine.seconds)) + cell(formatted(pair.coarse.seconds)) +
+          cell(formatted(pair.fine.seconds / pair.coarse.seconds)) + "</tr>\n";
+  html += "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) +
+          " s, once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
+          "(the wave "
+          "kernel's is not squared), mean over the sources.</p>\n<table>\n";
+  for(const auto& [signature, error] : s.signatures)
+    html += "<tr>" + cell(escaped(signature) + ", at the heaviest vertex of each cluster, %", "td", "l") +
+            cell(percent(error)) + "</tr>\n";
+  return html + "</table>\n<h2>Lines of equal distance from one source</h2>\n" + figures(pair, s) +
+         "</body></html>\n";
+}
+
+Distance_arguments parse(int argc, char* argv[])
+{
+  namespace po = boost::program_options;
+  Distance_arguments a;
+  a.command = "spectral_distances_on_proxy";
+  for(int k = 1; k < argc; ++k)
+    a.command += std::string(" ") + argv[k];
+  po::options_description options("spectral_distances_on_proxy MESH --vertices N [options]\n\nComputes "
+                                  "spectral distances on a simplified mesh and "
+                                  "says how far they are from those of MESH.\n\nOptions",
+                                  100, 60);
+  options.add_options()("help", "show this text")("mesh", po::value(&a.mesh),
+                                                  "the mesh (the first argument)")(
+      "vertices", po::value(&a.vertices)->value_name("N"), "of the simplified mesh")(
+      "eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
+      "of both meshes")("sources", po::value(&a.sources)->value_name("S")->default_value(a.sources),
+                        "random vertices to measure distances from")(
+      "mass", po::value(&a.mass)->value_name("lumped|averaged")->default_value(a.mass), "the mass matrix")(
+      "report", po::value(&a.report)->value_name("report.html"), "write a page with pictures");
+  po::positional_options_description positions;
+  positions.add("mesh", 1);
+  po::variables_map values;
+  try {
+    po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(), values);
+    po::notify(values);
+  } catch(const po::error& error) {
+    throw std::runtime_error(std::string(error.what()) + "; --help shows the options.");
+  }
+  if(values.count("help")) {
+    std::ostringstream text;
+    text << options;
+    a.help = text.str();
+    return a;
+  }
+  if(a.mesh.empty())
+    throw std::runtime_error("a mesh is needed: spectral_distances_on_proxy MESH --vertices N.");
+  if(a.eigenvectors < 3)
+    throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
+                             ", it must be at least 3.");
+  if(a.vertices < a.eigenvectors)
+    throw std::runtime_error("--vertices is " + std::to_string(a.vertices) +
+                             ", it must be given and at least --eigenvectors, which is " +
+                             std::to_string(a.eigenvectors) + ".");
+  if(a.sources < 1)
+    throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
+  if(a.mass != "lumped" && a.mass != "averaged")
+    throw std::runtime_error("--mass is '" + a.mass + "', it must be lumped or averaged.");
+  return a;
+}
+
+void run(const Distance_arguments& a)
+{
+  Output_files files;
+  if(!a.report.empty())
+    files.add(a.report);
+  const Pair pair = simplify(a);
+  std::mt19937 random(1);
+  Sources sources;
+  for(long s = 0; s < a.sources; ++s)
+    sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(pair.fine.op.mass.size())));
+  Summary summary;
+  for(const Distance& distance : distances(pair.fine.pairs))
+    summary.rows.push_back(compare(distance, pair, sources));
+  summary.signatures = signature_errors(pair);
+  if(!a.report.empty()) {
+    std::ofstream stream(files.temporary(a.report), std::ios::binary);
+    stream << page(a, pair, summary);
+    stream.close();
+    if(!stream)
+      throw std::runtime_error("cannot write '" + a.report + "': the disk refused it, is it full?");
+    files.commit();
+  }
+  print(pair, summary);
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  try {
+    const Distance_arguments arguments = parse(argc, argv);
+    if(!arguments.help.empty())
+      std::cout << arguments.help;
+    else
+      run(arguments);
+    return 0;
+  } catch(const std::bad_alloc&) {
+    std::cerr << "spectral_distances_on_proxy: the memory does not suffice for this mesh.\n";
+  } catch(const std::exception& error) {
+    std::cerr << "spectral_distances_on_proxy: " << error.what() << '\n';
+  }
+  return 1;
+}

@@ -1,0 +1,69 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# distances_test.sh SPECTRAL_DISTANCES_ON_PROXY SHAPE FOLDER
+#
+# Distances on a proxy of a shape of about 2,000 vertices, and what is said when there are none. FOLDER is emptied and used.
+
+set -u
+distances=$1
+shape=$2
+folder=$3
+failures=0
+
+rm -rf "$folder"
+mkdir -p "$folder" && cd "$folder" || exit 1
+
+fail()
+{
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# refuses NAME PATTERN ARGUMENTS...: an error of one sentence that holds PATTERN.
+refuses()
+{
+  name=$1
+  pattern=$2
+  shift 2
+  "$distances" "$@" --report report.html >said 2>complained && fail "$name: the exit status is 0"
+  [ ! -s said ] || fail "$name: it printed $(cat said)"
+  [ "$(wc -l <complained)" -eq 1 ] || fail "$name: not one line: $(cat complained)"
+  grep -q "^spectral_distances_on_proxy: .*\.$" complained || fail "$name: not a sentence: $(cat complained)"
+  grep -q -e "$pattern" complained || fail "$name: '$pattern' is not in: $(cat complained)"
+  [ ! -e report.html ] || fail "$name: it left report.html"
+}
+
+refuses "no mesh" "a mesh is needed" --vertices 300
+refuses "no number of vertices" "\-\-vertices is 0" "$shape"
+refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300
+refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000
+refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --vertices 50 --eigenvectors 60
+refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full
+refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red
+
+# within NAME COLUMN LARGEST: the error of that row is positive and at most LARGEST per cent.
+within()
+{
+  error=$(awk -F '  +' -v name="$1" -v column="$2" '$1 == name { print $column + 0 }' said)
+  awk -v e="${error:-0}" -v most="$3" 'BEGIN { exit !(e > 0 && e <= most) }' ||
+    fail "the error of $1 in column $2 is '$error', it should be positive and at most $3 %"
+}
+
+"$distances" "$shape" --vertices 500 --eigenvectors 60 --report report.html >said 2>complained ||
+  fail "the distances: $(cat complained)"
+for column in 2 3 4; do
+  within "diffusion, t = 0.01" $column 12
+  within "biharmonic" $column 12
+  within "commute time" $column 12
+  within "wave kernel" $column 20
+done
+within "heat kernel signature" 2 5
+within "wave kernel signature" 2 20
+grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
+[ "$(grep -o "data:image/png" report.html | wc -l)" -eq 16 ] || fail "the page has not sixteen pictures"
+
+[ "$failures" -eq 0 ] && echo "all passed"
+exit "$failures"

@@ -1,0 +1,101 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# matching_test.sh SHAPE_MATCHING MAKE_DEMO_SHAPE SHAPE FOLDER
+#
+# The matching: a shape of about 2,000 vertices against another pose of it, and what is said when it cannot be done. FOLDER
+# is emptied and used.
+
+set -u
+matching=$1
+make_shape=$2
+shape=$3
+folder=$4
+failures=0
+
+rm -rf "$folder"
+mkdir -p "$folder" && cd "$folder" || exit 1
+cp "$shape" X.off
+"$make_shape" Y.off --vertices 2000 --pose walk --shuffle 3 --map truth.txt >/dev/null || exit 1
+
+fail()
+{
+  echo "FAILED: $1"
+  failures=$((failures + 1))
+}
+
+# refuses NAME PATTERN ARGUMENTS...: an error of one sentence that holds PATTERN.
+refuses()
+{
+  name=$1
+  pattern=$2
+  shift 2
+  "$matching" "$@" >said 2>complained && fail "$name: the exit status is 0"
+  [ ! -s said ] || fail "$name: it printed $(cat said)"
+  [ "$(wc -l <complained)" -eq 1 ] || fail "$name: not one line: $(cat complained)"
+  grep -q "^shape_matching: .*\.$" complained || fail "$name: not a sentence: $(cat complained)"
+  grep -q -e "$pattern" complained || fail "$name: '$pattern' is not in: $(cat complained)"
+  [ ! -e map.txt ] || fail "$name: it left map.txt"
+}
+
+refuses "no arguments" "two meshes are needed"
+refuses "no output" "nothing is to be written" X.off Y.off
+refuses "a missing mesh" "cannot read 'none.off'" X.off none.off --output map.txt
+refuses "too many vertices" "vertices" X.off Y.off --output map.txt --vertices 100000
+refuses "more modes than vertices" "at most --vertices" X.off Y.off --output map.txt --vertices 50
+refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
+echo "1 2 3" >three.txt
+echo "1" >one.txt
+refuses "landmarks of three vertices" "'1 2 3'" X.off Y.off --output map.txt --landmarks three.txt
+refuses "a truth for another mesh" "lines" X.off Y.off --output map.txt --ground-truth one.txt
+
+"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,none --ground-truth truth.txt \
+  --output map.txt --report report.html >said 2>complained || fail "the match: $(cat complained)"
+[ "$(wc -l <map.txt)" -eq "$(wc -l <truth.txt)" ] || fail "map.txt has $(wc -l <map.txt) lines"
+for proxy in spectral garland_heckbert none; do
+  # The last columns: mean error and part below 0.05 with its sign.
+  error=$(awk -v proxy=$proxy '$1 == proxy { print $(NF - 2) }' said)
+  [ -n "$error" ] || fail "there is no error for $proxy in: $(cat said)"
+  awk -v e="$error" 'BEGIN { exit !(e > 0 && e < 0.05) }' || fail "the mean error over $proxy is $error"
+done
+grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
+[ "$(grep -o "data:image/png" report.html | wc -l)" -eq 4 ] || fail "the page has not four pictures"
+
+for threads in 1 2; do
+  "$matching" X.off Y.off --vertices 300 --eigenvectors 50 --threads $threads --quiet --output $threads.txt >said \
+    2>complained || fail "$threads threads: $(cat complained)"
+done
+cmp -s 1.txt 2.txt || fail "one thread and two find different maps"
+
+# An ellipsoid of three different axes has four rotations onto itself, which no signature can tell apart: landmarks
+# decide for one of them.
+awk 'BEGIN {
+  n = 48; m = 24; pi = atan2(0, -1)
+  print "OFF\n" n * (m - 1) + 2, 2 * n * (m - 1), 0
+  print 0, 0, 1.6; print 0, 0, -1.6
+  for(i = 1; i < m; ++i)
+    for(j = 0; j < n; ++j)
+      print cos(2 * pi * j / n) * sin(pi * i / m), 1.3 * sin(2 * pi * j / n) * sin(pi * i / m), 1.6 * cos(pi * i / m)
+  for(j = 0; j < n; ++j) {
+    k = (j + 1) % n
+    print 3, 0, 2 + j, 2 + k
+    print 3, 1, 2 + n * (m - 2) + k, 2 + n * (m - 2) + j
+    for(i = 0; i + 2 < m; ++i) {
+      print 3, 2 + n * i + j, 2 + n * (i + 1) + j, 2 + n * (i + 1) + k
+      print 3, 2 + n * i + j, 2 + n * (i + 1) + k, 2 + n * i + k
+    }
+  }
+}' >ellipsoid.off
+awk 'BEGIN { for(v = 0; v < 1106; ++v) print v }' >same.txt
+awk 'BEGIN { n = 48; print 0; print 1; for(v = 0; v < 1104; ++v) print 2 + v - v % n + (v + n / 2) % n }' >turned.txt
+for truth in same turned; do
+  awk 'NR % 200 == 60 { print NR - 1, $1 }' $truth.txt >landmarks.txt
+  "$matching" ellipsoid.off ellipsoid.off --vertices 250 --eigenvectors 40 --landmarks landmarks.txt \
+    --ground-truth $truth.txt --output map.txt >said 2>complained || fail "landmarks: $(cat complained)"
+  awk 'END { exit !($(NF - 2) < 0.1) }' said || fail "landmarks do not find '$truth': $(tail -n 1 said)"
+done
+
+[ "$failures" -eq 0 ] && echo "all passed"
+exit "$failures"
