@@ -165,6 +165,13 @@ runs "signals" shape.off signals.off --vertices 200 --eigenvectors 25 --signals 
   --json signals.json
 [ "$(field signals signals.json)" -eq 25 ] || fail "the number of signals is not in the JSON file"
 grep -q '|C|_L' said || fail "no table with --signals"
+# Two strips, the second in the same list after a -1, the first of three triangles.
+printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n%s\n%s\n%s\n' \
+  'element tristrips 1' 'property list int int vertex_indices' 'end_header' >strips.ply
+printf '%s\n' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 2 0' '5 0 0' '6 0 0' '5 1 0' '9 0 1 2 3 4 -1 5 6 7' >>strips.ply
+runs "triangle strips" strips.ply strips.off --ratio 1 --eigenvectors 2 --no-evaluation --quiet
+grep -q '^8 4 0' strips.off || fail "the strips give $(sed -n 2p strips.off)"
+sed '$s/ 7$//' strips.ply >cut-strips.ply # the last index is missing
 
 # --- the command line itself ------------------------------------------------------------------------------------------
 
@@ -241,6 +248,7 @@ for cut in 3 40 4000; do # in the last face, a few faces earlier, among the poin
 done
 printf 'OFF\n999999999999 3 0\n0 0 0\n' | bad header.off "not a valid off file"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | bad points.off "no faces"
+refuses "strips that end early" "no faces\|not a valid ply file" cut-strips.ply out.off --vertices 3 --eigenvectors 2
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n3 1 2 4\n' |
   bad quad.off "face 1 .* 4 vertices: triangulate.*--repair"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | bad index.off "off"
@@ -308,6 +316,45 @@ refuses "late failure" "no folder" shape.off precious.off --eigenpairs new --jso
 [ "$(cat precious.off)" = "precious" ] || fail "an existing output was damaged"
 [ ! -d /proc/self ] ||
   refuses "no permission" "cannot write" shape.off /proc/out.off --vertices 200 --eigenvectors 20
+
+# --- a disk that is full, a process that is killed: the old file or the whole new one ---------------------------------
+
+# A limit of the size of files refuses writing as a full disk does; the signal that comes with it is ignored.
+for format in off obj ply stl; do
+  set -- shape.off "whole.$format" --vertices 300 --eigenvectors 10 --no-evaluation --quiet
+  runs "whole.$format" "$@"
+  for blocks in 1 4 9 14; do
+    echo "precious" >"whole.$format"
+    if (trap '' XFSZ; ulimit -f "$blocks"; "$program" "$@" >../said 2>../complained); then
+      fail "$format in a file of $blocks blocks: the exit status is 0"
+    fi
+    grep -q "cannot write 'whole.$format'" ../complained || fail "$format, full disk: $(cat ../complained)"
+    [ "$(cat "whole.$format")" = "precious" ] || fail "$format, full disk: the old file is damaged"
+  done
+done
+for option in restriction prolongation map; do # larger than the mesh, which fits in
+  echo "precious" >whole.off
+  (trap '' XFSZ; ulimit -f 4; "$program" shape.off whole.off --vertices 12 --eigenvectors 2 --$option "new.$option" \
+    --no-evaluation --quiet >../said 2>../complained) && fail "--$option, full disk: the exit status is 0"
+  grep -q "cannot write 'new.$option'" ../complained || fail "--$option, full disk: $(cat ../complained)"
+  [ "$(cat whole.off)" = "precious" ] && [ ! -e "new.$option" ] || fail "--$option, full disk: something was left"
+done
+[ -z "$(find . -name '.*.*')" ] || fail "a full disk left $(find . -name '.*.*')"
+
+set -- shape.off killed.ply --vertices 300 --eigenvectors 10 --no-evaluation --quiet
+runs "not killed" "$@"
+cp killed.ply complete.ply
+for delay in 0.01 0.03 0.06 0.1 0.15 0.2 0.3; do
+  echo "precious" >killed.ply
+  "$program" "$@" >said 2>complained &
+  process=$!
+  sleep "$delay"
+  kill -KILL "$process" 2>/dev/null
+  wait "$process" 2>/dev/null
+  [ "$(cat killed.ply | head -c 8)" = "precious" ] || cmp -s killed.ply complete.ply ||
+    fail "a process killed after $delay s left half of a file"
+done
+find . -name '.killed.*' -exec rm {} + # nobody was left to remove them
 
 # --- an interrupted run -----------------------------------------------------------------------------------------------
 

@@ -30,6 +30,13 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
   set_tests_properties("cli" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
 endif()
 
+if(TARGET spectral_simplify AND TARGET make_demo_shape)
+  add_test(NAME "corrupted-files"
+           COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/corrupted_files.sh" $<TARGET_FILE:spectral_simplify> "${shape}"
+                   "${CMAKE_CURRENT_BINARY_DIR}/corrupted")
+  set_tests_properties("corrupted-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+endif()
+
 if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "compare" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/compare_test.sh" $<TARGET_FILE:spectral_compare>
                                   $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")

@@ -5,6 +5,9 @@
 #ifndef SPECTRAL_EXAMPLES_IO_MESH_IO_H
 #define SPECTRAL_EXAMPLES_IO_MESH_IO_H
 
+#include "matrix_io.h"
+#include "triangle_strips.h"
+
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
@@ -86,9 +89,10 @@ inline Polygon_soup read_polygon_soup(const std::string& path)
   }
   if(!good || soup.points.empty())
     throw std::runtime_error("cannot read '" + path + "': it is not a valid " + format.substr(1) + " file.");
+  if(soup.polygons.empty() && format == ".ply")
+    soup.polygons = Triangle_strips::read(path);
   if(soup.polygons.empty())
-    throw std::runtime_error(
-        "'" + path + "' holds points but no faces, at least none that CGAL reads (triangle strips are not).");
+    throw std::runtime_error("'" + path + "' holds points but no faces.");
   return soup;
 }
 
@@ -123,9 +127,19 @@ inline Mesh read_mesh(const std::string& path)
 // Writes a mesh, its vertices in the order of `vertices(mesh)`, to the file `file`, which errors call `name`.
 inline void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name)
 {
-  // 17 digits give every double back.
-  if(!CGAL::IO::write_polygon_mesh(file, mesh, CGAL::parameters::stream_precision(17)))
-    throw std::runtime_error("cannot write '" + name + "': " + std::strerror(errno) + ".");
+  const std::string format = mesh_format(name);
+  std::ofstream stream(file, std::ios::binary);
+  stream.precision(17); // give every double back
+  if(format == ".ply" || format == ".stl")
+    CGAL::IO::set_binary_mode(stream);
+  // CGAL's functions that open the file themselves do not say when the disk is full.
+  const bool good = format == ".ply"   ? CGAL::IO::write_PLY(stream, mesh)
+                    : format == ".stl" ? CGAL::IO::write_STL(stream, mesh)
+                    : format == ".obj" ? CGAL::IO::write_OBJ(stream, mesh)
+                                       : CGAL::IO::write_OFF(stream, mesh);
+  if(!good)
+    throw std::runtime_error("cannot write '" + name + "': the disk refused it, is it full?");
+  finish_writing(stream, name);
 }
 
 #endif // SPECTRAL_EXAMPLES_IO_MESH_IO_H
