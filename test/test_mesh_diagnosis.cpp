@@ -169,7 +169,10 @@ TEST_CASE("Each obstacle is counted, and the first offender named")
   {
     soup.V *= 1e160;
     CHECK(is(soup.diagnosis().overflowing_faces, 8, 0));
-    CHECK_THAT(obstacle(soup), ContainsSubstring("8 of 8 faces") && ContainsSubstring("rescale"));
+    REQUIRE(soup.diagnosis().obstacles().size() == 2);
+    CHECK_THAT(soup.diagnosis().obstacles()[0], ContainsSubstring("1e50"));
+    CHECK_THAT(soup.diagnosis().obstacles()[1],
+               ContainsSubstring("8 of 8 faces") && ContainsSubstring("rescale"));
   }
 }
 

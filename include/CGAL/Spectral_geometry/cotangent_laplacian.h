@@ -117,6 +117,24 @@ namespace internal {
 // Beyond it the rounding of the two huge entries of a row (2e-16 times 1e12) shows in the small eigenvalues.
 constexpr double largest_cotangent = 1e12;
 
+// Beyond them squares of areas leave the range of doubles, in E as in the geometric tests of CGAL's loop.
+constexpr double smallest_extent = 1e-50, largest_extent = 1e50;
+
+/// The largest coordinate in magnitude, of those that are finite.
+inline double extent_of(const Eigen::MatrixXd& V)
+{
+  double result = 0.;
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    if(V.row(v).allFinite())
+      result = (std::max)(result, V.row(v).cwiseAbs().maxCoeff());
+  return result;
+}
+
+inline bool extent_is_usable(const double extent)
+{
+  return extent == 0. || (extent >= smallest_extent && extent <= largest_extent);
+}
+
 inline std::string face_name(Eigen::Index f)
 {
   return "face " + std::to_string(f) + " (counted from 0)";

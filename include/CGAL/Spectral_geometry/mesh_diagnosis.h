@@ -62,6 +62,8 @@ struct Mesh_diagnosis
   std::size_t number_of_vertices = 0; ///< isolated ones included
   std::size_t number_of_faces = 0;    ///< sound or not
 
+  double extent = 0; ///< the largest coordinate in magnitude; to be usable between 1e-50 and 1e50
+
   /// \name Obstacles: the Laplace operator or a halfedge structure is impossible with any of them
   /// @{
   Mesh_finding non_finite_vertices; ///< vertices with a coordinate that is infinite or not a number
@@ -161,6 +163,7 @@ public:
   {
     m_result.number_of_vertices = m_n;
     m_result.number_of_faces = m_polygons.size();
+    m_result.extent = extent_of(m_V);
     examine_vertices();
     examine_faces();
     find_duplicates();
@@ -472,7 +475,9 @@ inline std::vector<std::string> Mesh_diagnosis::obstacles() const
   vertices(non_manifold_vertices, "is where parts of the surface touch in a single vertex",
            "are where parts of the surface touch in a single vertex", "give each part a vertex of its own");
   vertices(isolated_vertices, "is isolated, no face uses it", "are isolated, no face uses them",
-           "remove them");
+           "remove every such vertex");
+  if(!internal::extent_is_usable(extent))
+    result.push_back("the coordinates are not between 1e-50 and 1e50 in magnitude: rescale the mesh");
   faces(overflowing_faces, "is a needle or too large, its cotangents or its area overflow",
         "are needles or too large, their cotangents or their area overflow",
         "collapse the shortest edges, remesh or rescale the mesh");

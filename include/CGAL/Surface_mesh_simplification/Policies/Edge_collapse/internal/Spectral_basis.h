@@ -166,6 +166,10 @@ inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::Matr
                                      const Spectral_options& options)
 {
   check_spectral_options(options, V.rows());
+  if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
+    throw std::invalid_argument(
+        "Spectral_policies: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+        "magnitude; rescale the mesh.");
   const double theta = Spectral_geometry::mass_blend(options.mass);
   const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, theta);
   const double area = op.mass.sum();

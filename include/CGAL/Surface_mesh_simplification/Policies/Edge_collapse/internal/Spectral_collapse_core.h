@@ -106,7 +106,8 @@ public:
     m_pool->for_each(std::size_t(n), 1024, [this](const std::size_t w, Workspace& workspace) {
       workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
     });
-    m_total = m_fields.E.sum();
+    m_total = Sum();
+    m_total.add(m_fields.E.sum());
     m_candidates.clear();
   }
 
@@ -129,7 +130,7 @@ public:
   const Spectral_candidates& candidates() const { return m_candidates; }
 
   /// E, the sum of E_w over the current vertices (Eq. 2).
-  double total() const { return m_total; }
+  double total() const { return m_total.value(); }
 
   /// The best way to collapse the edge between two slots. Reads only; one kernel per thread.
   Spectral_candidate evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel) const
@@ -230,8 +231,8 @@ public:
     merge_rows(m_fields.F, removed, kept, weight);
     if(m_fields.Z.size() != 0)
       merge_rows(m_fields.Z, removed, kept, weight);
-    m_total -= m_fields.E[removed] + m_fields.E[kept];
-    m_fields.E[removed] = m_fields.E[kept] = m_fields.mass[removed] = 0;
+    m_total.add(-m_fields.E[removed]);
+    m_fields.E[removed] = m_fields.mass[removed] = 0;
     m_fields.points[kept] = point;
     m_fields.rings.merge(removed, kept, std::move(ring),
                          [this](const Spectral_slot w, const std::size_t i) { m_products[w].erase(i); });
@@ -268,6 +269,23 @@ private:
   };
   using Pool = Spectral_thread_pool<Workspace>;
   using Edge = std::pair<Spectral_slot, Spectral_slot>;
+
+  // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
+  // E that it has seen, and a needle makes an E that dwarfs the rest for a while.
+  class Sum
+  {
+  public:
+    void add(const double term)
+    {
+      const double sum = m_sum + term;
+      m_rest += std::abs(m_sum) >= std::abs(term) ? (m_sum - sum) + term : (term - sum) + m_sum;
+      m_sum = sum;
+    }
+    double value() const { return m_sum + m_rest; }
+
+  private:
+    double m_sum = 0, m_rest = 0;
+  };
 
   struct Position
   {
@@ -306,9 +324,9 @@ private:
 
   void refresh(const Spectral_slot w)
   {
-    m_total -= m_fields.E[w];
+    m_total.add(-m_fields.E[w]);
     update_row(w);
-    m_total += m_fields.E[w];
+    m_total.add(m_fields.E[w]);
   }
 
   // f changed at `kept` alone, R at `kept` and its neighbours: the products in the ring of `kept` are computed afresh,
@@ -499,7 +517,7 @@ private:
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
   Eigen::Index m_number_of_signals = 0;
-  double m_total = 0;
+  Sum m_total;
   Spectral_geometry::Merge_forest m_forest;
   Spectral_candidates m_candidates;
 
