@@ -25,7 +25,6 @@ class Panel
 public:
   explicit Panel(Index n)
     : m_storage(n * panel_width + panel_width)
-    , m_size(n * panel_width)
   {
     const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(m_storage.data());
     m_offset = (64 - address % 64) % 64 / sizeof(double);
@@ -40,7 +39,6 @@ public:
 
 private:
   std::vector<double> m_storage;
-  Index m_size;
   std::size_t m_offset;
 };
 
