@@ -147,6 +147,9 @@ private:
   {
     const std::size_t length = std::size_t(fields.F.cols()), na = m_only_u.size(), nb = m_far.size();
     const std::size_t stride = m_full ? 2 * nb : nb;
+    m_stride = stride;
+    if(na == 0 || nb == 0)
+      return; // no products, and the pointers into empty vectors would be null
     m_a.clear();
     m_b.clear();
     m_a.reserve(2 * na); // lists point into both
@@ -156,7 +159,6 @@ private:
     for(const std::size_t m : m_far)
       m_b.push_back(fields.f_row(fields.rings[v][m].vertex));
     m_across.resize((m_full ? 2 : 1) * na * stride);
-    m_stride = stride;
     const Spectral_row_list a{m_a.data(), na, fields.f_row(u)}, b{m_b.data(), nb, fields.f_row(v)};
     spectral_dots<true, true>(a, b, length, m_across.data(), stride);
     if(!m_full)

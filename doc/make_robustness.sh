@@ -1,0 +1,121 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# make_robustness.sh SPECTRAL_SIMPLIFY [MESH...] >table.md
+#
+# What spectral_simplify does with difficult inputs: small ones that are made here, and the files given. Prints a table in
+# Markdown: the input, what is to be expected, what happened without and with --repair.
+
+set -u
+program=$1
+shift
+folder=$(mktemp -d) || exit 1
+trap 'rm -rf "$folder"' EXIT
+
+# What a run ended with: the sentence, or the size of the result and what was repaired.
+outcome()
+{
+  if "$program" "$@" --quiet --json "$folder/out.json" >"$folder/said" 2>"$folder/complained"; then
+    sed -n 's/^ *"\(input_vertices\|output_vertices\|norm_L\|stop_reason\)": *\(.*[^,]\),*$/\1 \2/p' "$folder/out.json" |
+      awk '{ v[$1] = $0; sub(/^[a-z_L]* /, "", v[$1]) }
+           END {
+             gsub(/"/, "", v["stop_reason"])
+             printf "%s -> %s vertices, %s", v["input_vertices"], v["output_vertices"], v["stop_reason"]
+             if(v["norm_L"] != "null" && v["norm_L"] != "") printf ", \\|C\\|_L %.3g", v["norm_L"]
+           }'
+    sed -n '/"repairs": {$/,/}/ s/^ *"\(.*\)": \([0-9]*\),*$/; \2 \1/p' "$folder/out.json" | tr -d '\n'
+  else
+    sed 's/^spectral_simplify: //; s/|/\\|/g' "$folder/complained" | sed "s|$folder/||g; s|'/[^']*/|'|g" | tr -d '\n'
+  fi
+}
+
+# row NAME EXPECTED FILE OPTIONS...
+row()
+{
+  name=$1
+  expected=$2
+  file=$3
+  shift 3
+  printf '| %s | %s | %s | %s |\n' "$name" "$expected" "$(outcome "$file" "$folder/out.off" "$@")" \
+    "$(outcome "$file" "$folder/out.off" --repair "$@")"
+}
+
+# small NAME EXPECTED: the file comes from standard input.
+small()
+{
+  cat >"$folder/$1.off"
+  row "$1" "$2" "$folder/$1.off" --ratio 0.5 --eigenvectors 2 --no-evaluation
+}
+
+# A wavy sheet of 21 x 21 vertices; `where` changes x, y, z of vertex v.
+sheet()
+{
+  awk -v what="$1" 'BEGIN {
+    n = 21
+    print "OFF"; print n * n, 2 * (n - 1) * (n - 1), 0
+    for(v = 0; v < n * n; ++v) {
+      w = v
+      if(what == "zero-length" && v % 50 == 7) w = v + 1
+      x = w % n; y = int(w / n)
+      if(what == "needle" && v % 50 == 7) x += 1 - 1e-14
+      if(what == "cap" && v == 200) { x += 0.5 - 1e-9; y += 0.5 - 1e-9 }
+      z = what == "flat" ? 0 : sin(x / 3) * cos(y / 4)
+      if(what == "far") { x += 1e7; y += 1e7; z += 1e7 }
+      s = what == "tiny" ? 1e-6 : what == "huge" ? 1e6 : what == "absurd" ? 1e70 : 1
+      printf "%.17g %.17g %.17g\n", s * x, s * y, s * z
+    }
+    for(j = 0; j < n - 1; ++j)
+      for(i = 0; i < n - 1; ++i) {
+        a = j * n + i
+        print 3, a, a + 1, a + n + 1
+        print 3, a, a + n + 1, a + n
+      }
+  }'
+}
+
+# large NAME EXPECTED: a sheet.
+large()
+{
+  sheet "$1" >"$folder/$1.off"
+  row "$1 sheet" "$2" "$folder/$1.off" --vertices 120 --eigenvectors 20
+}
+
+echo "| input | expected | without --repair | with --repair |"
+echo "|---|---|---|---|"
+large plain "simplified"
+large flat "simplified"
+large zero-length "simplified, edges without length merged first"
+large needle "refused; repaired"
+large cap "simplified"
+large tiny "as the plain one"
+large huge "as the plain one"
+large far "as the plain one, but for the rounding of the coordinates"
+large absurd "refused"
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' | small "one triangle" "says why it cannot be reduced"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "two triangles" "reduced to one"
+printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' |
+  small "tetrahedron" "says why it cannot be reduced"
+printf 'OFF\n6 8 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n3 1 0 5\n3 2 1 5\n3 3 2 5\n3 0 3 5\n' |
+  small "octahedron" "reduced to a tetrahedron, says why not to 3"
+printf '' | small "empty file" "refused"
+echo "no mesh" | small "a file of words" "refused"
+printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | small "points without faces" "refused"
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 0 0\n2 1 0\n4 0 1 2 3\n4 1 4 5 2\n' | small "quadrangles" "refused; repaired"
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' |
+  small "an edge of three faces" "refused; repaired"
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n' | small "fans that touch" "refused; repaired"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 3 2\n' | small "a face turned round" "refused; repaired"
+printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n3 0 2 3\n' | small "a face twice" "refused; repaired"
+printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n3 0 2 3\n' |
+  small "a face with a vertex twice" "refused; repaired"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | small "an index out of range" "refused"
+printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | small "an isolated vertex" "refused; repaired"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "a coordinate that is no number" "refused"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | small "points on a line" "refused"
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' |
+  small "a seam" "kept open; stitched by the repair"
+for mesh in "$@"; do
+  row "$(basename "$mesh")" "a good result or a sentence" "$mesh" --vertices 1200 --eigenvectors 100
+done
