@@ -21,7 +21,7 @@ stop()
 
 . "$root/cmake/debian_packages.sh"
 install_packages g++ make cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
-  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev python3-numpy catch2 ||
+  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev python3-numpy catch2 ||
   stop "The tests were not run: packages are missing."
 
 # CMAKE_ARGS is split into words on purpose.

@@ -9,6 +9,7 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_geometry/vertex_maps.h>
 
 #include <algorithm>
 #include <chrono>
@@ -145,6 +146,44 @@ Eigen::MatrixXd filtered(Eigen::MatrixXd C, const SG::Spectral_shape& X, const S
                                        : C;
 }
 
+// One step of ZoomOut between the levels, from the map C of fine Y to fine X to k modes: the vertices of the coarse X look
+// for their images among all vertices of the fine Y, and the map from the fine Y to the coarse X is lifted as in
+// section 5.2. No coarse face interpolates, and only as many points are searched as the proxy has vertices.
+Eigen::MatrixXd refined_once(const Eigen::MatrixXd& C, const Shape& X, const Proxy& coarse_X, const Shape& Y,
+                             Eigen::Index k, int threads)
+{
+  const Eigen::MatrixXd &phi = X.spectral.pairs.vectors, &psi = Y.spectral.pairs.vectors;
+  const SG::Spectral_shape& coarse = coarse_X.shape.spectral;
+  Eigen::MatrixXd at_representatives(coarse.op.B.rows(), C.rows());
+  for(Eigen::Index i = 0; i < at_representatives.rows(); ++i)
+    at_representatives.row(i) = phi.row(coarse_X.representative[static_cast<std::size_t>(i)]).head(C.rows());
+  const std::vector<Eigen::Index> images = SG::target_to_source_map(C, psi, at_representatives, threads);
+  const Eigen::MatrixXd coarse_phi = coarse.pairs.vectors.leftCols(k);
+  const Eigen::MatrixXd to_coarse =
+      SG::functional_map_of_vertex_map(psi.leftCols(k), coarse_phi, coarse.op.B, images);
+  const Eigen::MatrixXd restriction =
+      SG::functional_map(coarse_phi, coarse.op.B, coarse_X.restriction, phi.leftCols(k));
+  return SG::lift_functional_map(Eigen::MatrixXd::Identity(k, k), to_coarse, restriction).C;
+}
+
+// From the smooth modes of the lifted map to all of them. Both directions take part: where the shapes are not quite isometric,
+// each is drawn its own way, and these errors are opposite.
+Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const Proxy& coarse_X,
+                                       const Shape& Y, const Proxy& coarse_Y, const Matching_options& options)
+{
+  const Eigen::Index last = C.rows(), step = 10;
+  constexpr int repetitions = 2; // of the last step
+  Eigen::Index k = (std::min)(Eigen::Index(30), last);
+  C = Eigen::MatrixXd(C.topLeftCorner(k, k));
+  for(int at_last = 0; at_last < repetitions; at_last += k == last) {
+    k = (std::min)(k + step, last);
+    const Eigen::MatrixXd there = refined_once(C, X, coarse_X, Y, k, options.threads);
+    const Eigen::MatrixXd back = refined_once(C.transpose(), Y, coarse_Y, X, k, options.threads);
+    C = (there + back.transpose()) / 2;
+  }
+  return C;
+}
+
 void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options)
 {
   const SG::Spectral_shape &x = X.spectral, &y = Y.spectral;
@@ -184,6 +223,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
   match.C = lifted.C;
   match.condition = lifted.condition;
   match.relative_residual = lifted.relative_residual;
+  match.C = refined_between_levels(std::move(match.C), X, coarse_X, Y, coarse_Y, options);
   finish(match, X, Y, options);
   match.seconds_lift = seconds_since(middle);
   return match;

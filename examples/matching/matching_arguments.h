@@ -23,7 +23,7 @@ struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
   std::string proxies = "spectral", mass = "averaged";
-  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 2;
+  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 1;
   long samples = 300;
   int threads = 2;
   bool quiet = false;
@@ -84,7 +84,7 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("filter-iterations", number(a.filter_iterations, "I"),
       "of the Product Manifold Filter; 0 leaves it out");
   add("fine-iterations", number(a.fine_iterations, "I"),
-      "from vertices to functional map and back on the fine meshes, after the lift");
+      "from all vertices to functional map and back on the fine meshes, at the end");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads), "at most");
   add("quiet", po::bool_switch(&a.quiet), "no table");

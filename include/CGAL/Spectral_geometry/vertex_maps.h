@@ -5,22 +5,11 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_VERTEX_MAPS_H
 #define CGAL_SPECTRAL_GEOMETRY_VERTEX_MAPS_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/functional_map.h>
-
-#include <CGAL/Kd_tree.h>
-#include <CGAL/Orthogonal_k_neighbor_search.h>
-#include <CGAL/Search_traits.h>
-#include <CGAL/Splitters.h>
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
-#include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <thread>
 #include <vector>
 
 /*!
@@ -39,63 +28,6 @@ namespace Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
 /// @{
-namespace internal {
-
-inline void check_vertex_map(const std::vector<Eigen::Index>& map, Eigen::Index targets, Eigen::Index sources)
-{
-  check_dimension("the number of entries of the vertex map", static_cast<Eigen::Index>(map.size()), targets);
-  for(std::size_t i = 0; i < map.size(); ++i)
-    if(map[i] < 0 || map[i] >= sources)
-      throw std::invalid_argument("vertex map: entry " + std::to_string(i) + " is " + std::to_string(map[i]) +
-                                  ", it must be a vertex of the source, in [0, " + std::to_string(sources) +
-                                  ").");
-}
-
-// The columns of a matrix in CGAL's k-d tree. Laplacian eigenvectors embed a surface: whatever the dimension of the
-// space, the points have two, and the tree prunes well. 25,000 queries among 25,000 points of dimension 100 took 2.9
-// s where the product of the matrices took 16.6.
-class Column_search
-{
-public:
-  // The matrix must outlive this object.
-  explicit Column_search(const Eigen::MatrixXd& points)
-    : m_dimension(points.rows())
-  {
-    for(Eigen::Index i = 0; i < points.cols(); ++i)
-      m_tree.insert(Point{points.col(i).data(), m_dimension, i});
-    m_tree.build(); // searches may then run at once
-  }
-
-  // The column nearest to the point at `query`, of as many coordinates.
-  Eigen::Index nearest(const double* query) const
-  {
-    const Search search(m_tree, Point{query, m_dimension, -1}, 1);
-    return search.begin()->first.index;
-  }
-
-private:
-  struct Point
-  {
-    const double* coordinates;
-    Eigen::Index dimension, index;
-  };
-
-  struct Coordinates
-  {
-    using result_type = const double*;
-    const double* operator()(const Point& p) const { return p.coordinates; }
-    const double* operator()(const Point& p, int) const { return p.coordinates + p.dimension; }
-  };
-
-  using Traits = CGAL::Search_traits<double, Point, const double*, Coordinates>;
-  using Splitter = CGAL::Sliding_midpoint<Traits>;
-  using Search = CGAL::Orthogonal_k_neighbor_search<Traits, CGAL::Euclidean_distance<Traits>, Splitter>;
-
-  CGAL::Kd_tree<Traits, Splitter> m_tree;
-  Eigen::Index m_dimension;
-};
-
-} // namespace internal
 
 /*!
 returns for each row of `queries` the index of the row of `points` that is nearest to it in the Euclidean norm.
@@ -109,38 +41,8 @@ Exact, by CGAL's k-d tree. Fast where the points lie on something of low dimensi
 
 Throws `std::invalid_argument` for sizes that do not match, an empty set of points or a number that is not finite.
 */
-inline std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries,
-                                              int threads = 1)
-{
-  if(points.rows() == 0 || points.cols() == 0)
-    throw std::invalid_argument("nearest rows: there is no point to search for, pass at least one.");
-  internal::check_dimension("the number of columns of the queries", queries.cols(), points.cols());
-  if(threads < 1)
-    throw std::invalid_argument("nearest rows: the number of threads is " + std::to_string(threads) +
-                                ", pass at least 1.");
-  for(const Eigen::MatrixXd* matrix : {&points, &queries})
-    for(Eigen::Index i = 0; i < matrix->rows(); ++i)
-      if(!matrix->row(i).allFinite())
-        throw std::invalid_argument("nearest rows: row " + std::to_string(i) + " of the " +
-                                    (matrix == &points ? "points" : "queries") +
-                                    " has an entry that is not finite, check the maps and eigenvectors.");
-
-  const Eigen::MatrixXd columns = points.transpose(), query_columns = queries.transpose();
-  const internal::Column_search search(columns);
-  std::vector<Eigen::Index> result(static_cast<std::size_t>(queries.rows()));
-  const auto work = [&](Eigen::Index begin, Eigen::Index end) {
-    for(Eigen::Index i = begin; i < end; ++i)
-      result[static_cast<std::size_t>(i)] = search.nearest(query_columns.col(i).data());
-  };
-  std::vector<std::thread> others;
-  const Eigen::Index share = (queries.rows() + threads - 1) / threads;
-  for(Eigen::Index begin = share; begin < queries.rows(); begin += share)
-    others.emplace_back(work, begin, (std::min)(begin + share, queries.rows()));
-  work(0, (std::min)(share, queries.rows()));
-  for(std::thread& other : others)
-    other.join();
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
+nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads = 1);
 
 /*!
 returns the functional map \f$ C_{X,Y} = \Phi_Y^\top B_Y \Pi \Phi_X \f$ of a vertex map T from Y to X, where
@@ -154,21 +56,10 @@ returns the functional map \f$ C_{X,Y} = \Phi_Y^\top B_Y \Pi \Phi_X \f$ of a ver
 
 Throws `std::invalid_argument` if sizes do not match or an entry of T is no vertex of X.
 */
-inline Eigen::MatrixXd functional_map_of_vertex_map(const Eigen::MatrixXd& source_vectors,
-                                                    const Eigen::MatrixXd& target_vectors,
-                                                    const Eigen::SparseMatrix<double>& target_B,
-                                                    const std::vector<Eigen::Index>& target_to_source)
-{
-  internal::check_vertex_map(target_to_source, target_vectors.rows(), source_vectors.rows());
-  internal::check_dimension("the size of the mass of the target", target_B.rows(), target_vectors.rows());
-  internal::check_dimension("the number of columns of the mass of the target", target_B.cols(),
-                            target_vectors.rows());
-  Eigen::MatrixXd pulled_back(target_vectors.rows(), source_vectors.cols());
-  for(Eigen::Index y = 0; y < pulled_back.rows(); ++y)
-    pulled_back.row(y) = source_vectors.row(target_to_source[static_cast<std::size_t>(y)]);
-  const Eigen::MatrixXd weighted = target_B * pulled_back;
-  return target_vectors.transpose() * weighted;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+functional_map_of_vertex_map(const Eigen::MatrixXd& source_vectors, const Eigen::MatrixXd& target_vectors,
+                             const Eigen::SparseMatrix<double>& target_B,
+                             const std::vector<Eigen::Index>& target_to_source);
 
 /*!
 returns the vertex map from Y to X of a functional map \f$ C_{X,Y} \f$: for each vertex y of Y the vertex x of X
@@ -183,70 +74,15 @@ vertex map this is the step of ZoomOut, Melzi et al. 2019).
 
 Throws `std::invalid_argument` if there are fewer eigenvectors than C needs, or a number that is not finite.
 */
-inline std::vector<Eigen::Index> target_to_source_map(const Eigen::MatrixXd& C,
-                                                      const Eigen::MatrixXd& source_vectors,
-                                                      const Eigen::MatrixXd& target_vectors, int threads = 1)
-{
-  if(source_vectors.cols() < C.cols() || target_vectors.cols() < C.rows())
-    throw std::invalid_argument(
-        "vertex map: C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
-        ", but there are " + std::to_string(target_vectors.cols()) + " target and " +
-        std::to_string(source_vectors.cols()) + " source eigenvectors, pass as many.");
-  return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(), target_vectors.leftCols(C.rows()),
-                      threads);
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
+target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
+                     const Eigen::MatrixXd& target_vectors, int threads = 1);
 
 /// the vertex map from X to Y of a functional map \f$ C_{X,Y} \f$: for each x the y nearest in the same embedding
 /// as for `target_to_source_map()`, whose parameters it has. The two are inverse to one another for a permutation.
-inline std::vector<Eigen::Index> source_to_target_map(const Eigen::MatrixXd& C,
-                                                      const Eigen::MatrixXd& source_vectors,
-                                                      const Eigen::MatrixXd& target_vectors, int threads = 1)
-{
-  if(source_vectors.cols() < C.cols() || target_vectors.cols() < C.rows())
-    throw std::invalid_argument(
-        "vertex map: C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
-        ", but there are " + std::to_string(target_vectors.cols()) + " target and " +
-        std::to_string(source_vectors.cols()) + " source eigenvectors, pass as many.");
-  return nearest_rows(target_vectors.leftCols(C.rows()), source_vectors.leftCols(C.cols()) * C.transpose(),
-                      threads);
-}
-
-namespace internal {
-
-struct Point_of_embedded_triangle
-{
-  Eigen::Vector3d weights;
-  double squared_distance; // to the query
-};
-
-// The point of a triangle in any dimension that is closest to the query, from products of edges: the best of the
-// projections on the three edges and, when it lies inside, on the plane.
-inline Point_of_embedded_triangle
-closest_point_of_embedded_triangle(const Eigen::VectorXd& query, const Eigen::Ref<const Eigen::VectorXd>& p,
-                                   const Eigen::Ref<const Eigen::VectorXd>& q,
-                                   const Eigen::Ref<const Eigen::VectorXd>& r)
-{
-  const Eigen::VectorXd a = q - p, b = r - p, d = query - p;
-  const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm(), ad = a.dot(d), bd = b.dot(d);
-  const double dd = d.squaredNorm(), cc = aa - 2 * ab + bb; // c = b - a
-  Point_of_embedded_triangle best{Eigen::Vector3d::UnitX(), dd};
-  const auto keep_closer = [&](double v, double w) {
-    const double distance = dd - 2 * (v * ad + w * bd) + v * v * aa + 2 * v * w * ab + w * w * bb;
-    if(distance < best.squared_distance)
-      best = {Eigen::Vector3d(1 - v - w, v, w), (std::max)(0., distance)};
-  };
-  keep_closer(aa > 0 ? std::clamp(ad / aa, 0., 1.) : 0., 0.);
-  keep_closer(0., bb > 0 ? std::clamp(bd / bb, 0., 1.) : 0.);
-  const double along = cc > 0 ? std::clamp((bd - ad - ab + aa) / cc, 0., 1.) : 0.;
-  keep_closer(1 - along, along);
-  const double determinant = aa * bb - ab * ab;
-  const double v = (bb * ad - ab * bd) / determinant, w = (aa * bd - ab * ad) / determinant;
-  if(v > 0 && w > 0 && v + w < 1) // false for NaN as well
-    keep_closer(v, w);
-  return best;
-}
-
-} // namespace internal
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
+source_to_target_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
+                     const Eigen::MatrixXd& target_vectors, int threads = 1);
 
 /*!
 returns the map from the vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$: for each vertex y the
@@ -260,56 +96,18 @@ coarse meshes the maps made of it keep more modes.
 @param source_T the triangles of X, m x 3
 @return n_Y x n_X, at most three nonzeros in each row, none negative, which sum to 1
 */
-inline Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
-                                                           const Eigen::MatrixXd& source_vectors,
-                                                           const Eigen::MatrixXi& source_T,
-                                                           const Eigen::MatrixXd& target_vectors,
-                                                           int threads = 1)
-{
-  const std::vector<Eigen::Index> nearest = target_to_source_map(C, source_vectors, target_vectors, threads);
-  internal::check_triangles(source_T, source_vectors.rows());
-  std::vector<std::vector<Eigen::Index>> star(static_cast<std::size_t>(source_vectors.rows()));
-  for(Eigen::Index t = 0; t < source_T.rows(); ++t)
-    for(int c = 0; c < 3; ++c)
-      star[static_cast<std::size_t>(source_T(t, c))].push_back(t);
-
-  const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose();
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<Eigen::Index> last_query(static_cast<std::size_t>(source_T.rows()), -1); // that tried this face
-  for(Eigen::Index y = 0; y < target_vectors.rows(); ++y) {
-    const Eigen::VectorXd query = target_vectors.row(y).head(C.rows()).transpose();
-    const Eigen::Index vertex = nearest[static_cast<std::size_t>(y)];
-    Eigen::Index face = -1;
-    internal::Point_of_embedded_triangle best{Eigen::Vector3d::Zero(),
-                                              (points.col(vertex) - query).squaredNorm()};
-    for(const Eigen::Index around : star[static_cast<std::size_t>(vertex)])
-      for(int c = 0; c < 3; ++c)
-        for(const Eigen::Index t : star[static_cast<std::size_t>(source_T(around, c))]) {
-          if(last_query[static_cast<std::size_t>(t)] == y)
-            continue;
-          last_query[static_cast<std::size_t>(t)] = y;
-          const auto candidate = internal::closest_point_of_embedded_triangle(
-              query, points.col(source_T(t, 0)), points.col(source_T(t, 1)), points.col(source_T(t, 2)));
-          if(candidate.squared_distance < best.squared_distance) {
-            best = candidate;
-            face = t;
-          }
-        }
-    if(face == -1)
-      entries.emplace_back(static_cast<int>(y), static_cast<int>(vertex), 1.);
-    else
-      for(int c = 0; c < 3; ++c)
-        if(best.weights(c) != 0)
-          entries.emplace_back(static_cast<int>(y), source_T(face, c), best.weights(c));
-  }
-  Eigen::SparseMatrix<double> result(target_vectors.rows(), source_vectors.rows());
-  result.setFromTriplets(entries.begin(), entries.end());
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
+target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
+                        const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors,
+                        int threads = 1);
 
 /// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/vertex_maps_impl.h>
+#endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_VERTEX_MAPS_H
