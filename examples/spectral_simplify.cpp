@@ -6,6 +6,7 @@
 
 #include "io/Progress_bar.h"
 #include "io/index_reader.h"
+#include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/mesh_repair.h"
@@ -20,6 +21,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
@@ -130,6 +132,7 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
   options.preserve_border = a.preserve_border;
   options.relocate = a.relocate;
   options.threads = a.threads;
+  options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
     bar.show(phase_name(progress.phase), progress.fraction);
     return true;
@@ -144,7 +147,24 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
   return options;
 }
 
-// Compares the spectra; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
+// Says how much memory the run will take, and refuses what the machine does not have.
+void check_memory(const Arguments& a, std::size_t n, const SMS::Spectral_options& options)
+{
+  const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
+  const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
+  if(available > 0 && needed > available)
+    throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " + std::to_string(K) +
+                             " eigenvectors takes about " + formatted_memory(needed) +
+                             " of memory, but this machine has " + formatted_memory(available) +
+                             " left: add --pre-simplify 100000, or lower --eigenvectors.");
+  if(!a.quiet)
+    std::cout << "memory: about " << formatted_memory(needed)
+              << (available > 0 ? " of the " + formatted_memory(available) + " that are available" : "")
+              << "\n\n"
+              << std::flush;
+}
+
+// Compares the spectra, with tight pairs of the whole input; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
 SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
                                  const Eigen::Index number_of_eigenvectors,
                                  const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
@@ -356,6 +376,7 @@ void run(const Arguments& a)
   const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
   Progress_bar bar(!a.quiet);
   const SMS::Spectral_options options = spectral_options(a, num_vertices(mesh), bar);
+  check_memory(a, num_vertices(mesh), options);
   Output_files files;
   announce(files, a);
   if(!a.repaired.empty())

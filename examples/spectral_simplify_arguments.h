@@ -27,6 +27,7 @@ struct Arguments
   std::optional<double> max_error;
   std::vector<std::size_t> levels; // descending
   long eigenvectors = 100;
+  long pre_simplify = 0; // never
   std::string placement = "on_edge", mass = "lumped";
   int threads = 1;
   bool binary = false, preserve_border = false, relocate = false, no_evaluation = false, quiet = false, repair = false;
@@ -81,6 +82,9 @@ inline boost::program_options::options_description described(Arguments& a)
       "INPUT");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep, the constant one included; N should be at least 3 K");
+  add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
+      "first reduce a larger INPUT to this number, with CGAL's Garland-Heckbert cost; 100000 for large "
+      "meshes");
   add("placement", text(a.placement, "on_edge|midpoint|free")->default_value(a.placement),
       "where the vertex goes that replaces an edge");
   add("mass", text(a.mass, "lumped|averaged")->default_value(a.mass),
@@ -170,6 +174,8 @@ inline void check(const Arguments& a)
     refuse("--on-interrupt is '" + a.on_interrupt + "', it must be discard or write.");
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
+  if(a.pre_simplify < 0)
+    refuse("--pre-simplify is " + std::to_string(a.pre_simplify) + ", it must not be negative.");
   if(a.placement != "on_edge" && a.placement != "midpoint" && a.placement != "free")
     refuse("--placement is '" + a.placement + "', it must be on_edge, midpoint or free.");
   if(a.mass != "lumped" && a.mass != "averaged")
@@ -262,6 +268,11 @@ inline std::size_t checked_target(const Arguments& a, std::size_t n)
                              std::to_string(a.eigenvectors) +
                              " eigenvectors could be judged: ask for fewer with --eigenvectors, or add "
                              "--no-evaluation to simplify all the same.");
+  if(a.pre_simplify > 0 && (a.pre_simplify < target || a.pre_simplify <= a.eigenvectors))
+    throw std::runtime_error("--pre-simplify is " + std::to_string(a.pre_simplify) +
+                             ", it must not be below the " + std::to_string(target) +
+                             " vertices of OUTPUT, and above the " + std::to_string(a.eigenvectors) +
+                             " eigenvectors.");
   return static_cast<std::size_t>(target);
 }
 

@@ -88,6 +88,22 @@ cmp -s place.off quiet.off || fail "in place gives another mesh"
 
 runs "as many eigenvectors as vertices" shape.off few.off --vertices 30 --eigenvectors 30 --quiet
 runs "more eigenvectors than vertices" shape.off few.off --vertices 20 --eigenvectors 30 --no-evaluation --quiet
+n=$(sed -n 2p shape.off | cut -d ' ' -f 1)
+runs "pre-simplification" shape.off first.off --vertices 200 --eigenvectors 20 --pre-simplify 1000 --restriction first.mtx
+grep -q "^200 $n " first.mtx || fail "P of a pre-simplified run is not 200 x $n"
+grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)"
+refuses "pre-simplification below N" "--pre-simplify is 150" shape.off out.off --vertices 200 --eigenvectors 20 --pre-simplify 150
+refuses "pre-simplification below zero" "--pre-simplify is -1" shape.off out.off --vertices 200 --pre-simplify -1
+
+# Some hundred gigabytes; the file is read before that is known.
+awk 'BEGIN { k = 320; print "OFF"; print k * k, 2 * (k - 1) * (k - 1), 0
+  for(j = 0; j < k; ++j) for(i = 0; i < k; ++i) print i, j, 0
+  for(j = 0; j < k - 1; ++j) for(i = 0; i < k - 1; ++i) { a = j * k + i
+    print 3, a, a + 1, a + k + 1; print 3, a, a + k + 1, a + k } }' >large.off
+refuses "too little memory" "of memory, but .*--pre-simplify.*--eigenvectors" large.off out.off --vertices 500 \
+  --eigenvectors 102399 --no-evaluation
+rm large.off
+
 runs "without evaluation" shape.off few.off --vertices 200 --eigenvectors 30 --no-evaluation --json none.json
 grep -q '"norm_L": null' none.json || fail "without evaluation norm_L is not null"
 "$program" --help | grep -q -e '--preserve-border' || fail "--help does not name --preserve-border"

@@ -4,6 +4,7 @@
 
 // What a run of edge_collapse() with the policies returns: E, P, the spectrum; options; reproducibility.
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -294,6 +295,50 @@ TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L
   CHECK(policies.state().core().fields().Z.size() != 0);
   collapse(mesh, policies, 100);
   CHECK(fault_of_run(mesh, policies, fine) == "");
+}
+
+TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals that they came with")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options = options_with(30);
+  options.eigenpairs_options.method = SG::Eigenpairs_method::block;
+  options.eigenpairs_options.tolerance = 1e-2;
+  Mesh mesh = make_mesh(input);
+  const Policies policies(mesh, options);
+  collapse(mesh, policies, 641);
+  CHECK(policies.state().core().fields().Z.size() != 0);
+  collapse(mesh, policies, 150);
+  Spectral_options again;
+  again.eigenpairs = policies.eigenpairs();
+  CHECK(again.eigenpairs->residuals.maxCoeff() > 1e-3);
+  Mesh same = make_mesh(input);
+  const Policies policies_again(same, again);
+  collapse(same, policies_again, 641);
+  collapse(same, policies_again, 150);
+  CHECK(outcome(same, policies_again) == outcome(mesh, policies));
+
+  SG::Eigenpairs stripped = *again.eigenpairs;
+  stripped.residuals.resize(0);
+  again.eigenpairs = std::make_shared<SG::Eigenpairs>(stripped);
+  CHECK_THROWS_AS(Policies(mesh, again), std::invalid_argument);
+}
+
+TEST_CASE("The memory estimate grows with the mesh and K, and shrinks with what is not needed")
+{
+  const double plain = SMS::estimated_memory(50000, 100);
+  CHECK(plain > 150e6); // F, R and the eigenpairs alone take 120 MB
+  CHECK(plain < 400e6);
+  CHECK(SMS::estimated_memory(500000, 100) == Catch::Approx(10 * plain));
+  CHECK(SMS::estimated_memory(50000, 400) > 3 * 50000 * 400 * 8.);
+  Spectral_options options;
+  options.pre_simplify = 100000;
+  CHECK(SMS::estimated_memory(50000, 100, options) == plain);
+  CHECK(SMS::estimated_memory(1000000, 100, options) < 0.5 * SMS::estimated_memory(1000000, 100));
+  options = Spectral_options();
+  options.eigenpairs_options.maximum_vectors = 800;
+  CHECK(SMS::estimated_memory(50000, 100, options) > plain);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>();
+  CHECK(SMS::estimated_memory(50000, 100, options) <= plain);
 }
 
 TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")

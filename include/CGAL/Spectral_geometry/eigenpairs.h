@@ -63,6 +63,14 @@ struct Eigenpairs_options
   int threads = 1;
   /// is called with the fraction done, in [0, 1]; returns false to cancel
   std::function<bool(double)> progress;
+
+  /// the defaults with another tolerance
+  static Eigenpairs_options with_tolerance(double tolerance)
+  {
+    Eigenpairs_options options;
+    options.tolerance = tolerance;
+    return options;
+  }
 };
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.

@@ -68,6 +68,7 @@ struct Spectral_edge_collapse_result
   std::string explanation;
   std::vector<std::string> warnings; ///< one sentence each: what was done, but is not advised
   Refusals refusals;                 ///< candidates that were given up, by cause
+  std::size_t evaluations = 0;       ///< how often an edge was costed
 
   double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_options::pre_simplify`
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
@@ -270,6 +271,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   const Spectral_stop_predicate<Policies> stop(policies, target, options.maximum_error);
   run_spectral_edge_collapse(mesh, policies, stop, np);
   result.seconds_collapse = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
   result.seconds_first_costs = state.seconds_first_costs();
 

@@ -125,8 +125,11 @@ public:
     for(Index q = 0; q < new_count; ++q)
       minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
     constexpr Index rows_at_once = 64; // all panels' rows in the second level cache
-    for_each_range([&](Index begin, Index end, int) {
-      std::vector<double> result(new_count * rows_at_once * panel_width);
+    // not in the tasks, which must not throw
+    std::vector<std::vector<double>> results(number_of_ranges,
+                                             std::vector<double>(new_count * rows_at_once * panel_width));
+    for_each_range([&](Index begin, Index end, int range) {
+      std::vector<double>& result = results[range];
       for(Index i = begin; i < end; i += rows_at_once) {
         const Index rows = (std::min)(rows_at_once, end - i), entries = rows * panel_width;
         std::fill(result.begin(), result.end(), 0.);

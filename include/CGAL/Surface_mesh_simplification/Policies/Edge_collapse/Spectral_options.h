@@ -102,8 +102,11 @@ struct Spectral_options
   /// cost one solve. Their residuals are checked. Null: they are computed.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
-  /// How accurately the basis is computed when it is not given.
-  Spectral_geometry::Eigenpairs_options eigenpairs_options;
+  /// How the basis is computed when it is not given; `threads` below are used if they are more. The metric would do
+  /// with a rougher one (the norms of the result do not change up to a tolerance of 1e-4), but 1e-8 costs least in all:
+  /// from there on Z = F Lambda needs no rows of its own, which the loop would carry, and the pairs can judge the result.
+  Spectral_geometry::Eigenpairs_options eigenpairs_options =
+      Spectral_geometry::Eigenpairs_options::with_tolerance(1e-8);
 
   /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
   Eigen::VectorXd weights;

@@ -1,0 +1,39 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# benchmark_test.sh SPECTRAL_BENCHMARK FOLDER: runs it on small shapes and looks at what it writes.
+
+set -u
+program=$1
+folder=$2
+rm -rf "$folder"
+mkdir -p "$folder" && cd "$folder" || exit 1
+
+fail()
+{
+  echo "FAILED: $1"
+  exit 1
+}
+
+"$program" generated:1500 --eigenvectors 20 --vertices 200 --runs 1 --threads 2 --json out.json \
+  --scaling scaling.csv --scaling-vertices 1000,2000 --scaling-eigenvectors 5,10 >said 2>&1 || fail "$(cat said)"
+grep -q 'Lindstrom-Turk' said || fail "no table: $(cat said)"
+
+keys="us_per_collapse us_per_collapse_garland_heckbert ratio_garland_heckbert us_per_evaluation
+  evaluations_per_collapse seconds_eigenpairs seconds_eigenpairs_spectra seconds_total threads eigenvectors peak_rss_mb"
+for key in $keys; do
+  grep -Eq "^ +\"$key\": [0-9.e-]+,?\$" out.json || fail "'$key' is no positive number in $(cat out.json)"
+done
+[ "$(grep -c '": [^{]' out.json)" -eq 11 ] || fail "there are other keys in $(cat out.json)"
+grep -q '"eigenvectors": 20' out.json && grep -q '"threads": 2' out.json || fail "settings in $(cat out.json)"
+
+[ "$(wc -l <scaling.csv)" -eq 5 ] || fail "not four rows in $(cat scaling.csv)"
+[ "$(sed -n '2,$p' scaling.csv | grep -Ec '^(1002|1962),(10|19),(5|10),2(,[0-9.]+){7}$')" -eq 4 ] ||
+  fail "a row of $(cat scaling.csv)"
+
+"$program" missing.off >said 2>&1 && fail "a missing mesh was measured"
+grep -q "missing.off.*cannot be read" said || fail "a missing mesh: $(cat said)"
+"$program" generated:1500 --runs 0 >said 2>&1 && fail "no runs were accepted"
+exit 0

@@ -1,0 +1,153 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "subjects.h"
+
+#include "generated_shape.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/boost/graph/helpers.h>
+
+#include <chrono>
+#include <stdexcept>
+
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Mesh load(const std::string& name)
+{
+  const std::string prefix = "generated:";
+  Mesh mesh;
+  if(name.compare(0, prefix.size(), prefix) == 0)
+    shapes::make_mesh(mesh, generated_shape(std::stoul(name.substr(prefix.size()))));
+  else if(!CGAL::IO::read_polygon_mesh(name, mesh) || mesh.number_of_faces() == 0)
+    throw std::runtime_error("'" + name + "' cannot be read as a triangle mesh without branches.");
+  if(!CGAL::is_triangle_mesh(mesh))
+    throw std::runtime_error("'" + name + "' has faces that are no triangles.");
+  return mesh;
+}
+
+SG::Mass mass(const Setting& setting)
+{
+  return setting.averaged ? SG::Mass::averaged : SG::Mass::lumped;
+}
+
+SMS::Spectral_options spectral_options(const Setting& setting, int threads)
+{
+  SMS::Spectral_options options;
+  options.number_of_eigenvectors = setting.eigenvectors;
+  options.mass = mass(setting);
+  options.pre_simplify = setting.pre_simplify;
+  options.threads = threads;
+  return options;
+}
+
+} // namespace
+
+Mesh_size measure_mesh(const std::string& name)
+{
+  const Mesh mesh = load(name);
+  return {mesh.number_of_vertices(), mesh.number_of_edges()};
+}
+
+Spectral_time measure_spectral(const std::string& name, const Setting& setting, int threads)
+{
+  Mesh mesh = load(name);
+  const std::size_t edges = mesh.number_of_edges();
+  const auto result = SMS::spectral_edge_collapse(mesh, setting.target, spectral_options(setting, threads));
+  Spectral_time time;
+  time.seconds_pre_simplification = result.seconds_pre_simplification;
+  time.seconds_eigenpairs = result.seconds_eigenpairs;
+  time.seconds_first_costs = result.seconds_first_costs;
+  time.seconds_collapse = result.seconds_collapse;
+  time.seconds_total = result.seconds_total;
+  // A collapse on a closed surface takes three edges away.
+  time.edges = edges - 3 * (result.input_vertices - result.pre_simplified_vertices);
+  time.evaluations = result.evaluations;
+  time.collapses = result.pre_simplified_vertices - result.output_vertices;
+  return time;
+}
+
+Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t target)
+{
+  Mesh mesh = load(name);
+  const std::size_t n = mesh.number_of_vertices();
+  const auto begin = std::chrono::steady_clock::now();
+  const SMS::Vertex_count_stop_predicate<Mesh> stop(target, mesh);
+  if(rival == Rival::garland_heckbert) {
+    SMS::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
+    SMS::edge_collapse(
+        mesh, stop, CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+  } else
+    SMS::edge_collapse(mesh, stop,
+                       CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Mesh>())
+                           .get_placement(SMS::LindstromTurk_placement<Mesh>()));
+  return {seconds_since(begin), n - mesh.number_of_vertices()};
+}
+
+Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setting, Solver solver,
+                                   double tolerance, int threads)
+{
+  const SG::Laplace_operator op = SG::cotangent_laplacian(load(name), mass(setting));
+  SG::Eigenpairs_options options;
+  options.method = solver == Solver::block ? SG::Eigenpairs_method::block : SG::Eigenpairs_method::spectra;
+  options.tolerance = tolerance;
+  options.threads = threads;
+  options.verify = false;
+  const auto begin = std::chrono::steady_clock::now();
+  const SG::Eigenpairs pairs = SG::eigenpairs(op, setting.eigenvectors, options);
+  return {seconds_since(begin), pairs.residuals.maxCoeff()};
+}
+
+double estimated_memory(std::size_t vertices, const Setting& setting)
+{
+  return SMS::estimated_memory(vertices, setting.eigenvectors, spectral_options(setting, 1));
+}
+
+double default_tolerance()
+{
+  return SMS::Spectral_options().eigenpairs_options.tolerance;
+}
+
+std::string build_description()
+{
+  std::string result = "CGAL " CGAL_VERSION_STR;
+#ifdef CGAL_SPECTRAL_WITH_CHOLMOD
+  result += ", with CHOLMOD";
+#else
+  result += ", without CHOLMOD";
+#endif
+#ifdef __AVX2__
+  result += ", for this processor (AVX2)";
+#else
+  result += ", no -march flag";
+#endif
+#ifdef NDEBUG
+  result += ", optimised";
+#else
+  result += ", with assertions: these times mean little";
+#endif
+  return result;
+}
