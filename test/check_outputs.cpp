@@ -100,10 +100,14 @@ void check_restriction(const Sparse& P, const Dense& fine, const Dense& coarse, 
   if(binary)
     require(P.nonZeros() == P.rows(), "a binary P has one 1 in each row");
   // Also shows that the rows have OUTPUT's order and the columns INPUT's. Rounded weights do not move positions, and a
-  // free placement moves them where no weight can.
-  if(!binary && on_edges)
+  // free placement leaves the edge by less than its length.
+  if(on_edges && !binary)
     require_small((P * fine - coarse).cwiseAbs().maxCoeff(), 1e-9,
                   "P times the fine positions are the coarse ones");
+  else
+    require_small((P * fine - coarse).rowwise().norm().mean() /
+                      (fine.colwise().maxCoeff() - fine.colwise().minCoeff()).norm(),
+                  0.03, "P times the fine positions are near the coarse ones");
 }
 
 void check_map(const std::string& path, const Sparse& P)

@@ -145,7 +145,11 @@ double gradient_error(Energy& energy, const Positions& V)
       direction.setZero();
       direction.row(w) = d;
     }
-    const double slope = (energy.value(V + h * direction) - energy.value(V - h * direction)) / (2 * h);
+    // Five points: small triangles bend the energy too much for two.
+    const auto difference = [&](const double step) {
+      return energy.value(V + step * direction) - energy.value(V - step * direction);
+    };
+    const double slope = (8 * difference(h) - difference(2 * h)) / (12 * h);
     const double expected = gradient.cwiseProduct(direction).sum();
     worst = (std::max)(worst, std::abs(slope - expected) / gradient.cwiseProduct(direction).norm());
   }
@@ -245,15 +249,15 @@ TEST_CASE("gradients agree with finite differences, in every mass, with a bounda
       const Eigen::MatrixXd F = s->P * s->F(), Z = s->P * s->Z();
       const Positions V = s->coarse.V;
       SG::Relocation_energy plain(s->coarse.T, F, Z, theta);
-      CHECK(gradient_error(plain, V) < 1e-5);
+      CHECK(gradient_error(plain, V) < 1e-6);
       SG::Smoothed_relocation_energy smoothed(s->coarse.T, F, Z, theta, 0.02, 0.5);
-      CHECK(gradient_error(smoothed, V) < 1e-5);
+      CHECK(gradient_error(smoothed, V) < 1e-6);
       Polynomial_signals moving;
       SG::Smoothed_relocation_energy both(s->coarse.T, F, Z, theta, 0.02, 0.5, &moving);
-      CHECK(gradient_error(both, V) < 1e-5);
+      CHECK(gradient_error(both, V) < 1e-6);
       SG::Smoothed_relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0.,
                                                   &moving);
-      CHECK(gradient_error(moving_alone, V) < 1e-5);
+      CHECK(gradient_error(moving_alone, V) < 1e-6);
     }
 }
 
