@@ -13,6 +13,8 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -429,24 +431,37 @@ TEST_CASE("Candidates evaluated ahead are those evaluated one at a time, before 
     return c != nullptr && c->other == d.other && c->collapsible == d.collapsible && c->cost == d.cost &&
            c->weight == d.weight && c->point == d.point;
   };
+  const auto find = [&](const Edge& e) { return core.candidates().find(Slot(e.first), Slot(e.second)); };
+  const auto deferred = [&](const Edge& e) { return find(e) != nullptr && find(e)->deferred; };
+  const auto cost_of = [&](const Edge& e) { return find(e)->cost; };
+  int number_deferred = 0;
   for(const Edge& e : mesh.edge_list())
     CHECK(equal(e));
   for(int i = 0; i < 100; ++i) {
     const std::vector<Edge> edges = mesh.edge_list();
     const Edge e = edges[random() % edges.size()];
+    const bool put_off = deferred(e);
     const Candidate c = core.candidate(Slot(e.first), Slot(e.second), true);
+    if(put_off)
+      CHECK(equal(e)); // evaluated now that its turn has come
     if(!c.collapsible)
       continue;
     const bool keep_first = random() % 2 == 0;
     const int kept = keep_first ? e.first : e.second;
+    const double before = core.total();
     commit(core, mesh, e, c, keep_first);
     core.evaluate_around(Slot(kept));
     bool all = true;
     for(const int a : mesh.neighbors(kept))
-      for(const int b : mesh.neighbors(a))
-        all = all && equal(std::minmax(a, b));
+      for(const int b : mesh.neighbors(a)) {
+        const bool waits = deferred(std::minmax(a, b));
+        number_deferred += waits;
+        all = all && (waits ? a != kept && b != kept && cost_of(std::minmax(a, b)) > core.total() - before
+                            : equal(std::minmax(a, b)));
+      }
     CHECK(all);
   }
+  CHECK(number_deferred > 20);
   // Every candidate that is left weighs the right end, however old it is.
   for(const Edge& e : mesh.edge_list()) {
     const Candidate* c = core.candidates().find(Slot(e.first), Slot(e.second));
@@ -454,6 +469,22 @@ TEST_CASE("Candidates evaluated ahead are those evaluated one at a time, before 
     if(c->collapsible)
       CHECK((c->point - on_edge(mesh, e, c->weight)).norm() < 1e-14);
   }
+}
+
+TEST_CASE("Where the system refuses a thread the pool does with those it has got")
+{
+  int started = 0;
+  SMS::internal::Spectral_thread_pool<int> pool(8, [&](auto&& worker) {
+    if(started == 2)
+      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+    ++started;
+    return std::thread(worker);
+  });
+  CHECK(pool.number_of_threads() == 3);
+  std::vector<int> calls(1000, 0);
+  for(int loop = 0; loop < 20; ++loop)
+    pool.for_each(calls.size(), 4, [&](const std::size_t i, int&) { ++calls[i]; });
+  CHECK(std::all_of(calls.begin(), calls.end(), [](const int n) { return n == 20; }));
 }
 
 TEST_CASE("Edges that must not be collapsed are no candidates")

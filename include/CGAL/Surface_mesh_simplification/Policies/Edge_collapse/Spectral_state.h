@@ -216,6 +216,8 @@ public:
       m_core.drop_candidates_around(kept);
     else if(m_batched)
       m_core.evaluate_around(kept);
+    else
+      m_core.defer_around(kept);
   }
 
   /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected,

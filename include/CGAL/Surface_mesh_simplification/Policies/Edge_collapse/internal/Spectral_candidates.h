@@ -31,6 +31,7 @@ struct Spectral_candidate
   Spectral_slot other = null_spectral_slot;
   std::uint32_t version = 0; ///< the number of commits that it has seen
   bool collapsible = false;
+  bool deferred = false; ///< something near has changed, but it cost too much to be worth a look
   double cost = std::numeric_limits<double>::infinity();
   double weight = 0; ///< f_x = (1 - weight) f_u + weight f_other
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -60,6 +61,19 @@ public:
       if(c.other == v)
         return &c;
     return nullptr;
+  }
+
+  /// Keeps a candidate that costs more than `bound` as it is, and says whether there is one.
+  bool defer(Spectral_slot u, Spectral_slot v, const double bound)
+  {
+    if(v < u)
+      std::swap(u, v);
+    for(Spectral_candidate& c : m_lists[u])
+      if(c.other == v && c.collapsible && c.cost > bound) {
+        c.version = m_version;
+        return c.deferred = true;
+      }
+    return false;
   }
 
   /// Puts in or replaces the candidate of the edge (u, candidate.other), u being the smaller slot.

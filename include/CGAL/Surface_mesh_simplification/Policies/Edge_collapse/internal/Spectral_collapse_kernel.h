@@ -111,6 +111,9 @@ private:
   };
   static constexpr int lumped_columns = z_near;
 
+  // Which ends of the edge a vertex of the link is next to.
+  enum Ends { next_to_u_and_v, next_to_u, next_to_v, number_of_ends };
+
   struct Link_vertex
   {
     Link_vertex() {} // leaves `gram` as it is, which is filled where it is read
@@ -121,17 +124,13 @@ private:
     int neighbor_in[2] = {0, 0};   // its neighbours along the link, in its own ring
     int neighbor_near[2] = {0, 0}; // the same in the ring of the one end that it is next to
     // Half cotangents and shares of area of the triangles that go.
+    double old_near = 0, old_far = 0, area_near = 0, area_far = 0; // of the columns near and far
+    int ends = next_to_u_and_v;
     double old_u = 0, old_v = 0, old_neighbor[2] = {0, 0};
     double old_area = 0, old_area_u = 0, old_area_v = 0, old_area_neighbor[2] = {0, 0};
     double gram[columns][columns]; // upper triangle
 
     bool next_to_both() const { return in_u >= 0 && in_v >= 0; }
-  };
-
-  // The same for the triangles that come, for each sample.
-  struct New_entries
-  {
-    Lanes to_x, to_neighbor[2], area, area_neighbor[2];
   };
 
   // A triangle around u or v that survives the collapse as (x; a, b); a and b index the link, and each names the
@@ -177,8 +176,10 @@ private:
     m_outer.clear();
     collect_triangles(m_u, m_v, true);
     collect_triangles(m_v, m_u, false);
-    for(Link_vertex& w : m_link)
+    for(Link_vertex& w : m_link) {
+      set_ends(w);
       gather_gram(w);
+    }
     m_merged.prepare(*m_fields, (*m_products)[m_u], (*m_products)[m_v], m_u, m_v, m_v_in_u, m_u_in_v);
   }
 
@@ -280,6 +281,16 @@ private:
     w.old_area_v += t.area;
   }
 
+  static void set_ends(Link_vertex& w)
+  {
+    const bool both = w.next_to_both(), near_u = w.in_u >= 0;
+    w.ends = both ? next_to_u_and_v : near_u ? next_to_u : next_to_v;
+    w.old_near = near_u ? w.old_u : w.old_v;
+    w.area_near = near_u ? w.old_area_u : w.old_area_v;
+    w.old_far = both ? w.old_v : 0;
+    w.area_far = both ? w.old_area_v : 0;
+  }
+
   // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
   static constexpr double degenerate_cotangent = 1e10;
   static bool degenerate(const Spectral_triangle& t)
@@ -373,21 +384,36 @@ private:
       for(int c = 0; c < 3; ++c)
         point[c][s] = sample.point[c];
     }
-    add_new_triangles(point, invalid);
-    for(std::size_t i = 0; i < m_link.size(); ++i)
-      add_link_term(m_link[i], m_new[i], weight, cost, invalid);
-    m_merged.add_term(weight, m_fields->diagonal_share() * m_fields->area_scale,
+    Lanes total_area = {};
+    if(m_fields->theta != 0)
+      add_link_terms<true>(point, weight, total_area, cost, invalid);
+    else
+      add_link_terms<false>(point, weight, total_area, cost, invalid);
+    m_merged.add_term(m_new.data(), total_area, weight, m_fields->diagonal_share() * m_fields->area_scale,
                       m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
     for(int s = 0; s < count; ++s)
       samples[s].cost =
           invalid[s] == 0 && std::isfinite(cost[s]) ? cost[s] : std::numeric_limits<double>::infinity();
   }
 
-  CGAL_SPECTRAL_INLINE void add_new_triangles(const Lanes* x, Lanes& invalid)
+  // `Full`: with a mass that has off-diagonal entries.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_link_terms(const Lanes* x, const Lanes& weight, Lanes& total_area,
+                                           Lanes& cost, Lanes& invalid)
+  {
+    add_new_triangles<Full>(x, total_area, invalid);
+    // f_x = (1 - weight) f_u + weight f_v where w is next to both, f_near + far (f_o - f_c) where next to one end c.
+    const Lanes one = {1, 1, 1, 1}, rest = 1. - weight;
+    const Lanes near[number_of_ends] = {rest, one, one}, far[number_of_ends] = {weight, weight, rest};
+    for(std::size_t i = 0; i < m_link.size(); ++i)
+      add_link_term<Full>(m_link[i], m_new[i], near[m_link[i].ends], far[m_link[i].ends], cost, invalid);
+  }
+
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_new_triangles(const Lanes* x, Lanes& total_area, Lanes& invalid)
   {
     const Lanes zero = {};
-    m_new.assign(m_link.size(), New_entries{zero, {zero, zero}, zero, {zero, zero}});
-    m_merged.reset(m_link.size());
+    m_new.assign(m_link.size(), Spectral_new_entries{zero, {zero, zero}, zero, {zero, zero}});
     for(const Outer_triangle& o : m_outer) {
       const Eigen::Vector3d &pa = m_fields->points[m_link[o.a].slot],
                             &pb = m_fields->points[m_link[o.b].slot];
@@ -409,47 +435,47 @@ private:
       if(!o.degenerate)
         invalid += failed;
       const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
-      add_new_entries(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
-      add_new_entries(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
-      m_merged.add_triangle(o.a, o.b, cot_a, cot_b, area);
+      add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
+      add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
+      total_area += area;
     }
   }
 
-  CGAL_SPECTRAL_INLINE static void add_new_entries(New_entries& w, const int column, const Lanes& to_x,
-                                                   const Lanes& to_neighbor, const Lanes& area)
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE static void add_new_entries(Spectral_new_entries& w, const int column,
+                                                   const Lanes& to_x, const Lanes& to_neighbor,
+                                                   const Lanes& area)
   {
     w.to_x += to_x;
     w.to_neighbor[column] += to_neighbor;
     w.area += area;
-    w.area_neighbor[column] += area;
+    if(Full)
+      w.area_neighbor[column] += area;
   }
 
-  // E_w after, |R_w|^2 / M_w.
-  CGAL_SPECTRAL_INLINE void add_link_term(const Link_vertex& w, const New_entries& fresh, const Lanes& weight,
-                                          Lanes& cost, Lanes& invalid) const
+  // E_w after, |R_w|^2 / M_w. Every new triangle of w has the corner x.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_link_term(const Link_vertex& w, const Spectral_new_entries& fresh,
+                                          const Lanes& near, const Lanes& far, Lanes& cost,
+                                          Lanes& invalid) const
   {
-    const double diagonal = m_fields->diagonal_share() * m_fields->area_scale;
-    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
-    const bool full = off_diagonal != 0;
-    Lanes c[columns];
+    constexpr int n = Full ? int(columns) : lumped_columns;
+    const Lanes area_change = fresh.area - w.old_area;
+    Lanes c[n];
     c[residual] = Lanes{1, 1, 1, 1};
-    c[z_self] = (fresh.area - w.old_area) * diagonal;
-    // f_x = f_near + far (f_o - f_c) where w is next to one end, (1 - weight) f_u + weight f_v where next to both.
-    const bool both = w.next_to_both(), near_u = w.in_u >= 0;
-    const Lanes far = near_u ? weight : 1. - weight, near = 1. - far;
-    const double old_near = near_u ? w.old_u : w.old_v, area_near = near_u ? w.old_area_u : w.old_area_v;
-    c[g_near] = both ? near * fresh.to_x - w.old_u : fresh.to_x - old_near;
-    c[g_far] = both ? far * fresh.to_x - w.old_v : far * fresh.to_x;
-    for(int k = 0; k < 2; ++k)
-      c[g_first + k] = fresh.to_neighbor[k] - w.old_neighbor[k];
-    if(full) {
-      const Lanes area_x = fresh.area; // every new triangle of w has the corner x
-      c[z_near] = (near * area_x - area_near) * off_diagonal;
-      c[z_far] = (both ? far * area_x - w.old_area_v : far * area_x) * off_diagonal;
-      for(int k = 0; k < 2; ++k)
-        c[z_first + k] = (fresh.area_neighbor[k] - w.old_area_neighbor[k]) * off_diagonal;
+    c[z_self] = area_change * (m_fields->diagonal_share() * m_fields->area_scale);
+    c[g_near] = near * fresh.to_x - w.old_near;
+    c[g_far] = far * fresh.to_x - w.old_far;
+    c[g_first] = fresh.to_neighbor[0] - w.old_neighbor[0];
+    c[g_second] = fresh.to_neighbor[1] - w.old_neighbor[1];
+    if constexpr(Full) {
+      const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
+      // Rows of Z are not taken as differences to their centre: the shares of near and far sum to 1.
+      c[z_near] = ((1. - far) * fresh.area - w.area_near) * off_diagonal;
+      c[z_far] = (far * fresh.area - w.area_far) * off_diagonal;
+      c[z_first] = (fresh.area_neighbor[0] - w.old_area_neighbor[0]) * off_diagonal;
+      c[z_second] = (fresh.area_neighbor[1] - w.old_area_neighbor[1]) * off_diagonal;
     }
-    const int n = full ? int(columns) : lumped_columns;
     Lanes norm = {};
     for(int i = 0; i < n; ++i) {
       Lanes row = {};
@@ -457,7 +483,7 @@ private:
         row += c[j] * w.gram[i][j];
       norm += c[i] * (c[i] * w.gram[i][i] + 2. * row);
     }
-    const Lanes mass = m_fields->mass[w.slot] + (fresh.area - w.old_area) * (m_fields->area_scale / 3);
+    const Lanes mass = m_fields->mass[w.slot] + area_change * (m_fields->area_scale / 3);
     spectral_require_positive(mass, invalid);
     cost += norm / mass;
   }
@@ -470,7 +496,7 @@ private:
   std::vector<Link_vertex> m_link;
   std::vector<int> m_link_of_u, m_link_of_v; // ring index -> link index
   std::vector<Outer_triangle> m_outer;
-  std::vector<New_entries> m_new;
+  std::vector<Spectral_new_entries> m_new;
   Spectral_merged_row m_merged;
 };
 

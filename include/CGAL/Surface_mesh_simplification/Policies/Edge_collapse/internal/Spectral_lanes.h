@@ -22,6 +22,11 @@
 #include <immintrin.h>
 #define CGAL_SPECTRAL_DISPATCH 1
 #define CGAL_SPECTRAL_AVX2 __attribute__((flatten, target("avx2,fma")))
+#ifdef __has_builtin
+#if __has_builtin(__builtin_shufflevector) // GCC from 12
+#define CGAL_SPECTRAL_SHUFFLE 1
+#endif
+#endif
 #endif
 #else
 #define CGAL_SPECTRAL_INLINE inline
@@ -109,8 +114,12 @@ CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)
 CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Spectral_lanes& x,
                                                 const Spectral_lanes& bound, Spectral_lanes& failed)
 {
-#ifdef CGAL_SPECTRAL_DISPATCH
+#ifdef CGAL_SPECTRAL_SHUFFLE
   // The halves are SSE2, which every x86_64 has; the AVX2 variant of the caller turns them into VEX code.
+  const __m128d low = _mm_sqrt_pd(__builtin_shufflevector(x, x, 0, 1));
+  const __m128d high = _mm_sqrt_pd(__builtin_shufflevector(x, x, 2, 3));
+  const Spectral_lanes root = __builtin_shufflevector(low, high, 0, 1, 2, 3);
+#elif defined(CGAL_SPECTRAL_DISPATCH)
   __m128d half[2];
   std::memcpy(half, &x, sizeof(x));
   half[0] = _mm_sqrt_pd(half[0]);

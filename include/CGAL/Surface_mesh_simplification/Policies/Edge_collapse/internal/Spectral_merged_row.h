@@ -18,6 +18,12 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
+/// What the new triangles (x; w, n) give to a vertex w of the link, for each sample: half cotangents, areas.
+struct Spectral_new_entries
+{
+  Spectral_lanes to_x, to_neighbor[2], area, area_neighbor[2];
+};
+
 /*!
  * E_x after the collapse of (u,v) to x. The row is new as a whole,
  * R_x = sum over the link of l_k (f_k - f_x) + b_k z_k, plus b_x z_x. With e = f_v - f_u it is a combination
@@ -48,26 +54,9 @@ public:
     fill_gram();
   }
 
-  CGAL_SPECTRAL_INLINE void reset(const std::size_t link_size)
-  {
-    const Lanes zero = {};
-    m_link.assign(link_size, Link_entry{zero, zero});
-    m_total_area = zero;
-  }
-
-  /// A new triangle (x; a, b), with half cotangents at a and b.
-  CGAL_SPECTRAL_INLINE void add_triangle(const int a, const int b, const Lanes& half_cot_a,
-                                         const Lanes& half_cot_b, const Lanes& area)
-  {
-    m_link[a].half_cot += half_cot_b;
-    m_link[b].half_cot += half_cot_a;
-    m_link[a].area += area;
-    m_link[b].area += area;
-    m_total_area += area;
-  }
-
-  /// Adds E_x = |R_x|^2 / M_x to the cost of each sample.
-  CGAL_SPECTRAL_INLINE void add_term(const Lanes& weight, const double diagonal, const double off_diagonal,
+  /// Adds E_x = |R_x|^2 / M_x to the cost of each sample. `fresh` is indexed by the link.
+  CGAL_SPECTRAL_INLINE void add_term(const Spectral_new_entries* fresh, const Lanes& total_area,
+                                     const Lanes& weight, const double diagonal, const double off_diagonal,
                                      const double area_scale, Lanes& cost)
   {
     const std::size_t nu = m_of_u->degree(), nv = m_far.size();
@@ -75,42 +64,54 @@ public:
     Lanes sum_u = {}, sum_v = {};
     for(std::size_t i = 0, k = 0; i < nu; ++i)
       if(i != m_v_in_u) {
-        m_c[i].value = m_link[k].half_cot;
-        sum_u += m_link[k++].half_cot;
+        m_c[i].value = fresh[k].to_x;
+        sum_u += fresh[k++].to_x;
       }
     for(std::size_t m = 0; m < nv; ++m) {
-      m_c[nu + m].value = m_link[nu - 1 + m].half_cot;
-      sum_v += m_link[nu - 1 + m].half_cot;
+      m_c[nu + m].value = fresh[nu - 1 + m].to_x;
+      sum_v += fresh[nu - 1 + m].to_x;
     }
     m_c[m_v_in_u].value = (1. - weight) * sum_v - weight * sum_u;
-    const Lanes self = m_total_area * diagonal;
+    const Lanes self = total_area * diagonal;
     m_c[nu + nv].value = (1. - weight) * self;
     m_c[nu + nv + 1].value = weight * self;
     if(m_full)
       for(std::size_t k = 0; k + 1 < nu + nv; ++k)
-        m_c[nu + nv + 2 + k].value = m_link[k].area * off_diagonal;
-
-    Lanes norm = {};
-    for(std::size_t i = 0; i < m_n; ++i) {
-      const double* g = m_gram.data() + i * m_n;
-      Lanes row = {};
-      for(std::size_t j = i + 1; j < m_n; ++j)
-        row += m_c[j].value * g[j];
-      norm += m_c[i].value * (m_c[i].value * g[i] + 2. * row);
-    }
-    cost += norm / (m_total_area * (area_scale / 3));
+        m_c[nu + nv + 2 + k].value = fresh[k].area * off_diagonal;
+    Lanes norm;
+    square(norm);
+    cost += norm / (total_area * (area_scale / 3));
   }
 
 private:
-  // What the new triangles give to a vertex of the link, and a coefficient of the quadratic form.
-  struct Link_entry
-  {
-    Lanes half_cot, area;
-  };
+  // A coefficient of the quadratic form.
   struct Coefficient
   {
     Lanes value;
   };
+
+  // The quadratic form, two rows at a time: one sum would be a chain of additions that wait for each other.
+  CGAL_SPECTRAL_INLINE void square(Lanes& norm) const
+  {
+    norm = Lanes{};
+    std::size_t i = 0;
+    for(; i + 1 < m_n; i += 2) {
+      const double *g = m_gram.data() + i * m_n, *h = g + m_n;
+      Lanes row_g = {}, row_h = {};
+      for(std::size_t j = i + 2; j < m_n; ++j) {
+        const Lanes& c = m_c[j].value;
+        row_g += c * g[j];
+        row_h += c * h[j];
+      }
+      const Lanes &c = m_c[i].value, &d = m_c[i + 1].value;
+      row_g += d * g[i + 1];
+      norm += c * (c * g[i] + 2. * row_g) + d * (d * h[i + 1] + 2. * row_h);
+    }
+    if(i < m_n) {
+      const Lanes& c = m_c[i].value;
+      norm += c * c * m_gram[i * m_n + i];
+    }
+  }
 
   // m_far: ring indices, at v, of the neighbours of v alone. m_at_v: for each index in the ring of u that at v (v
   // itself: the centre), or the row of the products across, counted down from -1.
@@ -150,14 +151,12 @@ private:
     m_stride = stride;
     if(na == 0 || nb == 0)
       return; // no products, and the pointers into empty vectors would be null
-    m_a.clear();
-    m_b.clear();
-    m_a.reserve(2 * na); // lists point into both
-    m_b.reserve(2 * nb);
-    for(const std::size_t i : m_only_u)
-      m_a.push_back(fields.f_row(fields.rings[u][i].vertex));
-    for(const std::size_t m : m_far)
-      m_b.push_back(fields.f_row(fields.rings[v][m].vertex));
+    m_a.resize(m_full ? 2 * na : na);
+    m_b.resize(stride);
+    for(std::size_t i = 0; i < na; ++i)
+      m_a[i] = fields.f_row(fields.rings[u][m_only_u[i]].vertex);
+    for(std::size_t m = 0; m < nb; ++m)
+      m_b[m] = fields.f_row(fields.rings[v][m_far[m]].vertex);
     m_across.resize((m_full ? 2 : 1) * na * stride);
     const Spectral_row_list a{m_a.data(), na, fields.f_row(u)}, b{m_b.data(), nb, fields.f_row(v)};
     spectral_dots<true, true>(a, b, length, m_across.data(), stride);
@@ -165,10 +164,10 @@ private:
       return;
     m_scratch.resize((na + nb) * length);
     double* next = m_scratch.data();
-    for(const std::size_t i : m_only_u)
-      m_a.push_back(z_row(fields, fields.rings[u][i].vertex, length, next));
-    for(const std::size_t m : m_far)
-      m_b.push_back(z_row(fields, fields.rings[v][m].vertex, length, next));
+    for(std::size_t i = 0; i < na; ++i)
+      m_a[na + i] = z_row(fields, fields.rings[u][m_only_u[i]].vertex, length, next);
+    for(std::size_t m = 0; m < nb; ++m)
+      m_b[nb + m] = z_row(fields, fields.rings[v][m_far[m]].vertex, length, next);
     const Spectral_row_list za{m_a.data() + na, na}, zb{m_b.data() + nb, nb};
     spectral_dots<true, false>(a, zb, length, m_across.data() + nb, stride);
     spectral_dots<false, true>(za, b, length, m_across.data() + na * stride, stride);
@@ -288,9 +287,7 @@ private:
   std::vector<double> m_scratch, m_across, m_gram;
   std::vector<const double*> m_a, m_b;
   std::size_t m_n = 0, m_stride = 0;
-  std::vector<Link_entry> m_link;
   std::vector<Coefficient> m_c;
-  Lanes m_total_area;
 };
 
 } // namespace internal

@@ -26,89 +26,121 @@ struct Spectral_row_list
   const double* center = nullptr;
 };
 
-// out[i * stride + j] = a_i . b_j for M rows and N columns; two by three keep six sums in registers for five
-// loads. Written out, because compilers keep small arrays of vectors in memory.
-template <int M, int N, bool CenterA, bool CenterB>
-CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const double* ca, const double* const* b,
-                                             const double* cb, const std::size_t length, double* out,
-                                             const std::size_t stride)
+/// Row i of a result, `stride` after the one before.
+struct Spectral_strided_rows
 {
-  const double *a0 = a[0], *a1 = a[M - 1], *b0 = b[0], *b1 = b[N > 1 ? 1 : 0], *b2 = b[N - 1];
-  Spectral_lanes s00 = {}, s01 = {}, s02 = {}, s10 = {}, s11 = {}, s12 = {};
+  double* first;
+  std::size_t stride;
+  double* operator()(const std::size_t i) const { return first + i * stride; }
+};
+
+// out(i)[j] = a_i . b_j for M rows and N columns; three by three keep nine sums in registers for six loads. Written
+// out, because compilers keep small arrays of vectors in memory.
+template <int M, int N, bool CenterA, bool CenterB, class Out>
+CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const double* ca, const double* const* b,
+                                             const double* cb, const std::size_t length, const Out& out,
+                                             const std::size_t i, const std::size_t j)
+{
+  const double *a0 = a[0], *a1 = a[M > 1 ? 1 : 0], *a2 = a[M - 1];
+  const double *b0 = b[0], *b1 = b[N > 1 ? 1 : 0], *b2 = b[N - 1];
+  Spectral_lanes s00 = {}, s01 = {}, s02 = {}, s10 = {}, s11 = {}, s12 = {}, s20 = {}, s21 = {}, s22 = {};
   for(std::size_t k = 0; k < length; k += 4) {
-    Spectral_lanes x0, x1, y, c = {}, d = {};
+    Spectral_lanes x0, x1, x2, y, c = {};
     spectral_load(x0, a0 + k);
     if(M > 1)
       spectral_load(x1, a1 + k);
+    if(M > 2)
+      spectral_load(x2, a2 + k);
     if(CenterA) {
       spectral_load(c, ca + k);
       x0 -= c;
       if(M > 1)
         x1 -= c;
+      if(M > 2)
+        x2 -= c;
     }
     if(CenterB)
-      spectral_load(d, cb + k);
+      spectral_load(c, cb + k);
     spectral_load(y, b0 + k);
     if(CenterB)
-      y -= d;
+      y -= c;
     s00 += x0 * y;
     if(M > 1)
       s10 += x1 * y;
+    if(M > 2)
+      s20 += x2 * y;
     if(N > 1) {
       spectral_load(y, b1 + k);
       if(CenterB)
-        y -= d;
+        y -= c;
       s01 += x0 * y;
       if(M > 1)
         s11 += x1 * y;
+      if(M > 2)
+        s21 += x2 * y;
     }
     if(N > 2) {
       spectral_load(y, b2 + k);
       if(CenterB)
-        y -= d;
+        y -= c;
       s02 += x0 * y;
       if(M > 1)
         s12 += x1 * y;
+      if(M > 2)
+        s22 += x2 * y;
     }
   }
-  out[0] = spectral_sum(s00);
-  if(N > 1)
-    out[1] = spectral_sum(s01);
-  if(N > 2)
-    out[2] = spectral_sum(s02);
-  if(M > 1) {
-    out[stride] = spectral_sum(s10);
+  const auto write = [&](const std::size_t row, const Spectral_lanes& s0, const Spectral_lanes& s1,
+                         const Spectral_lanes& s2) {
+    double* result = out(row) + j;
+    result[0] = spectral_sum(s0);
     if(N > 1)
-      out[stride + 1] = spectral_sum(s11);
+      result[1] = spectral_sum(s1);
     if(N > 2)
-      out[stride + 2] = spectral_sum(s12);
-  }
+      result[2] = spectral_sum(s2);
+  };
+  write(i, s00, s01, s02);
+  if(M > 1)
+    write(i + 1, s10, s11, s12);
+  if(M > 2)
+    write(i + 2, s20, s21, s22);
 }
 
-template <int M, bool CenterA, bool CenterB>
-CGAL_SPECTRAL_INLINE void spectral_dot_rows(const double* const* a, const double* ca,
-                                            const Spectral_row_list& b, const std::size_t length, double* out,
-                                            const std::size_t stride)
+template <int M, bool CenterA, bool CenterB, class Out>
+CGAL_SPECTRAL_INLINE void spectral_dot_rows(const Spectral_row_list& a, const std::size_t i,
+                                            const Spectral_row_list& b, const std::size_t length,
+                                            const Out& out)
 {
+  const double* const* rows = a.rows + i;
   std::size_t j = 0;
   for(; j + 3 <= b.size; j += 3)
-    spectral_dot_block<M, 3, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+    spectral_dot_block<M, 3, CenterA, CenterB>(rows, a.center, b.rows + j, b.center, length, out, i, j);
   if(b.size - j == 2)
-    spectral_dot_block<M, 2, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+    spectral_dot_block<M, 2, CenterA, CenterB>(rows, a.center, b.rows + j, b.center, length, out, i, j);
   else if(b.size - j == 1)
-    spectral_dot_block<M, 1, CenterA, CenterB>(a, ca, b.rows + j, b.center, length, out + j, stride);
+    spectral_dot_block<M, 1, CenterA, CenterB>(rows, a.center, b.rows + j, b.center, length, out, i, j);
 }
 
-/// out[i * stride + j] = a_i . b_j for rows of the given padded length.
+/// out(i)[j] = a_i . b_j for rows of the given padded length.
+template <bool CenterA, bool CenterB, class Out>
+CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectral_row_list& b,
+                                        const std::size_t length, const Out& out)
+{
+  std::size_t i = 0;
+  for(; i + 3 <= a.size; i += 3)
+    spectral_dot_rows<3, CenterA, CenterB>(a, i, b, length, out);
+  if(a.size - i == 2)
+    spectral_dot_rows<2, CenterA, CenterB>(a, i, b, length, out);
+  else if(a.size - i == 1)
+    spectral_dot_rows<1, CenterA, CenterB>(a, i, b, length, out);
+}
+
+/// The same with out[i * stride + j].
 template <bool CenterA, bool CenterB>
 CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectral_row_list& b,
                                         const std::size_t length, double* out, const std::size_t stride)
 {
-  std::size_t i = 0;
-  for(; i + 2 <= a.size; i += 2)
-    spectral_dot_rows<2, CenterA, CenterB>(a.rows + i, a.center, b, length, out + i * stride, stride);
-  if(i < a.size)
-    spectral_dot_rows<1, CenterA, CenterB>(a.rows + i, a.center, b, length, out + i * stride, stride);
+  spectral_dots<CenterA, CenterB>(a, b, length, Spectral_strided_rows{out, stride});
 }
 
 /*!
@@ -277,8 +309,12 @@ private:
     set_rows(fields, c);
     m_scratch.resize((d + 1) * length);
     const Spectral_row_list g{m_f.data(), d, fields.f_row(c)};
+    m_changed_rows.resize(m_changed.size());
+    for(std::size_t n = 0; n < m_changed.size(); ++n)
+      m_changed_rows[n] = m_r[m_changed[n]];
+    spectral_dots<false, true>({m_changed_rows.data(), m_changed.size()}, g, length,
+                               [&](const std::size_t n) { return products.rg_row(m_changed[n]); });
     for(const std::size_t i : m_changed) {
-      spectral_dots<false, true>({&m_r[i], 1}, g, length, products.rg_row(i), d);
       if(full)
         dots_with_z(fields, m_r[i], products.rz_rows() + i * (d + 1), 1);
       else if(i == d)
@@ -321,20 +357,18 @@ private:
   // Rows of F (of Z if stored) and of R: the neighbours, then c.
   CGAL_SPECTRAL_INLINE void set_rows(const Spectral_fields& fields, const Spectral_slot c)
   {
-    m_f.clear();
-    m_z.clear();
-    m_r.clear();
-    for(const Spectral_ring_entry& e : fields.rings[c])
-      add_rows(fields, e.vertex);
-    add_rows(fields, c);
-  }
-
-  CGAL_SPECTRAL_INLINE void add_rows(const Spectral_fields& fields, const Spectral_slot s)
-  {
-    m_f.push_back(fields.f_row(s));
-    m_r.push_back(fields.r_row(s));
-    if(fields.has_z_rows())
-      m_z.push_back(fields.z_row(s));
+    const Spectral_ring& ring = fields.rings[c];
+    const std::size_t n = ring.size() + 1;
+    m_f.resize(n);
+    m_r.resize(n);
+    m_z.resize(fields.has_z_rows() ? n : 0);
+    for(std::size_t i = 0; i < n; ++i) {
+      const Spectral_slot s = i + 1 < n ? ring[i].vertex : c;
+      m_f[i] = fields.f_row(s);
+      m_r[i] = fields.r_row(s);
+      if(fields.has_z_rows())
+        m_z[i] = fields.z_row(s);
+    }
   }
 
   // out[i * stride] = z_i . row over the ring and c. Where Z = F Lambda, z_i . row = f_i . (Lambda row): no row of Z
@@ -374,7 +408,7 @@ private:
   }
 
   std::vector<double> m_scratch, m_scratch_z, m_scaled;
-  std::vector<const double*> m_f, m_z, m_r, m_g;
+  std::vector<const double*> m_f, m_z, m_r, m_g, m_changed_rows;
   std::vector<std::size_t> m_changed;
 };
 

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -37,10 +38,20 @@ class Spectral_thread_pool
 {
 public:
   explicit Spectral_thread_pool(const int threads = 1)
+    : Spectral_thread_pool(threads, [](auto&& worker) { return std::thread(worker); })
+  {}
+
+  /// `start(worker)` makes the threads. Where the system has no more of them the pool does with those it has got.
+  template <class Start>
+  Spectral_thread_pool(const int threads, const Start& start)
     : m_workspaces(threads > 1 ? std::size_t(threads) : 1)
   {
-    for(std::size_t i = 1; i < m_workspaces.size(); ++i)
-      m_workers.emplace_back([this, i] { work(i); });
+    m_workers.reserve(m_workspaces.size() - 1);
+    try {
+      for(std::size_t i = 1; i < m_workspaces.size(); ++i)
+        m_workers.push_back(start([this, i] { work(i); }));
+    } catch(const std::system_error&) {
+    }
   }
 
   Spectral_thread_pool(const Spectral_thread_pool&) = delete;
@@ -53,6 +64,8 @@ public:
     for(std::thread& worker : m_workers)
       worker.join();
   }
+
+  std::size_t number_of_threads() const { return m_workers.size() + 1; }
 
   /// The workspace of the calling thread.
   Workspace& workspace() { return m_workspaces.front(); }
