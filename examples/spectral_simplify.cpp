@@ -376,9 +376,9 @@ void run(const Arguments& a)
   const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
   Progress_bar bar(!a.quiet);
   const SMS::Spectral_options options = spectral_options(a, num_vertices(mesh), bar);
-  check_memory(a, num_vertices(mesh), options);
   Output_files files;
   announce(files, a);
+  check_memory(a, num_vertices(mesh), options);
   if(!a.repaired.empty())
     write_mesh(files.temporary(a.repaired), mesh, a.repaired);
   Mesh copy;
