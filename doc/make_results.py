@@ -39,6 +39,8 @@ def name(row):
         parts.append(row["placement"])
     if row["metric_mass"] != "none":
         parts.append(row["metric_mass"] + " metric")
+    if row["relocation"] != "none":
+        parts.append("relocated")
     return ", ".join(parts)
 
 

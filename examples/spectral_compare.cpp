@@ -156,7 +156,7 @@ private:
       stop_if_interrupted();
       bases.push_back(spectral_basis(m_fine, m_arguments.eigenvectors, mass));
     }
-    std::vector<Simplifier> simplifiers = collapse_simplifiers(bases, m_arguments.threads);
+    std::vector<Simplifier> simplifiers = collapse_simplifiers(m_fine, bases, m_arguments.threads);
     for(Simplifier& s : remeshers(m_fine, m_comparison.notes))
       simplifiers.push_back(std::move(s));
     std::size_t done = 0;
@@ -180,6 +180,7 @@ private:
     row.simplifier = s.name;
     row.placement = s.placement;
     row.metric_mass = s.metric_mass;
+    row.relocation = s.relocation;
     row.requested_vertices = N;
     row.seconds_eigenpairs = s.seconds_eigenpairs;
     try {

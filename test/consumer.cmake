@@ -33,12 +33,14 @@ set(solver "simplicial")
 if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
   set(solver "cholmod")
 endif()
+# Headers in two files of one program are tried by the first; the others compile both as one.
 spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
                            "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer ${solver})
 spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR}" consumer)
+                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DCMAKE_UNITY_BUILD=ON" consumer)
 spectral_add_consumer_test("consumer-without-cholmod" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSpectral_mesh_simplification_ROOT=${prefix};-DSPECTRAL_WITH_CHOLMOD=OFF" consumer simplicial)
+                           "-DSpectral_mesh_simplification_ROOT=${prefix};-DSPECTRAL_WITH_CHOLMOD=OFF;-DCMAKE_UNITY_BUILD=ON"
+                           consumer simplicial)
 set_tests_properties("consumer-find-package" "consumer-without-cholmod" PROPERTIES FIXTURES_REQUIRED installed)
 
 # The examples' own CMakeLists.txt, outside of the project.

@@ -24,6 +24,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <chrono>
 #include <utility>
@@ -83,30 +84,63 @@ Simplifier plain(const std::string& name, const std::string& placement)
           }};
 }
 
-Simplifier spectral(SMS::Spectral_placement_strategy placement, const Basis& basis, int threads)
+struct Spectral_variant
+{
+  SMS::Spectral_placement_strategy placement;
+  bool relocate = false;
+  bool preserve_border = false;
+};
+
+Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Basis& basis,
+                                const SMS::Spectral_options& options, bool relocate)
+{
+  Coarse_mesh result;
+  result.mesh = fine;
+  const auto begin = std::chrono::steady_clock::now();
+  const SMS::Spectral_policies<Mesh> policies(result.mesh, options);
+  SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(policies.get_placement())
+                         .visitor(policies.visitor()));
+  result.note = note_on_size(result.mesh, N);
+  result.mesh.collect_garbage();
+  result.carried = policies.restriction();
+  if(relocate)
+    SMS::spectral_relocation(result.mesh, *result.carried, SG::mesh_matrices(fine), *basis.pairs, basis.mass);
+  result.seconds = seconds_since(begin);
+  return result;
+}
+
+Simplifier spectral(const Spectral_variant& variant, const Basis& basis, int threads)
 {
   SMS::Spectral_options options;
-  options.placement = placement;
+  options.placement = variant.placement;
+  options.preserve_border = variant.preserve_border;
   options.mass = basis.mass;
   options.eigenpairs = basis.pairs;
   options.number_of_eigenvectors = basis.pairs->size();
   options.threads = threads;
-  return {"spectral", SMS::placement_name(placement), SG::mass_name(basis.mass), basis.seconds,
-          [options](const Mesh& fine, std::size_t N) {
-            Coarse_mesh result;
-            result.mesh = fine;
-            const auto begin = std::chrono::steady_clock::now();
-            const SMS::Spectral_policies<Mesh> policies(result.mesh, options);
-            SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
-                               CGAL::parameters::get_cost(policies.get_cost())
-                                   .get_placement(policies.get_placement())
-                                   .visitor(policies.visitor()));
-            result.seconds = seconds_since(begin);
-            result.note = note_on_size(result.mesh, N);
-            result.mesh.collect_garbage();
-            result.carried = policies.restriction();
-            return result;
-          }};
+  return {variant.preserve_border ? "spectral, border preserved" : "spectral",
+          SMS::placement_name(variant.placement),
+          SG::mass_name(basis.mass),
+          basis.seconds,
+          [options, basis, relocate = variant.relocate](const Mesh& fine, std::size_t N) {
+            return simplify_spectrally(fine, N, basis, options, relocate);
+          },
+          variant.relocate ? "smoothed" : "none"};
+}
+
+std::vector<Spectral_variant> variants(const Mesh& fine, SG::Mass mass)
+{
+  using Placement = SMS::Spectral_placement_strategy;
+  std::vector<Spectral_variant> result{{Placement::on_edge}, {Placement::midpoint}, {Placement::free}};
+  if(mass != SG::Mass::averaged)
+    return result;
+  result.push_back({Placement::on_edge, true});
+  result.push_back({Placement::free, true});
+  if(!CGAL::is_closed(fine))
+    result.push_back({Placement::on_edge, true, true});
+  return result;
 }
 
 } // namespace
@@ -121,14 +155,12 @@ Basis spectral_basis(const Mesh& fine, Eigen::Index K, SG::Mass mass)
   return {mass, policies.eigenpairs(), policies.state().seconds_basis()};
 }
 
-std::vector<Simplifier> collapse_simplifiers(const std::vector<Basis>& bases, int threads)
+std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases, int threads)
 {
   std::vector<Simplifier> result;
   for(const Basis& basis : bases)
-    for(const auto placement :
-        {SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::midpoint,
-         SMS::Spectral_placement_strategy::free})
-      result.push_back(spectral(placement, basis, threads));
+    for(const Spectral_variant& variant : variants(fine, basis.mass))
+      result.push_back(spectral(variant, basis, threads));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>>("plane"));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>(
