@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Makes the shapes, tables and pictures of applications.md:
+#   doc/make_applications.py BUILD [FOLDER]
+# BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
+# there. Pictures go to doc/fig, tables to standard output. Needs nothing but Python 3.
+
+import base64
+import collections
+import os
+import re
+import struct
+import subprocess
+import sys
+import zlib
+
+from make_figures import Image
+
+PAIRS = [("walk", "walk.off", "walk.txt"), ("bend", "bend.off", "bend.txt"),
+         ("walk, other triangles", "other_walk.off", "other.txt"), ("bend, other triangles", "other_bend.off", "other.txt")]
+
+
+def run(build, folder, output, program, *arguments):
+    if os.path.exists(os.path.join(folder, output)):
+        return
+    program = os.path.abspath(os.path.join(build, "examples", program))
+    said = subprocess.run([program, *arguments], check=True, cwd=folder, stdout=subprocess.PIPE, text=True).stdout
+    if output.endswith(".out"):
+        with open(os.path.join(folder, output), "w") as file:
+            file.write(said)
+
+
+def read_vertices(path):
+    with open(path) as file:
+        lines = [line for line in file if line.strip()]
+    return [tuple(map(float, line.split()[:3])) for line in lines[2:2 + int(lines[1].split()[0])]]
+
+
+# For each vertex of X the nearest vertex of Y, in cells of a grid: both are the same surface.
+def nearest_vertices(X, Y, output):
+    points, targets = read_vertices(X), read_vertices(Y)
+    side = max(max(c) - min(c) for c in zip(*targets)) / 60
+    cells = collections.defaultdict(list)
+
+    def cell(p):
+        return tuple(int(x // side) for x in p)
+
+    for j, p in enumerate(targets):
+        cells[cell(p)].append(j)
+    with open(output, "w") as file:
+        for p in points:
+            a, b, c = cell(p)
+            near = [j for x in (a - 1, a, a + 1) for y in (b - 1, b, b + 1) for z in (c - 1, c, c + 1)
+                    for j in cells.get((x, y, z), ())]
+            file.write(f"{min(near, key=lambda j: sum((s - t) ** 2 for s, t in zip(p, targets[j])))}\n")
+
+
+def run_all(build, folder):
+    os.makedirs(folder, exist_ok=True)
+    for pose in ("walk", "bend"):
+        run(build, folder, f"{pose}.txt", "make_demo_shape", f"{pose}.off", "--pose", pose, "--shuffle", "7", "--map", f"{pose}.txt")
+    for name, vertices, pose in (("stand", "25000", "stand"), ("other_stand", "27000", "stand"), ("other_walk", "27000", "walk"),
+                                 ("other_bend", "27000", "bend")):
+        run(build, folder, f"{name}.off", "make_demo_shape", f"{name}.off", "--vertices", vertices, "--pose", pose)
+    truth = os.path.join(folder, "other.txt")
+    if not os.path.exists(truth):
+        nearest_vertices(os.path.join(folder, "stand.off"), os.path.join(folder, "other_stand.off"), truth)
+    for name, Y, truth in PAIRS:
+        report = name.replace(", other triangles", "_other")
+        run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--proxy", "spectral,garland_heckbert",
+            "--ground-truth", truth, "--report", f"{report}.html")
+    run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000", "--report", "distances.html")
+
+
+# --- pictures out of the reports -------------------------------------------------------------------------------------
+
+
+# Images as the reports hold them: 8 bits, red, green and blue, no filters.
+def read_png(data):
+    width, height = struct.unpack(">2I", data[16:24])
+    compressed, at = b"", 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IDAT":
+            compressed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, row = zlib.decompress(compressed), 3 * width + 1
+    image = Image(width, height)
+    image.pixels = bytearray(b"".join(raw[y * row + 1:(y + 1) * row] for y in range(height)))
+    return image
+
+
+def images(folder, report):
+    with open(os.path.join(folder, report)) as file:
+        found = re.findall(r"<img alt='[^']*' src='data:image/png;base64,([^']*)'", file.read())
+    return [read_png(base64.b64decode(data)) for data in found]
+
+
+def strip(parts, path):
+    picture = Image(sum(p.width for p in parts), max(p.height for p in parts))
+    x = 0
+    for part in parts:
+        picture.paste(part, x, 0)
+        x += part.width
+    picture.write(path)
+
+
+def curves(folder, report, path):
+    with open(os.path.join(folder, report)) as file:
+        page = file.read()
+    legend = re.findall(r"<li><svg[^>]*>(.*?)</svg>(.*?)</li>", page)
+    chart = re.search(r"<svg xmlns='[^']*' role='img'.*?</svg>", page, re.S).group(0)
+    for i, (sample, name) in enumerate(legend):
+        chart = chart.replace("</svg>", f"<g transform='translate(380,{300 + 20 * i})'>{sample}<text x='50' y='10'>{name}</text></g>\n</svg>")
+    with open(path, "w") as file:
+        file.write(chart + "\n")
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit("usage: make_applications.py BUILD [FOLDER]")
+    folder = os.path.abspath(sys.argv[2] if len(sys.argv) == 3 else os.path.join(sys.argv[1], "applications"))
+    run_all(sys.argv[1], folder)
+    output = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fig")
+    strip(images(folder, "bend_other.html")[:2], os.path.join(output, "matching.png"))
+    curves(folder, "bend_other.html", os.path.join(output, "matching_errors.svg"))
+    # Of the biharmonic distance: fine, coarse, brought back by prolongation.
+    strip(images(folder, "distances.html")[4:7], os.path.join(output, "distances.png"))
+    for name, _, _ in PAIRS:
+        with open(os.path.join(folder, name.replace(", other triangles", "_other") + ".out")) as file:
+            print(f"{name}\n{file.read()}")
+    with open(os.path.join(folder, "distances.out")) as file:
+        print(file.read())
+
+
+if __name__ == "__main__":
+    main()
