@@ -316,6 +316,7 @@ TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the co
     SMS::edge_collapse(mesh, stop, by_length);
     CHECK(count_vertices(mesh) == 150);
   }
+#ifndef CGAL_CHECK_EXPENSIVE // with it the loop itself refuses isolated vertices
   SECTION("isolated vertices count")
   {
     for(int i = 0; i < 10; ++i)
@@ -323,6 +324,7 @@ TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the co
     SMS::edge_collapse(mesh, stop, by_length);
     CHECK(count_vertices(mesh) == 150);
   }
+#endif
   SECTION("edges without length, collapsed before the first question")
   {
     for(const int f : {20, 200, 400, 600}) {
