@@ -166,14 +166,14 @@ Eigen::MatrixXd refined_once(const Eigen::MatrixXd& C, const Shape& X, const Pro
   return SG::lift_functional_map(Eigen::MatrixXd::Identity(k, k), to_coarse, restriction).C;
 }
 
-// From the smooth modes of the lifted map to all of them. Both directions take part: where the shapes are not quite isometric,
+// From the smoother half of the modes of the lifted map to all of them. Both directions take part: where the shapes are not quite isometric,
 // each is drawn its own way, and these errors are opposite.
 Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const Proxy& coarse_X,
                                        const Shape& Y, const Proxy& coarse_Y, const Matching_options& options)
 {
   const Eigen::Index last = C.rows(), step = 10;
   constexpr int repetitions = 2; // of the last step
-  Eigen::Index k = (std::min)(Eigen::Index(30), last);
+  Eigen::Index k = (last + 1) / 2;
   C = Eigen::MatrixXd(C.topLeftCorner(k, k));
   for(int at_last = 0; at_last < repetitions; at_last += k == last) {
     k = (std::min)(k + step, last);
