@@ -112,6 +112,8 @@ const char* phase_name(SMS::Spectral_phase phase)
     return "eigenpairs";
   case SMS::Spectral_phase::first_costs:
     return "first costs";
+  case SMS::Spectral_phase::flips:
+    return "edge flips";
   case SMS::Spectral_phase::relocation:
     return "relocation";
   case SMS::Spectral_phase::collapses:
@@ -130,6 +132,9 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
   options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
+  options.flips = a.flips == "spectral"   ? SG::Edge_flips::spectral
+                  : a.flips == "delaunay" ? SG::Edge_flips::delaunay
+                                          : SG::Edge_flips::none;
   options.relocate = a.relocate;
   options.threads = a.threads;
   options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
@@ -223,6 +228,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   run.simplifier = a.signals.empty() ? "spectral" : "spectral, own signals";
   if(a.binary)
     run.simplifier += ", binary";
+  if(a.flips != "none")
+    run.simplifier += ", " + a.flips + " flips";
   if(a.relocate)
     run.simplifier += ", relocation";
   run.placement = a.placement;
@@ -330,6 +337,7 @@ void describe_run(Simplification_report& report, const Arguments& a, const SMS::
   report.placement = a.placement;
   report.mass = a.mass;
   report.binary = a.binary;
+  report.flips = a.flips;
   report.number_of_eigenvectors = a.eigenvectors;
   report.max_error = a.max_error;
   report.kept_vertices = options.kept_vertices.size();

@@ -28,7 +28,7 @@ struct Arguments
   std::vector<std::size_t> levels; // descending
   long eigenvectors = 100;
   long pre_simplify = 0; // never
-  std::string placement = "on_edge", mass = "lumped";
+  std::string placement = "on_edge", flips = "none", mass = "lumped";
   int threads = 1;
   bool binary = false, preserve_border = false, relocate = false, no_evaluation = false, quiet = false, repair = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
@@ -93,6 +93,9 @@ inline boost::program_options::options_description described(Arguments& a)
       "keeps the eigenvalues of coarse meshes much closer");
   add("binary", po::bool_switch(&a.binary), "a restriction of ones and zeros: it picks vertices of INPUT");
   add("preserve-border", po::bool_switch(&a.preserve_border), "no edge is drawn away from the border");
+  add("flips", text(a.flips, "none|spectral|delaunay")->default_value(a.flips),
+      "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite angles are more than 180 "
+      "degrees together; --levels are written without");
   add("relocate", po::bool_switch(&a.relocate),
       "afterwards move the vertices so that the spectrum is kept still better; made for --mass averaged");
   add("repair", po::bool_switch(&a.repair),
@@ -180,6 +183,8 @@ inline void check(const Arguments& a)
     refuse("--placement is '" + a.placement + "', it must be on_edge, midpoint or free.");
   if(a.mass != "lumped" && a.mass != "averaged")
     refuse("--mass is '" + a.mass + "', it must be lumped or averaged.");
+  if(a.flips != "none" && a.flips != "spectral" && a.flips != "delaunay")
+    refuse("--flips is '" + a.flips + "', it must be none, spectral or delaunay.");
   if(a.threads < 1)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be positive.");
   if(a.no_evaluation && !a.eigenpairs.empty())

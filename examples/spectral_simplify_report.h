@@ -27,6 +27,7 @@ struct Simplification_report
   double seconds_evaluation = 0;
 
   std::string input, output, placement, mass;
+  std::string flips = "none"; // "spectral", "delaunay"
   bool binary = false;
   Eigen::Index number_of_eigenvectors = 0;
   std::vector<std::pair<std::string, std::size_t>> repairs; // what --repair did, and how often
@@ -68,6 +69,8 @@ inline void print_table(const Simplification_report& r)
   }
   std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
               r.result.relative_error);
+  if(r.flips != "none")
+    std::printf("  flipped edges             %8zu   (%s)\n\n", r.result.flips.flips.size(), r.flips.c_str());
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
   std::printf("  total                     %8.2f s\n", r.result.seconds_total);
@@ -88,6 +91,8 @@ inline nlohmann::json to_json(const Simplification_report& r)
                          {"max_error", r.max_error ? number(*r.max_error) : nlohmann::json()},
                          {"kept_vertices", r.kept_vertices},
                          {"signals", r.signals},
+                         {"flips", r.flips},
+                         {"flipped_edges", r.result.flips.flips.size()},
                          {"levels", r.levels},
                          {"relative_error", number(r.result.relative_error)},
                          {"seconds_eigenpairs", r.result.seconds_eigenpairs},

@@ -68,6 +68,11 @@ for variant in "" "--mass averaged" "--placement midpoint" "--placement free" "-
   grep -q '|C|_L' said || fail "no table with '$variant'"
 done
 
+runs "edge flips" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --flips spectral $all
+"$check" . shape.off coarse.off || fail "outputs of --flips"
+grep -q 'flipped edges .* [1-9].*(spectral)' said || fail "no flips in the table"
+grep -q '"flips": "spectral"' out.json || fail "no flips in the JSON file"
+
 runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
 runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
 cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"
@@ -216,6 +221,7 @@ refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 
 refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
   --signals pairs/coarse_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
+refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --flips up
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
 refuses "pairs without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --eigenpairs d

@@ -11,8 +11,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_post_process.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_pre_simplification.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_relocation_stage.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
@@ -74,12 +74,15 @@ struct Spectral_edge_collapse_result
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
+  double seconds_flips = 0;              ///< wall seconds of `Spectral_options::flips`
   double seconds_relocation = 0;         ///< wall seconds of `Spectral_options::relocate`
   double seconds_total = 0;              ///< the whole call
 
   double E = 0;              ///< Eq. 2, for the input scaled to unit area
   double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
 
+  /// what `Spectral_options::flips` did: vertices by their rows of P, E in the scale of the input
+  Spectral_geometry::Edge_flip_result flips;
   /// what `Spectral_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
   Spectral_geometry::Relocation_result relocation;
 
@@ -226,17 +229,18 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
   }
 }
 
-/// `Spectral_options::relocate`. The log, and what is replayed from it, stay as they are: they end before it.
+/// `Spectral_options::flips` and `Spectral_options::relocate`. The log, and what is replayed from it, stay as they are: they end before them.
 template <class TriangleMesh, class Policies, class NamedParameters>
-void run_relocation(TriangleMesh& mesh, const Spectral_relocation_stage& relocation, const Policies& policies,
-                    const std::vector<char>& kept, const NamedParameters& np, const Pre_simplification& first,
-                    Spectral_edge_collapse_result& result)
+void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process, const Policies& policies,
+                      const std::vector<char>& kept, const NamedParameters& np,
+                      const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   std::vector<bool> stays;
   if(!kept.empty())
     for(const Eigen::Index slot : policies.state().current_slots())
       stays.push_back(kept[std::size_t(slot)] != 0);
-  relocation.run(mesh, policies, stays, np, result);
+  post_process.run(mesh, policies, stays, np, result);
+  result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
   // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
   Eigen::SparseMatrix<double>& own = result.relocation.restriction;
@@ -255,7 +259,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
-  const Spectral_relocation_stage relocation(mesh, options, policies_np);
+  const Spectral_post_process post_process(mesh, options, policies_np);
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
   const Policies policies(mesh, options, policies_np);
@@ -286,7 +290,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();
   set_restriction(result, first, policies.log(), state.current_slots());
-  run_relocation(mesh, relocation, policies, kept, np, first, result);
+  run_post_process(mesh, post_process, policies, kept, np, first, result);
 }
 
 /// Both stages of a run whose first one has been done. Once the mesh has changed, to cancel is to return what was done.

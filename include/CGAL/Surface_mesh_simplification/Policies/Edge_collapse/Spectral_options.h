@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -56,6 +57,7 @@ enum class Spectral_phase {
   eigenpairs,         ///< solving for the basis
   first_costs,        ///< evaluating every edge once
   collapses,          ///< inside the collapse loop
+  flips,              ///< flipping edges of the mesh that is left, see `Spectral_options::flips`
   relocation          ///< moving the vertices that are left, see `Spectral_options::relocate`
 };
 
@@ -129,6 +131,14 @@ struct Spectral_options
   /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
   /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
   std::size_t pre_simplify = 0;
+
+  /// `spectral_edge_collapse()` only: flips edges of the mesh that is left, before `relocate`, where that lowers E or
+  /// makes them Delaunay, see `Spectral_geometry::flip_edges()`. Constrained edges stay. The log, and the levels that are
+  /// replayed from it, end before. Off by default: it changes little (section 6 of the paper).
+  Spectral_geometry::Edge_flips flips = Spectral_geometry::Edge_flips::none;
+
+  /// What a flip may not do; its criterion and its progress callback are replaced by those here.
+  Spectral_geometry::Edge_flip_options flipping;
 
   /// `spectral_edge_collapse()` only: moves the vertices that are left so that the spectrum is kept still better, see
   /// `Spectral_geometry::relocate_positions()`. Made for the averaged mass.

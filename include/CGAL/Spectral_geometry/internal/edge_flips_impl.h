@@ -1,0 +1,70 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EDGE_FLIPS_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EDGE_FLIPS_IMPL_H
+
+#include <CGAL/Spectral_geometry/edge_flips.h>
+#include <CGAL/Spectral_geometry/internal/Edge_flipper.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                             const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
+                             const Eigen::MatrixXd& Z, const double theta)
+{
+  const auto require = [](const bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("edge flips: " + sentence);
+  };
+  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+  };
+  check_positions(V);
+  check_triangles(T, V.rows());
+  require(P.rows() == V.rows(), "P is " + size(P.rows(), P.cols()) + " and the mesh has " +
+                                    std::to_string(V.rows()) + " vertices; pass a P of coarse x fine.");
+  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
+          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
+              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
+              " fine vertices and one column for each signal.");
+  require(theta >= 0 && theta <= 1, "theta must lie in [0, 1], but is " + std::to_string(theta) + ".");
+  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
+          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
+  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
+          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
+  require(o.size_tolerance > 0, "size_tolerance must be positive.");
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T,
+                                                          const Eigen::SparseMatrix<double>& P,
+                                                          const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                                                          const double theta,
+                                                          const std::vector<std::pair<int, int>>& constrained,
+                                                          const Edge_flip_options& options)
+{
+  internal::check_edge_flips(options, V, T, P, F, Z, theta);
+  Edge_flip_result result;
+  internal::Edge_flipper flipper(V, T, P * F, P * Z, theta, constrained, options);
+  if(options.criterion != Edge_flips::none)
+    T = flipper.run(result);
+  return result;
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EDGE_FLIPS_IMPL_H

@@ -1,0 +1,146 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_POST_PROCESS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_POST_PROCESS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
+#include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// What follows the collapses: `Spectral_options::flips`, then `Spectral_options::relocate`. Made before the first collapse:
+/// it needs the mesh of the eigenpairs.
+class Spectral_post_process
+{
+public:
+  template <class TriangleMesh, class NamedParameters>
+  Spectral_post_process(const TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np)
+    : m_options(options)
+  {
+    if(is_wanted())
+      m_fine = Spectral_geometry::mesh_matrices(mesh, np);
+  }
+
+  bool is_wanted() const
+  {
+    return m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none;
+  }
+
+  /// P leads from the mesh of the eigenpairs to this one; `kept` says of each vertex whether it must stay.
+  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
+  void run(TriangleMesh& mesh, const Policies& policies, const std::vector<bool>& kept,
+           const NamedParameters& np, Result& result) const
+  {
+    using namespace Spectral_geometry;
+    if(!is_wanted() || result.stop_reason == Result::Stop_reason::cancelled)
+      return;
+    const double theta = mass_blend(m_options.mass);
+    Eigen::MatrixXd F, Z;
+    signals(theta, result.eigenpairs.get(), F, Z);
+    const Eigen::SparseMatrix<double> P = policies.restriction();
+    const char* where = "as the collapses left them";
+    try {
+      if(m_options.flips != Edge_flips::none) {
+        flip(mesh, policies, P, F, Z, theta, np, result);
+        where = "as collapses and flips left them";
+      }
+      if(m_options.relocate)
+        relocate(mesh, policies, P, F, Z, theta, kept, np, result);
+    } catch(const Cancelled&) {
+      result.stop_reason = Result::Stop_reason::cancelled;
+      result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
+                           " vertices, which are " + where + ".";
+    }
+  }
+
+private:
+  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
+  void flip(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
+            const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta, const NamedParameters& np,
+            Result& result) const
+  {
+    Spectral_geometry::Edge_flip_options flipping = m_options.flipping;
+    flipping.criterion = m_options.flips;
+    flipping.progress = [&](const double fraction) {
+      return policies.state().report(Spectral_phase::flips, fraction);
+    };
+    result.flips = flip_mesh_edges(mesh, P, F, Z, theta, flipping, np);
+    set_error(mesh, P, theta, F, Z, np, result);
+  }
+
+  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
+  void relocate(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
+                const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
+                const std::vector<bool>& kept, const NamedParameters& np, Result& result) const
+  {
+    if(m_options.mass == Spectral_geometry::Mass::lumped)
+      result.warnings.push_back(
+          "Relocation is made for the averaged mass: in the lumped mass it bends the shape "
+          "to cancel the error of the elements.");
+    Spectral_geometry::Relocation_options relocation = m_options.relocation;
+    relocation.progress = [&](const double fraction) {
+      return policies.state().report(Spectral_phase::relocation, fraction);
+    };
+    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, kept, np);
+    set_error(mesh, result.relocation.restriction, theta, F, Z, np, result);
+  }
+
+  // At the scale of the input.
+  void signals(const double theta, const Spectral_geometry::Eigenpairs* pairs, Eigen::MatrixXd& F,
+               Eigen::MatrixXd& Z) const
+  {
+    if(m_options.signals.size() != 0) {
+      F = m_options.signals * spectral_weights(m_options, m_options.signals.cols()).cwiseSqrt().asDiagonal();
+      Z = spectral_z(Spectral_geometry::laplace_operator(m_fine.V, m_fine.T, theta), F);
+    } else {
+      F = pairs->vectors * spectral_weights(m_options, pairs->size()).cwiseSqrt().asDiagonal();
+      Z = F * pairs->values.asDiagonal();
+    }
+  }
+
+  // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's
+  // signals are as they were given, and Z is multiplied by the area.
+  template <class TriangleMesh, class NamedParameters, class Result>
+  void set_error(const TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const double theta,
+                 const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const NamedParameters& np,
+                 Result& result) const
+  {
+    using namespace Spectral_geometry;
+    const Mesh_matrices coarse = mesh_matrices(mesh, np);
+    const double area = laplace_operator(m_fine.V, m_fine.T, theta).mass.sum();
+    const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
+    const double before = result.E;
+    result.E = restriction_energy(laplace_operator(coarse.V / std::sqrt(area), coarse.T, theta), P, scale * F,
+                                  (scale * area) * Z);
+    if(before > 0)
+      result.relative_error *= std::sqrt(result.E / before);
+  }
+
+  const Spectral_options& m_options;
+  Spectral_geometry::Mesh_matrices m_fine;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_POST_PROCESS_H

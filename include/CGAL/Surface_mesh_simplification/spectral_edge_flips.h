@@ -1,0 +1,138 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/edge_flips.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+
+#include <CGAL/Named_function_parameters.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/helpers.h>
+#include <CGAL/boost/graph/named_params_helper.h>
+#include <CGAL/boost/graph/properties.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+namespace internal {
+
+/// The constrained edges, by positions of their ends in `vertices(mesh)`.
+template <class TriangleMesh, class NamedParameters>
+std::vector<std::pair<int, int>> constrained_edges(const TriangleMesh& mesh, const NamedParameters& np)
+{
+  std::vector<std::pair<int, int>> result;
+  if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
+    auto index = get(dynamic_vertex_property_t<int>(), mesh);
+    int n = 0;
+    for(const auto v : vertices(mesh))
+      put(index, v, n++);
+    const auto is_constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
+    for(const auto e : edges(mesh))
+      if(get(is_constrained, e))
+        result.emplace_back(get(index, source(e, mesh)), get(index, target(e, mesh)));
+  }
+  (void)mesh;
+  (void)np;
+  return result;
+}
+
+/// The same for a weight theta of the consistent mass.
+template <class TriangleMesh, class NamedParameters>
+Spectral_geometry::Edge_flip_result
+flip_mesh_edges(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
+                const Eigen::MatrixXd& Z, const double theta,
+                const Spectral_geometry::Edge_flip_options& options, const NamedParameters& np)
+{
+  Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
+  Spectral_geometry::Edge_flip_result result =
+      Spectral_geometry::flip_edges(coarse.V, coarse.T, P, F, Z, theta, constrained_edges(mesh, np), options);
+  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles;
+  for(const auto v : vertices(mesh))
+    handles.push_back(v);
+  for(const Spectral_geometry::Edge_flip& flip : result.flips) {
+    const auto h = halfedge(handles[std::size_t(flip.from[0])], handles[std::size_t(flip.from[1])], mesh);
+    CGAL_assertion(h.second);
+    Euler::flip_edge(h.first, mesh);
+  }
+  return result;
+}
+
+} // namespace internal
+
+/*!
+ * Flips edges of a coarse mesh so that E (Eq. 2) falls, as section 6 of the paper does after a simplification, or until its
+ * edges are Delaunay: the mesh form of `Spectral_geometry::flip_edges()`, which says what is compared and what is guarded.
+ * Vertices, their positions and P stay. Edges keep their handles, so that a map of constrained edges stays valid.
+ *
+ * For a mesh that `spectral_edge_collapse()` made pass the restriction of its result, for any other
+ * `Spectral_geometry::closest_point_interpolation()` with its vertices as points. Relocation, if any, comes afterwards.
+ *
+ * @param mesh    the coarse mesh, of triangles
+ * @param P       coarse x fine, rows in the order of `vertices(mesh)`
+ * @param F       fine x K, the signals
+ * @param Z       fine x K, B^-1 L F
+ * @param mass    the mass matrix of the metric
+ * @param options which edges, guards, when to stop
+ * @param np      named parameters: `vertex_point_map`, `geom_traits` and `edge_is_constrained_map` (these edges stay)
+ *
+ * @return the flips, E before and after
+ *
+ * @throws std::invalid_argument for matrices that do not belong together, or options out of range
+ * @throws Spectral_geometry::Cancelled when the progress callback returns false; the mesh is then as it was
+ */
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Spectral_geometry::Edge_flip_result
+spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
+                    const Eigen::MatrixXd& Z, const Spectral_geometry::Mass mass,
+                    const Spectral_geometry::Edge_flip_options& options = {},
+                    const NamedParameters& np = parameters::default_values())
+{
+  return internal::flip_mesh_edges(mesh, P, F, Z, Spectral_geometry::mass_blend(mass), options, np);
+}
+
+/*!
+ * The same for eigenvectors.
+ *
+ * @param mesh    the coarse mesh, of triangles
+ * @param P       coarse x fine, rows in the order of `vertices(mesh)`
+ * @param pairs   eigenpairs of the fine mesh in the same mass, at its own scale; tight ones, since Z is taken as Phi Lambda
+ * @param mass    the mass matrix of the metric
+ * @param options which edges, guards, when to stop
+ * @param np      named parameters, as above
+ *
+ * @return the flips, E before and after
+ */
+template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
+Spectral_geometry::Edge_flip_result
+spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
+                    const Spectral_geometry::Eigenpairs& pairs, const Spectral_geometry::Mass mass,
+                    const Spectral_geometry::Edge_flip_options& options = {},
+                    const NamedParameters& np = parameters::default_values())
+{
+  return spectral_edge_flips(mesh, P, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(), mass, options,
+                             np);
+}
+
+/// @}
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H
