@@ -414,7 +414,7 @@ TEST_CASE("two sheets that nearly touch do not pass through each other")
     std::swap(inner.T(f, 1), inner.T(f, 2));
   const Eigen::Index n = s.coarse.V.rows(), m = s.coarse.T.rows();
   Eigen::MatrixXd V(2 * n, 3);
-  V << s.coarse.V, 0.998 * s.coarse.V;
+  V << s.coarse.V, 0.9998 * s.coarse.V;
   Eigen::MatrixXi T(2 * m, 3);
   T << s.coarse.T, (inner.T.array() + int(n)).matrix();
   REQUIRE(SG::internal::self_intersecting_faces(V, T).empty());
