@@ -89,8 +89,8 @@ def table(rows):
     return "\n".join(lines) + "\n"
 
 
-# One line per simplifier, one column per mesh and size, and the means.
-def overview(results, mass):
+# One line per simplifier, one column per mesh and size, and the means. `restriction` finds the norms in a row.
+def overview(results, mass, restriction=norms, suffix=""):
     cases = [(result, n) for result in results for n in sorted({r["requested_vertices"] for r in result["rows"]})]
     names, found = [], {}
     for k, (result, n) in enumerate(cases):
@@ -98,12 +98,12 @@ def overview(results, mass):
             if row["judged_mass"] == mass and row["requested_vertices"] == n:
                 if name(row) not in names:
                     names.append(name(row))
-                found[name(row), k] = norms(row)
+                found[name(row), k] = restriction(row)
     text = ""
     for norm, digits in (("norm_L", 1), ("norm_D", 2)):
         smallest = [min(found[x, k][norm] for x in names if (x, k) in found) for k in range(len(cases))]
         title = "C_L" if norm == "norm_L" else "C_D"
-        text += f"\n{title}, judged in the {mass} mass:\n\n| simplifier | "
+        text += f"\n{title}, judged in the {mass} mass{suffix}:\n\n| simplifier | "
         text += " | ".join(f"{os.path.splitext(result['mesh'])[0]} {n}" for result, n in cases) + " | mean |\n|---|"
         text += "---|" * (len(cases) + 1) + "\n"
         rows = []
@@ -127,6 +127,7 @@ def tables(results):
     text += "\n## Norms of all meshes\n"
     for mass in ("averaged", "lumped"):
         text += overview(results, mass)
+        text += overview(results, mass, lambda row: row["closest_point_P"], ", closest P for all")
     for result in results:
         for n in sorted({r["requested_vertices"] for r in result["rows"]}):
             text += f"\n## {result['mesh']}, {result['vertices']} vertices, N = {n}\n"

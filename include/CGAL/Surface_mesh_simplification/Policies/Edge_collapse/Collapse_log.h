@@ -84,9 +84,13 @@ public:
   /// `Merge_forest::merge()` throws.
   void merge(const Index removed, const Index kept, const double alpha, const Eigen::Vector3d& point)
   {
-    m_points.reserve(m_points.size() + 1); // so that both get it or none
-    m_forest.merge(removed, kept, alpha);
-    m_points.push_back(point);
+    m_points.push_back(point); // first, so that both get it or none
+    try {
+      m_forest.merge(removed, kept, alpha);
+    } catch(...) {
+      m_points.pop_back();
+      throw;
+    }
   }
 
   /// Appends the log of a second simplification that started where this one ended: `slots[i]` is the slot of
