@@ -394,22 +394,29 @@ wait "$process"
 [ $? -eq 130 ] || fail "an interrupted run does not end with status 130: $(cat complained)"
 [ -z "$(ls -A stopped)" ] || fail "an interrupted run left $(ls -A stopped)"
 
-# Ctrl-C when vertices have been removed, with --on-interrupt write. When that is depends on the machine: the delay is
-# halved between a run that had not got there and one that had ended, in twentieths of a second.
+# Ctrl-C when vertices have been removed, with --on-interrupt write. When that is depends on the machine and on what else it
+# does: the delay is halved between a run that had not got there and one that had ended, in hundredths of a second, and
+# the two bounds part again when they have met.
 low=0
-high=400
+high=4000
 ended=
-while [ -z "$ended" ] && [ $((high - low)) -gt 1 ]; do
+attempts=0
+while [ -z "$ended" ] && [ "$attempts" -lt 60 ]; do
+  attempts=$((attempts + 1))
+  if [ $((high - low)) -le 1 ]; then
+    low=$((low > 8 ? low - 8 : 0))
+    high=$((high + 8))
+  fi
   delay=$(((low + high) / 2))
-  [ "$high" -lt 400 ] || delay=$((low * 2 + 2))
+  [ "$high" -lt 4000 ] || delay=$((low * 2 + 2))
   rm -rf stopped && mkdir stopped
-  "$program" shape.off stopped/out.off --levels 1990,200 --eigenvectors 150 --json stopped/out.json \
-    --eigenpairs stopped/pairs --map stopped/map.txt --on-interrupt write >said 2>complained &
+  "$program" shape.off stopped/out.off --levels 1990,200 --eigenvectors 150 --placement free --threads 1 \
+    --json stopped/out.json --eigenpairs stopped/pairs --map stopped/map.txt --on-interrupt write >said 2>complained &
   process=$!
   while [ -z "$(ls -A stopped)" ]; do
     sleep 0.05
   done
-  sleep "$(echo "$delay" | awk '{ print $1 / 20 }')"
+  sleep "$(echo "$delay" | awk '{ print $1 / 100 }')"
   kill -INT "$process" 2>/dev/null
   wait "$process"
   status=$?
