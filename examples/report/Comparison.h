@@ -93,7 +93,7 @@ struct Simplified
     if(metric_mass != "none")
       text += ", " + metric_mass + " metric";
     if(relocation != "none")
-      text += ", relocation " + relocation;
+      text += ", relocated";
     return text;
   }
 };

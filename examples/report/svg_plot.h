@@ -304,9 +304,15 @@ inline std::string svg(const Bars& bars)
     if(std::isfinite(v))
       largest = (std::max)(largest, v);
   const double row = 20, top = 28, bottom = top + row * static_cast<double>(bars.names.size());
-  const double left = bars.names_width, right = bars.width - 56, height = bottom + 40;
+  std::size_t longest = 0;
+  for(const std::string& name : bars.names)
+    longest = (std::max)(longest, name.size());
+  const double left =
+      (std::max)(bars.names_width, 12 + 6.1 * static_cast<double>(longest)); // 12 px sans-serif
+  const double width = bars.width + left - bars.names_width;
+  const double right = width - 56, height = bottom + 40;
   const Axis axis(0, largest > 0 ? largest : 1, false, left, right);
-  std::string result = svg_begin(bars.width, height, bars.title);
+  std::string result = svg_begin(width, height, bars.title);
   for(const double t : axis.ticks())
     result += "<path d='M" + number(axis(t)) + " " + number(top) + "V" + number(bottom) +
               "' stroke='#e3e3e3'/>" + text(axis(t), bottom + 15, tick_label(t), "text-anchor='middle'");
@@ -329,7 +335,7 @@ inline std::string svg(const Bars& bars)
   result += "<path d='M" + number(left) + " " + number(top) + "V" + number(bottom) + "H" + number(right) +
             "' fill='none' stroke='#333'/>";
   result += text((left + right) / 2, bottom + 33, bars.label, "text-anchor='middle'");
-  result += text(bars.width / 2, 16, bars.title, "text-anchor='middle' font-weight='bold'");
+  result += text(width / 2, 16, bars.title, "text-anchor='middle' font-weight='bold'");
   return result + "</svg>\n";
 }
 
