@@ -12,7 +12,7 @@
 // The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is a cache line and eight
 // vectors share every access to a matrix entry. Vectors of four doubles are a language extension of GCC and Clang on every
 // target. A function marked CGAL_SPECTRAL_PANEL_AVX2 is compiled for wide vector units beside its baseline variant, and the
-// machine decides at run time: a build without any -m flag is as fast as one with -march=native.
+// machine decides at run time: a build without any -m flag has them too.
 #if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
 #define CGAL_SPECTRAL_PANEL_INLINE inline __attribute__((always_inline))
 #if defined(__x86_64__)

@@ -259,9 +259,8 @@ public:
 
 private:
   // An edge that leads away from the ring of the kept vertex is put off where it cost so many times more than the
-  // collapses of late: long before its turn comes, others near it will have had it evaluated again. Measured on spot,
-  // cheburashka, homer and rocker-arm: 22 evaluations for each collapse instead of 37, E at the end 0.98 of what it was
-  // on average (0.93 to 1.01). A factor of 1 raises E by 5 %; putting off the link of the kept vertex too, by half.
+  // collapses of late: long before its turn comes, others near it will have had it evaluated again. Measured: 22
+  // evaluations for each collapse instead of 37, and on seven runs |C|_L times 1.02 (lumped) and 1.00 (averaged).
   static constexpr double deferral_factor = 4;
   static constexpr double recent_cost_decay = 0.998;
 
