@@ -12,6 +12,8 @@
 #include "collapse_helpers.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -349,4 +351,42 @@ TEST_CASE("Edges without length are among the collapses that are counted")
   CHECK(result.output_vertices == (std::min)(N, std::size_t(639))); // they are merged before anybody asks
   CHECK(result.explanation == "");
   CHECK(fault_of_result(mesh, result, input, options) == "");
+}
+
+TEST_CASE("Relocation leaves vertices to keep where they are, whichever handle they go on under")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Spectral_options options = options_with(6);
+  options.mass = SG::Mass::averaged;
+  options.relocate = true;
+  options.relocation.maximum_steps = 3;
+  for(std::size_t v = 0; v < 162; v += 9)
+    options.kept_vertices.push_back(v);
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 60, options);
+  CHECK(result.output_vertices == 60);
+  CHECK(result.relocation.moved_vertices > 0);
+  int other_handles = 0, moved = 0;
+  for(const std::size_t v : options.kept_vertices) {
+    const std::size_t row = result.vertex_map[v];
+    moved += positions(mesh).row(Eigen::Index(row)) != input.V.row(Eigen::Index(v));
+    other_handles += std::size_t(*std::next(vertices(mesh).begin(), std::ptrdiff_t(row))) != v;
+  }
+  CHECK(moved == 0);
+  CHECK(other_handles > 0);
+}
+
+TEST_CASE(
+    "A face without area in the result is warned of where relocation was asked for, the collapses are kept")
+{
+  shapes::Matrices input = shapes::grid_matrices(4, 4);
+  input.V.row(6) = 0.5 * (input.V.row(5) + input.V.row(11)); // the corner opposite to a diagonal
+  Spectral_options options = options_with(4);
+  options.relocate = true;
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 25, options);
+  CHECK(result.stop_reason == Result::Stop_reason::target_reached);
+  CHECK(result.relocation.moved_vertices == 0);
+  REQUIRE_FALSE(result.warnings.empty());
+  CHECK_THAT(result.warnings.back(), ContainsSubstring("not relocated") && ContainsSubstring("has no area"));
 }

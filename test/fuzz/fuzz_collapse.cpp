@@ -13,7 +13,11 @@
 #include "../topology.h"
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +27,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -173,6 +178,11 @@ SMS::Spectral_options options_from(Bytes& bytes, const shapes::Matrices& mesh)
     unit.V /= extent > 0 && std::isfinite(extent) ? extent : 1.;
     options.signals = rough_signals(unit, options.number_of_eigenvectors);
   }
+  if(bytes.one_in(4)) {
+    options.weights.resize(options.number_of_eigenvectors);
+    for(double& weight : options.weights)
+      weight = bytes.unit();
+  }
   return options;
 }
 
@@ -206,22 +216,35 @@ double largest_cotangent(const shapes::Matrices& mesh)
   return result;
 }
 
+// What a run says of itself.
+struct Outcome
+{
+  Eigen::SparseMatrix<double> P;
+  double E, relative_error;
+  const SG::Eigenpairs* pairs;
+};
+
 // E recomputed from whole matrices, with the rounding that cotangents of that size leave in it.
-std::string fault_of_E(const shapes::Matrices& coarse, const Policies& policies, const shapes::Matrices& fine,
+std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, const shapes::Matrices& fine,
                        const SMS::Spectral_options& options)
 {
   const double worst_angle = (std::max)(largest_cotangent(coarse), largest_cotangent(fine));
-  if(!std::isfinite(policies.error()) || !std::isfinite(policies.relative_error()) || policies.error() < 0)
-    return "E is " + std::to_string(policies.error());
+  if(!std::isfinite(outcome.E) || !std::isfinite(outcome.relative_error) || outcome.E < 0)
+    return "E is " + std::to_string(outcome.E) + ", " + std::to_string(outcome.relative_error) +
+           " relative to the signals";
   if(worst_angle > 1e6 || !SG::diagnose_polygon_soup(coarse.V, polygons_of(coarse.T)).usable())
     return "";
   const double theta = SG::mass_blend(options.mass);
   const SG::Laplace_operator op = SG::laplace_operator(fine.V, fine.T, theta);
   const Basis basis = options.signals.size() != 0 ? signal_basis(fine, theta, options.signals)
-                                                  : basis_of_pairs(op, *policies.eigenpairs());
+                                                  : basis_of_pairs(op, *outcome.pairs);
   const SG::Laplace_operator now = SG::laplace_operator(coarse.V, coarse.T, theta);
-  const Eigen::SparseMatrix<double> P = policies.restriction(), B = now.B / basis.area;
-  const Eigen::MatrixXd PF = P * basis.F, PZ = P * basis.Z;
+  const Eigen::SparseMatrix<double> B = now.B / basis.area;
+  Eigen::MatrixXd PF = outcome.P * basis.F, PZ = outcome.P * basis.Z;
+  if(options.weights.size() != 0) {
+    PF *= options.weights.cwiseSqrt().asDiagonal();
+    PZ *= options.weights.cwiseSqrt().asDiagonal();
+  }
   const Eigen::VectorXd mass = now.mass / basis.area;
   const Eigen::VectorXd E = (B * PZ - now.L * PF).rowwise().squaredNorm().cwiseQuotient(mass);
   const Eigen::SparseMatrix<double> size_of_L = now.L.cwiseAbs();
@@ -230,8 +253,8 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Policies& policies,
       (B * PZ.cwiseAbs() + size_of_L * PF.cwiseAbs()).rowwise().norm().cwiseQuotient(mass.cwiseSqrt());
   const double tolerance =
       1e-6 * E.sum() + (2 * E.cwiseSqrt().cwiseProduct(rounding) + rounding.cwiseAbs2()).sum();
-  if(!(std::abs(E.sum() - policies.error()) <= tolerance))
-    return "E is off by " + std::to_string((E.sum() - policies.error()) / tolerance) + " tolerances";
+  if(!(std::abs(E.sum() - outcome.E) <= tolerance))
+    return "E is off by " + std::to_string((E.sum() - outcome.E) / tolerance) + " tolerances";
   return "";
 }
 
@@ -248,8 +271,219 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies, const sh
   if(!options.binary && options.placement != SMS::Spectral_placement_strategy::free &&
      !(position_error(P, fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off by " + std::to_string(position_error(P, fine.V, coarse.V));
-  return fault_of_E(coarse, policies, fine, options);
+  return fault_of_E(coarse, {P, policies.error(), policies.relative_error(), policies.eigenpairs().get()},
+                    fine, options);
 }
+
+// --- The one call, with all that it takes ------------------------------------------------------------------------------
+
+// Which edges are constrained.
+struct Edge_flags
+{
+  using key_type = Mesh::Edge_index;
+  using value_type = bool;
+  using reference = bool;
+  using category = boost::read_write_property_map_tag;
+
+  explicit Edge_flags(const Mesh& mesh)
+    : flags(std::make_shared<std::vector<char>>(mesh.num_edges(), 0))
+  {}
+  friend bool get(const Edge_flags& map, const key_type e) { return (*map.flags)[std::size_t(e)] != 0; }
+  friend void put(const Edge_flags& map, const key_type e, const bool flag)
+  {
+    (*map.flags)[std::size_t(e)] = flag;
+  }
+  std::shared_ptr<std::vector<char>> flags;
+};
+
+// The ends of all constrained edges, sorted.
+std::vector<std::array<double, 6>> constrained_segments(const Mesh& mesh, const Edge_flags& flags)
+{
+  std::vector<std::array<double, 6>> result;
+  for(const auto e : edges(mesh))
+    if(get(flags, e)) {
+      const auto p = mesh.point(mesh.vertex(e, 0)), q = mesh.point(mesh.vertex(e, 1));
+      const auto [low, high] = std::minmax(p, q);
+      result.push_back({low.x(), low.y(), low.z(), high.x(), high.y(), high.z()});
+    }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+// Refuses some edges by their ends, and normals that turn.
+struct Random_filter
+{
+  unsigned every = 0; // 0: nothing is refused
+  bool normals = false;
+
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& point) const
+  {
+    if(every != 0 && (unsigned(profile.v0()) + unsigned(profile.v1())) % every == 0)
+      return OptionalPoint();
+    return normals ? SMS::Bounded_normal_change_filter<>()(profile, point) : point;
+  }
+};
+
+struct One_call
+{
+  shapes::Matrices fine;
+  SG::Mesh_diagnosis diagnosis;
+  SMS::Spectral_options options;
+  std::size_t N = 0;
+  Random_filter filter;
+  int calls_until_cancelled = 0; // 0: never
+  unsigned level = 0;            // of the replay
+
+  bool pre_simplified() const
+  {
+    return options.pre_simplify != 0 && options.pre_simplify < std::size_t(fine.V.rows());
+  }
+  bool post_processed() const { return options.relocate || options.flips != SG::Edge_flips::none; }
+  bool has_zero_lengths() const { return diagnosis.zero_length_edges.count != 0; }
+};
+
+void add_one_call_options(One_call& call, Bytes& bytes)
+{
+  SMS::Spectral_options& o = call.options;
+  const int n = int(call.fine.V.rows());
+  const SG::Edge_flips flips[] = {SG::Edge_flips::none, SG::Edge_flips::spectral, SG::Edge_flips::delaunay};
+  o.flips = flips[bytes.below(3)];
+  o.relocate = bytes.one_in(3);
+  using Signals = SG::Relocation_options::Signals;
+  const Signals signals[] = {Signals::carried, Signals::carried_and_sampled, Signals::sampled};
+  o.relocation.signals = signals[bytes.below(3)];
+  o.relocation.maximum_steps = 3;
+  o.relocation.smoothing = bytes.one_in(2) ? 0 : 1;
+  o.relocation.fix_boundary = bytes.one_in(2);
+  if(bytes.one_in(4))
+    o.maximum_error = bytes.unit();
+  if(bytes.one_in(4) && o.signals.size() == 0) {
+    o.pre_simplify =
+        (std::min)(std::size_t(n), (std::max)(std::size_t(2), call.N + std::size_t(bytes.below(n))));
+    o.number_of_eigenvectors = (std::min)(o.number_of_eigenvectors, Eigen::Index(o.pre_simplify) - 1);
+    if(o.weights.size() != 0)
+      o.weights.conservativeResize(o.number_of_eigenvectors);
+  }
+  for(int i = bytes.below(5); i > 0; --i)
+    o.kept_vertices.push_back(std::size_t(bytes.below(n)));
+  call.filter.every = bytes.one_in(3) ? 2 + unsigned(bytes.below(4)) : 0;
+  call.filter.normals = bytes.one_in(3);
+  call.calls_until_cancelled = bytes.one_in(8) ? 1 + int(bytes.byte()) : 0;
+  call.level = bytes.byte();
+}
+
+bool unchanged(const Mesh& mesh, const Mesh& before)
+{
+  const shapes::Matrices a = SG::mesh_matrices(mesh), b = SG::mesh_matrices(before);
+  return a.V == b.V && a.T == b.T;
+}
+
+// The levels of detail are those of the run.
+std::string fault_of_log(Mesh copy, const Edge_flags& flags, const Mesh& mesh, const One_call& call,
+                         const SMS::Spectral_edge_collapse_result& result)
+{
+  const auto np = CGAL::parameters::edge_is_constrained_map(flags);
+  SMS::Collapse_replay<Mesh, std::decay_t<decltype(np)>> replay(copy, result.log, np);
+  const std::size_t n = count_vertices(copy), level = n - call.level % (n - result.output_vertices + 1);
+  for(const std::size_t N : {level, result.output_vertices}) {
+    replay.collapse_to(N);
+    if(!CGAL::is_valid_polygon_mesh(copy) || count_vertices(copy) != N)
+      return "a level of detail is not valid";
+    if((replay.restriction() - result.log.restriction(N)).norm() != 0)
+      return "the replay and the log have two restrictions";
+  }
+  if(!result.relocation.resampled &&
+     (result.log.restriction(result.output_vertices) - result.restriction).norm() != 0)
+    return "the last level has another restriction than the result";
+  if(!call.post_processed() && !unchanged(copy, mesh))
+    return "the last level is not the result";
+  return "";
+}
+
+// Kept vertices are where they were, as are constrained edges.
+std::string fault_of_constraints(const Mesh& mesh, const Edge_flags& flags, const Mesh& before,
+                                 const Edge_flags& flags_before, const One_call& call,
+                                 const SMS::Spectral_edge_collapse_result& result)
+{
+  const Eigen::MatrixXd V = positions(mesh);
+  for(const std::size_t v : call.options.kept_vertices) {
+    const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
+    if(V.row(row) != call.fine.V.row(Eigen::Index(v)))
+      return "a kept vertex has moved";
+    if(!result.relocation.resampled && result.restriction.coeff(row, Eigen::Index(v)) != 1)
+      return "the values of a kept vertex have changed";
+  }
+  if(!call.has_zero_lengths() &&
+     constrained_segments(mesh, flags) != constrained_segments(before, flags_before))
+    return "constrained edges have changed";
+  return "";
+}
+
+std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_call& call,
+                                const SMS::Spectral_edge_collapse_result& result)
+{
+  using Reason = SMS::Spectral_edge_collapse_result::Stop_reason;
+  if(!CGAL::is_valid_polygon_mesh(mesh) || !CGAL::is_triangle_mesh(mesh))
+    return "the mesh is not a valid triangle mesh";
+  if(!(topology(mesh) == topology(before)))
+    return "the topology has changed";
+  if(count_vertices(mesh) != result.output_vertices ||
+     (result.output_vertices < call.N && !call.has_zero_lengths()))
+    return "the vertices are miscounted";
+  const bool reached = result.output_vertices <= call.N;
+  if(result.stop_reason != Reason::cancelled && reached != (result.stop_reason == Reason::target_reached))
+    return "the reason for which the run ended is wrong";
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const bool binary = call.options.binary && !call.pre_simplified();
+  const std::string fault =
+      result.relocation.resampled ? "" : fault_of_restriction(result.restriction, result.vertex_map, binary);
+  if(!fault.empty())
+    return fault;
+  if(!binary && call.options.placement != SMS::Spectral_placement_strategy::free && !call.pre_simplified() &&
+     !call.options.relocate && !(position_error(result.restriction, call.fine.V, coarse.V) < 1e-11))
+    return "P times the fine positions is off";
+  // Relative to something: constant signals have no error but rounding.
+  if(!(result.relative_error <= call.options.maximum_error) && !call.post_processed() &&
+     !call.pre_simplified() && !call.has_zero_lengths() && result.E > 1e-12)
+    return "the error is above the bound";
+  if(!result.eigenpairs && call.options.signals.size() == 0) // cancelled before the first spectral collapse
+    return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
+  if(call.pre_simplified())
+    return std::isfinite(result.E) && result.E >= 0 ? "" : "E is " + std::to_string(result.E);
+  return fault_of_E(coarse, {result.restriction, result.E, result.relative_error, result.eigenpairs.get()},
+                    call.fine, call.options);
+}
+
+std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
+{
+  add_one_call_options(call, bytes);
+  Edge_flags flags(mesh);
+  for(int i = bytes.below(4); i > 0; --i)
+    put(flags, Mesh::Edge_index(unsigned(bytes.byte()) % mesh.num_edges()), true);
+  const Mesh before = mesh;
+  Edge_flags flags_before(mesh), flags_of_replay(mesh);
+  *flags_before.flags = *flags_of_replay.flags = *flags.flags;
+  int calls = 0;
+  SMS::Spectral_options options = call.options;
+  options.progress = [&](const SMS::Spectral_progress&) { return ++calls != call.calls_until_cancelled; };
+  SMS::Spectral_edge_collapse_result result;
+  try {
+    result = SMS::spectral_edge_collapse(
+        mesh, call.N, options, CGAL::parameters::edge_is_constrained_map(flags).filter(call.filter));
+  } catch(const SG::Cancelled&) {
+    return unchanged(mesh, before) ? "" : "a cancelled run has changed the mesh";
+  } catch(const std::invalid_argument& error) {
+    const bool expected = std::string(error.what()).find("both to be kept") != std::string::npos;
+    return expected && unchanged(mesh, before) ? "" : std::string("refused: ") + error.what();
+  }
+  std::string fault = fault_of_one_result(mesh, before, call, result);
+  if(fault.empty())
+    fault = fault_of_constraints(mesh, flags, before, flags_before, call, result);
+  return fault.empty() ? fault_of_log(before, flags_of_replay, mesh, call, result) : fault;
+}
+
+// -----------------------------------------------------------------------------------------------------------------------
 
 bool refused(Mesh& mesh, const SMS::Spectral_options& options)
 {
@@ -278,6 +512,8 @@ std::string fault_of_input(Bytes bytes)
   if(!diagnosis.usable())
     return refused(mesh, options) ? "" : "accepted: " + diagnosis.obstacles().front();
 
+  if(bytes.one_in(2))
+    return fault_of_one_call(mesh, {fine, diagnosis, options, N, {}, 0, 0}, bytes);
   const Topology before = topology(mesh);
   Policies policies(mesh, options);
   policies.state().set_batched(!bytes.one_in(4));

@@ -235,10 +235,15 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
                       const std::vector<char>& kept, const NamedParameters& np,
                       const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
+  // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
   std::vector<bool> stays;
-  if(!kept.empty())
-    for(const Eigen::Index slot : policies.state().current_slots())
-      stays.push_back(kept[std::size_t(slot)] != 0);
+  if(!kept.empty()) {
+    stays.resize(result.output_vertices, false);
+    const std::vector<std::size_t> map = policies.vertex_map();
+    for(std::size_t v = 0; v < kept.size(); ++v)
+      if(kept[v])
+        stays[map[v]] = true;
+  }
   post_process.run(mesh, policies, stays, np, result);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;

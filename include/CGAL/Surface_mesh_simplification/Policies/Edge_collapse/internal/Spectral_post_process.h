@@ -20,6 +20,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -59,11 +60,11 @@ public:
     const Eigen::SparseMatrix<double> P = policies.restriction();
     const char* where = "as the collapses left them";
     try {
-      if(m_options.flips != Edge_flips::none) {
+      if(m_options.flips != Edge_flips::none && allows(mesh, "No edge was flipped: ", false, np, result)) {
         flip(mesh, policies, P, F, Z, theta, np, result);
         where = "as collapses and flips left them";
       }
-      if(m_options.relocate)
+      if(m_options.relocate && allows(mesh, "The vertices were not relocated: ", true, np, result))
         relocate(mesh, policies, P, F, Z, theta, kept, np, result);
     } catch(const Cancelled&) {
       result.stop_reason = Result::Stop_reason::cancelled;
@@ -73,6 +74,31 @@ public:
   }
 
 private:
+  // Whether the mesh that is left has an operator, and each face an area if need be; warns where it has not. The collapses
+  // are done: to throw would lose them.
+  template <class TriangleMesh, class NamedParameters, class Result>
+  static bool allows(const TriangleMesh& mesh, const char* consequence, const bool needs_areas,
+                     const NamedParameters& np, Result& result)
+  {
+    using namespace Spectral_geometry;
+    const Mesh_matrices coarse = mesh_matrices(mesh, np);
+    std::string obstacle;
+    try {
+      laplace_operator(coarse.V, coarse.T);
+    } catch(const std::invalid_argument& error) {
+      obstacle = error.what();
+    }
+    for(Eigen::Index f = 0; f < coarse.T.rows() && needs_areas && obstacle.empty(); ++f)
+      if(!(triangle_cotangents(coarse.V.row(coarse.T(f, 0)), coarse.V.row(coarse.T(f, 1)),
+                               coarse.V.row(coarse.T(f, 2)))
+               .area > 0))
+        obstacle =
+            Spectral_geometry::internal::face_name(f) + " of the simplified mesh has no area; remove it.";
+    if(!obstacle.empty())
+      result.warnings.push_back(consequence + obstacle);
+    return obstacle.empty();
+  }
+
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void flip(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta, const NamedParameters& np,
@@ -129,8 +155,11 @@ private:
     const double area = laplace_operator(m_fine.V, m_fine.T, theta).mass.sum();
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
     const double before = result.E;
-    result.E = restriction_energy(laplace_operator(coarse.V / std::sqrt(area), coarse.T, theta), P, scale * F,
-                                  (scale * area) * Z);
+    // The operator is scaled, not the positions: far from the origin that would cost digits.
+    Laplace_operator op = laplace_operator(coarse.V, coarse.T, theta);
+    op.B /= area;
+    op.mass /= area;
+    result.E = restriction_energy(op, P, scale * F, (scale * area) * Z);
     if(before > 0)
       result.relative_error *= std::sqrt(result.E / before);
   }
