@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
 # What a run ended with: the sentence, or the size of the result and what was repaired.
 outcome()
 {
-  if "$program" "$@" --quiet --json "$folder/out.json" >"$folder/said" 2>"$folder/complained"; then
+  if "$program" "$@" --json "$folder/out.json" >"$folder/said" 2>"$folder/complained"; then
     sed -n 's/^ *"\(input_vertices\|output_vertices\|norm_L\|stop_reason\)": *\(.*[^,]\),*$/\1 \2/p' "$folder/out.json" |
       awk '{ v[$1] = $0; sub(/^[a-z_L]* /, "", v[$1]) }
            END {
@@ -25,7 +25,7 @@ outcome()
              printf "%s -> %s vertices, %s", v["input_vertices"], v["output_vertices"], v["stop_reason"]
              if(v["norm_L"] != "null" && v["norm_L"] != "") printf ", \\|C\\|_L %.3g", v["norm_L"]
            }'
-    sed -n '/"repairs": {$/,/}/ s/^ *"\(.*\)": \([0-9]*\),*$/; \2 \1/p' "$folder/out.json" | tr -d '\n'
+    sed -n '/^repaired:$/,/^$/ s/^ *\([0-9].*\)/; \1/p' "$folder/said" | tr -d '\n'
   else
     sed 's/^spectral_simplify: //; s/|/\\|/g' "$folder/complained" | sed "s|$folder/||g; s|'/[^']*/|'|g" | tr -d '\n'
   fi

@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H
 
+#include "io/mesh_repair.h"
+
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -15,7 +17,6 @@
 #include <cstdio>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
@@ -30,7 +31,7 @@ struct Simplification_report
   std::string flips = "none"; // "spectral", "delaunay"
   bool binary = false;
   Eigen::Index number_of_eigenvectors = 0;
-  std::vector<std::pair<std::string, std::size_t>> repairs; // what --repair did, and how often
+  std::vector<Repair> repairs; // what --repair did, and how often
   std::optional<double> max_error;
   std::size_t kept_vertices = 0;
   Eigen::Index signals = 0;        // 0: eigenvectors
@@ -50,8 +51,8 @@ inline void print_table(const Simplification_report& r)
 {
   if(!r.repairs.empty()) {
     std::printf("repaired:\n");
-    for(const auto& [what, count] : r.repairs)
-      std::printf("  %8zu %s\n", count, what.c_str());
+    for(const Repair& repair : r.repairs)
+      std::printf("  %8zu %s\n", repair.count, repair.what().c_str());
     std::printf("\n");
   }
   std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", r.input.c_str(), r.result.input_vertices,
@@ -100,8 +101,8 @@ inline nlohmann::json to_json(const Simplification_report& r)
                          {"seconds_total", r.result.seconds_total},
                          {"stop_reason", r.result.stop_reason_name()},
                          {"repairs", nlohmann::json::object()}};
-  for(const auto& [what, count] : r.repairs)
-    json["repairs"][what] = count;
+  for(const Repair& repair : r.repairs)
+    json["repairs"][repair.many] = repair.count; // one key whatever the count
   for(const char* name :
       {"norm_L", "norm_D", "norm_L_input_scale", "norm_D_extended", "floor_norm_L", "floor_norm_D",
        "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio", "seconds_evaluation"})

@@ -282,6 +282,7 @@ printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n3 0 1 2\n3 0 3 4\n' | b
 printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | bad isolated.off "vertex 4 .* isolated"
 printf 'v 0 0 0\nv 1 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' | bad nan.obj "obj\\|finite"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | bad line.off "area\\|mass"
+printf 'OFF\n4 1 0\n0 0 0\n1e70 0 0\n1e70 1e70 0\n0 1e70 0\n4 0 1 2 3\n' | bad huge.off "above 1e50 .* another unit of length\.$"
 
 # --- repair -----------------------------------------------------------------------------------------------------------
 
@@ -310,7 +311,9 @@ printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' |
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 1e-14 0\n3 0 1 4\n3 0 4 2\n3 0 2 3\n' |
   repairs needle.off "degenerate faces removed"
 runs "the repair is in the table" quads.off out.off --repair --ratio 1 --eigenvectors 2 --no-evaluation
-grep -q '2 polygons triangulated' said || fail "the repair is not in $(cat said)"
+grep -q ' 2 polygons triangulated' said || fail "the repair is not in $(cat said)"
+runs "one thing repaired" lonely.off out.off --repair --ratio 1 --eigenvectors 1 --no-evaluation
+grep -q ' 1 isolated vertex removed' said || fail "the repair is not in $(cat said)"
 runs "sound meshes are left alone" shape.off out.off --repair --repaired same.off --ratio 1 --eigenvectors 2 --json no.json
 runs "a copy" shape.off copy.off --ratio 1 --eigenvectors 2
 cmp -s same.off copy.off || fail "--repair changed a mesh without faults"

@@ -170,7 +170,9 @@ TEST_CASE("Each obstacle is counted, and the first offender named")
     soup.V *= 1e160;
     CHECK(is(soup.diagnosis().overflowing_faces, 8, 0));
     REQUIRE(soup.diagnosis().obstacles().size() == 2);
-    CHECK_THAT(soup.diagnosis().obstacles()[0], ContainsSubstring("1e50"));
+    CHECK(soup.diagnosis().out_of_scale());
+    CHECK_THAT(soup.diagnosis().obstacles()[0],
+               ContainsSubstring("above 1e50") && ContainsSubstring("scale the mesh to another unit"));
     CHECK_THAT(soup.diagnosis().obstacles()[1],
                ContainsSubstring("8 of 8 faces") && ContainsSubstring("rescale"));
   }
@@ -238,7 +240,10 @@ TEST_CASE("K and N are judged by the components")
   REQUIRE(d.warnings(20, 11).size() == 1);
   CHECK_THAT(d.warnings(20, 11)[0], ContainsSubstring("at least 12 vertices"));
   REQUIRE(d.warnings(3, 100).size() == 1);
-  CHECK_THAT(d.warnings(3, 100)[0], ContainsSubstring("constant on each of the 3 components"));
+  CHECK_THAT(d.warnings(3, 100)[0], ContainsSubstring("With 3 eigenvectors only") &&
+                                        ContainsSubstring("constant on each of the 3 components"));
+  CHECK_THAT(d.warnings(1, 100)[0], ContainsSubstring("With 1 eigenvector only"));
+  CHECK_THAT(d.warnings(20, 1)[0], ContainsSubstring("A target of 1 vertex cannot"));
   REQUIRE(d.warnings(42, 100).size() == 1);
   CHECK_THAT(d.warnings(42, 100)[0], ContainsSubstring("has 42 vertices"));
   CHECK(soup_of(shapes::bumpy_icosphere_matrices(1)).diagnosis().warnings(1, 20).empty());

@@ -109,8 +109,11 @@ inline Mesh to_mesh(const Polygon_soup& soup, const std::string& path, const std
 {
   const CGAL::Spectral_geometry::Mesh_diagnosis diagnosis = diagnose(soup);
   const std::vector<std::string> obstacles = diagnosis.obstacles();
+  // Such a mesh is told to be scaled, and no repair does that.
+  const bool help_applies = !diagnosis.out_of_scale() || diagnosis.non_finite_vertices.count != 0;
   if(!obstacles.empty())
-    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() + help + ".");
+    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() +
+                             (help_applies ? help : std::string()) + ".");
   if(diagnosis.number_of_faces == 0)
     throw std::runtime_error("'" + path + "' has no faces left" + help + ".");
   Mesh mesh;

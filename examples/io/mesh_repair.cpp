@@ -65,23 +65,26 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
     else
       result.polygons.push_back(polygon);
   }
-  log.add("faces removed that use a vertex that does not exist", foreign);
-  log.add("faces removed with a coordinate that is not finite", infinite);
+  log.add("face removed that uses a vertex that does not exist",
+          "faces removed that use a vertex that does not exist", foreign);
+  log.add("face removed with a coordinate that is not finite",
+          "faces removed with a coordinate that is not finite", infinite);
   return result;
 }
 
 void clean(Exact_soup& soup, Repair_log& log)
 {
-  log.add("isolated vertices removed",
+  log.add("isolated vertex removed", "isolated vertices removed",
           PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons));
-  log.add("vertices merged that had the same position",
+  log.add("vertex merged that had the position of another", "vertices merged that had the same position",
           PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons));
-  log.add("copies of faces removed",
+  log.add("copy of a face removed", "copies of faces removed",
           PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
   const std::size_t before = soup.polygons.size();
   PMP::repair_polygon_soup(soup.points, soup.polygons);
   if(soup.polygons.size() < before)
-    log.add("faces removed that used a vertex twice", before - soup.polygons.size());
+    log.add("face removed that used a vertex twice", "faces removed that used a vertex twice",
+            before - soup.polygons.size());
 }
 
 // Splitting gives new vertices old positions, so that the direction of a face shows in its positions.
@@ -101,8 +104,9 @@ void orient(Exact_soup& soup, Repair_log& log)
   std::size_t turned = 0;
   for(std::size_t f = 0; f < soup.polygons.size(); ++f)
     turned += !same_direction(before, soup, f);
-  log.add("faces turned round", turned);
-  log.add("vertices doubled to separate sheets", soup.points.size() - before.points.size());
+  log.add("face turned round", "faces turned round", turned);
+  log.add("vertex doubled to separate sheets", "vertices doubled to separate sheets",
+          soup.points.size() - before.points.size());
 }
 
 Exact_mesh to_mesh(const Exact_soup& soup)
@@ -128,7 +132,7 @@ void triangulate(Exact_soup& soup, Repair_log& log)
   Exact_mesh mesh = to_mesh(soup);
   PMP::triangulate_faces(mesh);
   soup = to_soup(mesh);
-  log.add("polygons triangulated", std::size_t(polygons));
+  log.add("polygon triangulated", "polygons triangulated", std::size_t(polygons));
   // Two polygons may have got the same diagonal.
   orient(soup, log);
 }
@@ -144,7 +148,7 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   PMP::experimental::remove_almost_degenerate_faces(mesh, cosine, ratio, 0.);
 #endif
   mesh.collect_garbage();
-  log.add("degenerate faces removed", before - mesh.number_of_faces());
+  log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
 } // namespace
@@ -156,13 +160,14 @@ Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log)
   orient(soup, log);
   triangulate(soup, log);
   Exact_mesh mesh = to_mesh(soup);
-  log.add("pairs of border edges stitched", PMP::stitch_borders(mesh));
+  log.add("pair of border edges stitched", "pairs of border edges stitched", PMP::stitch_borders(mesh));
   mesh.collect_garbage();
   const auto diagnosis = diagnose(to_soup(mesh));
   if(diagnosis.zero_area_faces.count != 0 || diagnosis.overflowing_faces.count != 0)
     remove_degenerate_faces(mesh, log);
-  log.add("vertices doubled to separate sheets", PMP::duplicate_non_manifold_vertices(mesh));
-  log.add("isolated vertices removed", PMP::remove_isolated_vertices(mesh));
+  log.add("vertex doubled to separate sheets", "vertices doubled to separate sheets",
+          PMP::duplicate_non_manifold_vertices(mesh));
+  log.add("isolated vertex removed", "isolated vertices removed", PMP::remove_isolated_vertices(mesh));
   mesh.collect_garbage();
 
   const Exact_soup result = to_soup(mesh);

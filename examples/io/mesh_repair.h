@@ -9,29 +9,37 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
-// What was changed, and how often, in the order in which it was done.
+// Something that was changed, and how often: "1 copy of a face removed", "2 copies of faces removed".
+struct Repair
+{
+  std::string one, many;
+  std::size_t count;
+
+  const std::string& what() const { return count == 1 ? one : many; }
+};
+
+// What was changed, in the order in which it was done.
 class Repair_log
 {
 public:
-  void add(const std::string& what, const std::size_t count)
+  void add(const std::string& one, const std::string& many, const std::size_t count)
   {
     if(count == 0)
       return;
-    for(auto& [known, sum] : m_changes)
-      if(known == what) {
-        sum += count;
+    for(Repair& known : m_changes)
+      if(known.many == many) {
+        known.count += count;
         return;
       }
-    m_changes.emplace_back(what, count);
+    m_changes.push_back({one, many, count});
   }
 
-  const std::vector<std::pair<std::string, std::size_t>>& changes() const { return m_changes; }
+  const std::vector<Repair>& changes() const { return m_changes; }
 
 private:
-  std::vector<std::pair<std::string, std::size_t>> m_changes;
+  std::vector<Repair> m_changes;
 };
 
 // Makes what can be made an oriented 2-manifold of triangles with area out of the polygons of a file, with CGAL's own repair

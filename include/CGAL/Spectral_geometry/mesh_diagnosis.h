@@ -94,6 +94,9 @@ struct Mesh_diagnosis
   /// \brief whether the mesh can be simplified as it is.
   bool usable() const { return number_of_faces != 0 && obstacles().empty(); }
 
+  /// \brief whether `extent` is not usable: another unit of length helps then, no repair.
+  bool out_of_scale() const { return !internal::extent_is_usable(extent); }
+
   /// \brief one clause for each kind of obstacle, without a full stop: how many, where first, what helps. The most
   /// elementary comes first; what follows may be its consequence.
   std::vector<std::string> obstacles() const;
@@ -410,6 +413,17 @@ private:
   Mesh_diagnosis m_result;
 };
 
+/// "1 face", "2 faces"
+inline std::string counted(const std::size_t n, const char* one, const char* many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+inline const Mesh_component& smallest_component(const std::vector<Mesh_component>& all)
+{
+  return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.vertices < b.vertices; });
+}
+
 /// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `does` is in the singular and the plural.
 inline std::string finding_clause(const Mesh_finding& finding, const std::size_t total, const bool faces,
                                   const std::string& singular, const std::string& plural)
@@ -439,8 +453,7 @@ inline std::vector<std::string> Mesh_diagnosis::obstacles() const
 {
   using std::to_string;
   std::vector<std::string> result;
-  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many,
-                            const std::string& help) {
+  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many, const char* help) {
     if(f.count != 0)
       result.push_back(internal::finding_clause(f, number_of_vertices, false, one, many) + ": " + help);
   };
@@ -451,6 +464,9 @@ inline std::vector<std::string> Mesh_diagnosis::obstacles() const
   };
   vertices(non_finite_vertices, "has a coordinate that is not a finite number",
            "have a coordinate that is not a finite number", "correct it or remove the faces around");
+  if(out_of_scale())
+    result.push_back(std::string("the largest coordinate is ") + (extent > 1 ? "above 1e50" : "below 1e-50") +
+                     " in magnitude: scale the mesh to another unit of length");
   faces(foreign_indices, "uses a vertex that does not exist", "use a vertex that does not exist",
         "correct the indices");
   faces(repeated_vertices, "uses a vertex twice or has fewer than three",
@@ -466,18 +482,14 @@ inline std::vector<std::string> Mesh_diagnosis::obstacles() const
         internal::edge_clause(non_manifold_edges, "has more than two faces", "have more than two faces") +
         ": separate the sheets");
   if(misoriented_edges.count != 0)
-    result.push_back("the faces " + to_string(misoriented_edges.first) + " and " +
-                     to_string(misoriented_edges.second) +
-                     " (counted from 0) run along their common edge in the same direction, " +
-                     (misoriented_edges.count == 1 ? std::string("one edge")
-                                                   : to_string(misoriented_edges.count) + " edges") +
-                     " in all: orient the faces alike");
+    result.push_back(
+        "the faces " + to_string(misoriented_edges.first) + " and " + to_string(misoriented_edges.second) +
+        " (counted from 0) run along their common edge in the same direction, " +
+        internal::counted(misoriented_edges.count, "edge", "edges") + " in all: orient the faces alike");
   vertices(non_manifold_vertices, "is where parts of the surface touch in a single vertex",
            "are where parts of the surface touch in a single vertex", "give each part a vertex of its own");
   vertices(isolated_vertices, "is isolated, no face uses it", "are isolated, no face uses them",
            "remove every such vertex");
-  if(!internal::extent_is_usable(extent))
-    result.push_back("the coordinates are not between 1e-50 and 1e50 in magnitude: rescale the mesh");
   faces(overflowing_faces, "is a needle or too large, its cotangents or its area overflow",
         "are needles or too large, their cotangents or their area overflow",
         "collapse the shortest edges, remesh or rescale the mesh");
@@ -502,38 +514,33 @@ inline std::vector<std::string> Mesh_diagnosis::remarks() const
                                               "lie where another vertex lies") +
                      ": seams stay open unless they are stitched");
   if(components.size() > 1) {
-    const auto smallest =
-        std::min_element(components.begin(), components.end(),
-                         [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
+    const Mesh_component& smallest = internal::smallest_component(components);
     result.push_back("there are " + std::to_string(components.size()) + " components, the smallest of " +
-                     std::to_string(smallest->vertices) + " vertices around vertex " +
-                     std::to_string(smallest->first) + " (counted from 0): each of them is kept");
+                     std::to_string(smallest.vertices) + " vertices around vertex " +
+                     std::to_string(smallest.first) + " (counted from 0): each of them is kept");
   }
   return result;
 }
 
 inline std::vector<std::string> Mesh_diagnosis::warnings(const std::size_t K, const std::size_t N) const
 {
-  using std::to_string;
   std::vector<std::string> result;
   if(N < least_vertices())
-    result.push_back("A target of " + to_string(N) +
-                     " vertices cannot be reached: " + to_string(components.size()) +
-                     (components.size() == 1 ? " component needs" : " components need") + " at least " +
-                     to_string(least_vertices()) + " vertices.");
+    result.push_back("A target of " + internal::counted(N, "vertex", "vertices") + " cannot be reached: " +
+                     internal::counted(components.size(), "component needs", "components need") +
+                     " at least " + std::to_string(least_vertices()) + " vertices.");
   if(components.size() > 1 && K <= components.size())
-    result.push_back("The " + to_string(K) + " eigenvectors asked for are constant on each of the " +
-                     to_string(components.size()) +
-                     " components, whose shapes they do not see: ask for more than there are components.");
+    result.push_back("With " + internal::counted(K, "eigenvector", "eigenvectors") +
+                     " only functions are preserved that are constant on each of the " +
+                     std::to_string(components.size()) +
+                     " components, not their shapes: ask for more than there are components.");
   else if(components.size() > 1) {
-    const auto smallest =
-        std::min_element(components.begin(), components.end(),
-                         [](const auto& a, const auto& b) { return a.vertices < b.vertices; });
-    if(K >= smallest->vertices)
-      result.push_back("The smallest of " + to_string(components.size()) + " components, around vertex " +
-                       to_string(smallest->first) + " (counted from 0), has " +
-                       to_string(smallest->vertices) + " vertices and as many modes, fewer than the " +
-                       to_string(K) +
+    const Mesh_component& smallest = internal::smallest_component(components);
+    if(K >= smallest.vertices)
+      result.push_back("The smallest of " + std::to_string(components.size()) +
+                       " components, around vertex " + std::to_string(smallest.first) +
+                       " (counted from 0), has " + std::to_string(smallest.vertices) +
+                       " vertices and as many modes, not more than the " + std::to_string(K) +
                        " eigenvectors asked for, which belong to the larger components mostly.");
   }
   return result;
