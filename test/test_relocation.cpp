@@ -261,6 +261,46 @@ TEST_CASE("gradients agree with finite differences, in every mass, with a bounda
     }
 }
 
+TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, and its gradient is right")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
+    const Positions V = s->coarse.V;
+    Positions W = V;
+    for(Eigen::Index i = 0; i < W.size(); ++i)
+      W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
+    SG::internal::Spectrum_guard guard(s->coarse.T, V, 0.5, 20, 30);
+    REQUIRE(guard.is_active());
+    CHECK(std::abs(guard.change(V)) < 1e-4);
+    const double before = guard.change(W); // with the eigenvectors of V
+    guard.refresh(W);
+    const auto values = [&](const Positions& at) {
+      const SG::Laplace_operator op = SG::laplace_operator(at, s->coarse.T, 0.5);
+      return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 30).values.tail(10).array());
+    };
+    const double change = (values(W) / values(V)).mean() - 1;
+    CHECK(guard.change(W) == Approx(change).margin(1e-4));
+    CHECK(before > change); // eigenvectors of another mesh
+    REQUIRE(change < 0.0015); // the penalty begins at 0.002
+    struct Penalty
+    {
+      SG::internal::Spectrum_guard& guard;
+      double value(const Positions& at)
+      {
+        Positions gradient = Positions::Zero(at.rows(), 3);
+        return guard.penalty(at, 3., gradient);
+      }
+      double value_and_gradient(const Positions& at, Positions& gradient)
+      {
+        gradient.setZero(at.rows(), 3);
+        return guard.penalty(at, 3., gradient);
+      }
+    } penalty{guard};
+    CHECK(gradient_error(penalty, W) < 1e-6);
+    CHECK(penalty.value(W) > 0);
+    CHECK(!SG::internal::Spectrum_guard(s->coarse.T, V, 0.5, 20, 20).is_active());
+  }
+}
+
 TEST_CASE("signals read off a surface have the slope of its triangles")
 {
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);
@@ -316,6 +356,21 @@ TEST_CASE("relocation lowers the commutativity with either restriction and keeps
   CHECK(std::abs(ratio - 1) <= 0.01);
 }
 
+TEST_CASE("the eigenvalues beyond K do not fall in the mean, and would without their guard")
+{
+  const Simplified_mesh& s = closed_example();
+  const auto beyond = [&](const Eigen::MatrixXd& V) {
+    const SG::Laplace_operator op = SG::laplace_operator(V, s.coarse.T, 0.5);
+    return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 3 * s.K / 2).values.tail(s.K / 2).array());
+  };
+  const Eigen::ArrayXd start = beyond(s.coarse.V);
+  SG::Relocation_options options;
+  SG::Relocation_result result;
+  CHECK((beyond(relocated(s, result, options)) / start).mean() > 1);
+  options.beyond = 0;
+  CHECK((beyond(relocated(s, result, options)) / start).mean() < 1);
+}
+
 TEST_CASE("with sampled signals the closest-point restriction comes back and fits best")
 {
   const Simplified_mesh& s = closed_example();
@@ -335,6 +390,7 @@ TEST_CASE("the plain metric alone falls monotonically")
   SG::Relocation_options options;
   options.signals = Signals::carried;
   options.smoothing = 0;
+  options.beyond = 0;
   options.input_scale = true;
   double last = SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
   for(const int steps : {1, 5, 20}) {
@@ -482,6 +538,9 @@ TEST_CASE("relocation refuses what does not belong together")
   SG::Relocation_options options;
   options.trust_radius = 0;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("trust_radius"));
+  options = {};
+  options.beyond = -1;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("beyond"));
   options = {};
   options.largest_turn = 2;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_turn"));

@@ -37,8 +37,9 @@ struct Relocation_options
   /// tau lambda_K of `Smoothed_relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
   /// times faster).
   double smoothing = 1;
-  /// Weight of E beside the smoothed term, relative to what the two are at the start. Keeps the modes beyond K.
-  double plain = 1;
+  /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies in modes that the norms
+  /// do not see: a large weight costs them their gain, with none E may rise to a multiple.
+  double plain = 0.03;
   /// The spectrum is compared at unit area on both sides, as the norms of the paper are, unless this is set. The area
   /// is kept in either case.
   bool input_scale = false;
@@ -55,13 +56,17 @@ struct Relocation_options
   bool keep_free_of_self_intersections = true;
   /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
   bool fix_boundary = false;
+  /// So many of the coarse modes beyond the number of signals K, in parts of K, keep their eigenvalues in the mean, at unit
+  /// area: they are too low with the averaged mass, and without this the descent lowers them further, see
+  /// `relocate_positions()`. 0: they may fall. In [0, 10].
+  double beyond = 0.5;
   /// No vertex moves further than this from the fine surface unless it was; in the unit of the mesh.
   double largest_distance = std::numeric_limits<double>::infinity();
 
   /// Ends when ten steps lower the objective by less than this part.
   double relative_decrease = 0.005;
   /// Ends after so many steps; one step is a value and a gradient, seldom two.
-  int maximum_steps = 60;
+  int maximum_steps = 40;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();
   /// Called at each step with the fraction of the budget that is spent; returns false to cancel.

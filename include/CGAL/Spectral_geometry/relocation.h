@@ -26,9 +26,14 @@ which triangles there are, and the restriction, stay.
 
 It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) that the functional map sees,
 see `Smoothed_relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle
-is inverted or degenerates, no new self-intersection, total area and volume are kept, no vertex leaves the place its
-signals were taken from, boundary vertices stay on the boundary. The mesh may come from anywhere: from an edge
+is inverted or degenerates, no new self-intersection, total area and volume and the eigenvalues beyond K are kept, no
+vertex leaves the place its signals were taken from, boundary vertices stay on the boundary. The mesh may come from anywhere: from an edge
 collapse with the restriction it carried, or from a remesher with `closest_point_interpolation()`.
+
+Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes meet signals of lower eigenvalues only,
+and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls when \f$ \widetilde\lambda_i \f$ does, although
+these eigenvalues are too low already. `Relocation_options::beyond` therefore holds the mean of the next K / 2 where it was; this
+takes the lowest 1.5 K eigenpairs of the coarse mesh once in ten steps, and nothing of the fine one.
 
 Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements has the size of what is to
 be repaired, and a descent cancels it by distorting the shape.

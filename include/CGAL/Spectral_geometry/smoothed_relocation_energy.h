@@ -50,8 +50,8 @@ In coarse eigenvectors, \f$ C = \widetilde\Phi^\top B F \f$ over all of them, an
 \f[ \|A^{-1} R\|_B^2 = \sum_{i,j} \frac{(\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2}{(1 + \tau\widetilde\lambda_i)^2}, \f]
 where E (Eq. 2) has the same sum without the denominator. Most of E lies in coarse modes far beyond K, which
 \f$ \|C\|_L \f$ does not contain: a descent on E spends itself on them. With \f$ \tau \f$ near
-\f$ 1/\lambda_K \f$ the denominator takes them out. The second term is \f$ \mu E \f$; it keeps the modes beyond K
-from being spoiled.
+\f$ 1/\lambda_K \f$ the denominator takes them out. The second term is \f$ \mu E \f$; a little
+of it keeps E from rising.
 
 The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
 

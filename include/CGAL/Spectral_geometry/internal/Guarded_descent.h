@@ -47,6 +47,13 @@ public:
     set_scales();
   }
 
+  /// takes value and gradient anew; the objective has changed a little.
+  void refresh()
+  {
+    m_value = m_objective.value_and_gradient(m_V, m_gradient);
+    m_guards.tangential(m_V, m_gradient);
+  }
+
   const Positions& positions() const { return m_V; }
   double value() const { return m_value; }
 

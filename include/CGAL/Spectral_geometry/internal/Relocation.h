@@ -60,6 +60,8 @@ inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd&
               std::to_string(V.rows()) + " vertices; pass one for each, or none.");
   require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
           "smoothing and plain must be numbers from 0.");
+  require(o.beyond >= 0 && o.beyond <= 10,
+          "beyond must lie in [0, 10], but is " + std::to_string(o.beyond) + ".");
   require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
           "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
   require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
@@ -128,6 +130,8 @@ public:
       if(++result.steps % 10 == 0) {
         if(descent.value() > (1 - m_options.relative_decrease) * last)
           break;
+        if(result.steps < m_options.maximum_steps && m_objective->refresh(descent.positions()))
+          descent.refresh();
         last = descent.value();
       }
     }
@@ -202,7 +206,7 @@ private:
     m_objective = std::make_unique<Relocation_objective>(
         m_T, carried_F, carried_Z, theta, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
-        largest > 0 ? m_options.smoothing / largest : 0., m_options.plain);
+        largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
   }
 
   // Goes back where triangles that were apart meet, and everywhere while the size is out of its bounds.

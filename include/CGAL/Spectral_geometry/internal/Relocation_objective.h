@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H
 
+#include <CGAL/Spectral_geometry/internal/Spectrum_guard.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 #include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
 
@@ -115,7 +116,7 @@ private:
   double m_area = 0, m_volume = 0;
 };
 
-/// What the descent sees: the smoothed energy, or E alone, and the penalty on the size.
+/// What the descent sees: the smoothed energy, or E alone, and the penalties on the size and on the spectrum.
 class Relocation_objective
 {
 public:
@@ -124,9 +125,10 @@ public:
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                        const double theta, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,
-                       const double plain)
+                       const double plain, const double beyond)
     : m_E(T, F, Z, theta)
     , m_size(size)
+    , m_spectrum(T, start, theta, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
   {
     // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
     if(tau > 0 || sampled) {
@@ -141,6 +143,13 @@ public:
     m_scale = m_smoothed ? m_smoothed->value(start) : E(start);
   }
 
+  /// Brings what changes slowly up to date; true if that changes the values.
+  bool refresh(const Positions& V)
+  {
+    m_spectrum.refresh(V);
+    return m_spectrum.is_active();
+  }
+
   double E(const Positions& V) { return m_E.value(V); }
 
   double value_and_gradient(const Positions& V, Positions& gradient)
@@ -149,13 +158,14 @@ public:
         m_smoothed ? m_smoothed->value_and_gradient(V, gradient) : m_E.value_and_gradient(V, gradient);
     if(!std::isfinite(value))
       return value;
-    return value + m_size.penalty(V, m_scale, gradient);
+    return value + m_size.penalty(V, m_scale, gradient) + m_spectrum.penalty(V, m_scale, gradient);
   }
 
 private:
   Relocation_energy m_E;
   std::unique_ptr<Smoothed_relocation_energy> m_smoothed;
   Size_bounds m_size;
+  Spectrum_guard m_spectrum;
   double m_scale = 1;
 };
 
