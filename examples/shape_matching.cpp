@@ -140,6 +140,7 @@ private:
     options.modes = m_arguments.eigenvectors;
     options.filter_iterations = static_cast<int>(m_arguments.filter_iterations);
     options.fine_iterations = static_cast<int>(m_arguments.fine_iterations);
+    options.local_weight = m_arguments.local_weight;
     options.threads = m_arguments.threads;
     Matching_result result;
     result.proxy = proxy_name(kind);

@@ -45,6 +45,7 @@ refuses "no output" "nothing is to be written" X.off Y.off
 refuses "a missing mesh" "cannot read 'none.off'" X.off none.off --output map.txt
 refuses "too many vertices" "vertices" X.off Y.off --output map.txt --vertices 100000
 refuses "more modes than vertices" "at most --vertices" X.off Y.off --output map.txt --vertices 50
+refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
 echo "1 2 3" >three.txt
 echo "1" >one.txt
@@ -60,6 +61,14 @@ for proxy in spectral garland_heckbert none; do
   [ -n "$error" ] || fail "there is no error for $proxy in: $(cat said)"
   awk -v e="$error" 'BEGIN { exit !(e > 0 && e < 0.05) }' || fail "the mean error over $proxy is $error"
 done
+
+# Curvature finds what the modes cannot tell: without it the errors are larger.
+with=$(awk '$1 == "none" { print $(NF - 2) }' said)
+"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --proxy none --local-weight 0 --ground-truth truth.txt \
+  --output map.txt >said 2>complained || fail "modes alone: $(cat complained)"
+without=$(awk '$1 == "none" { print $(NF - 2) }' said)
+awk -v a="$with" -v b="$without" 'BEGIN { exit !(a < b) }' || fail "mean error $with with curvature, $without without"
+
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ "$(grep -o "data:image/png" report.html | wc -l)" -eq 4 ] || fail "the page has not four pictures"
 

@@ -5,17 +5,17 @@
 #include "matcher.h"
 
 #include "linear_assignment.h"
+#include "local_shape.h"
+#include "starts.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <future>
 #include <utility>
 #include <vector>
 
@@ -26,102 +26,6 @@ namespace {
 double seconds_since(std::chrono::steady_clock::time_point begin)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-// Signatures of both shapes at the same times and energies, and heat that spreads from landmarks.
-class Descriptors
-{
-public:
-  Descriptors(const SG::Spectral_shape& X, const SG::Spectral_shape& Y, const Landmarks& landmarks)
-  {
-    const Eigen::Index steps = 20, spreads = 4;
-    const Eigen::VectorXd times = SG::heat_kernel_times(X.pairs, steps);
-    const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(X.pairs, steps);
-    const Eigen::VectorXd spreading = SG::heat_kernel_times(X.pairs, spreads + 2).segment(1, spreads);
-    const auto compute = [&](const SG::Spectral_shape& shape, const std::vector<Eigen::Index>& sources) {
-      const Eigen::Index marks = static_cast<Eigen::Index>(sources.size());
-      Eigen::MatrixXd result(shape.op.B.rows(), 2 * steps + spreads * marks);
-      result.leftCols(steps) = SG::heat_kernel_signature(shape.pairs, times);
-      result.middleCols(steps, steps) = SG::wave_kernel_signature(shape.pairs, energies);
-      for(Eigen::Index t = 0; t < spreads && marks > 0; ++t)
-        result.middleCols(2 * steps + t * marks, marks) = SG::heat_kernel(shape.pairs, sources, spreading(t));
-      // Functions without their means: constants tell nothing.
-      return Eigen::MatrixXd(result.rowwise() - shape.op.mass.transpose() * result);
-    };
-    std::vector<Eigen::Index> of_X, of_Y;
-    for(const auto& [x, y] : landmarks) {
-      of_X.push_back(x);
-      of_Y.push_back(y);
-    }
-    f_X = compute(X, of_X);
-    f_Y = compute(Y, of_Y);
-  }
-
-  Eigen::MatrixXd f_X, f_Y;
-};
-
-// How far a map is from one of an orientation-preserving isometry; small is good. Limbs that changed places and mirror
-// images are far.
-double strangeness(const Eigen::MatrixXd& C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y)
-{
-  const Eigen::Index k = C.rows();
-  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(k, k);
-  const double root = std::sqrt(static_cast<double>(k));
-  const double orthonormality =
-      ((C.transpose() * C - I).norm() + (C * C.transpose() - I).norm()) / (2 * root);
-  const Eigen::MatrixXd before = C * Y.pairs.values.head(k).asDiagonal(),
-                        after = X.pairs.values.head(k).asDiagonal() * C;
-  const double commutativity = (before - after).norm() / std::hypot(before.norm(), after.norm());
-  // Do the oriented derivatives along a few smooth functions agree? 1: they do, -1: mirrored.
-  double orientation = 0;
-  constexpr Eigen::Index functions = 6;
-  const Eigen::MatrixXd phi = X.pairs.vectors.leftCols(k), psi = Y.pairs.vectors.leftCols(k);
-  for(Eigen::Index i = 1; i <= functions; ++i) {
-    const Eigen::MatrixXd first = C * SG::orientation_operator(Y.T, psi, psi.col(i)),
-                          second = SG::orientation_operator(X.T, phi, phi * C.col(i)) * C;
-    orientation += (first.array() * second.array()).sum() / (first.norm() * second.norm() * functions);
-  }
-  return orthonormality + commutativity - orientation;
-}
-
-// C from Y to X, up-sampled. On coarse meshes the best of several starts.
-Eigen::MatrixXd initial_map(const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
-                            const Landmarks& landmarks, const Matching_options& options, bool several_starts)
-{
-  const Descriptors descriptors(X, Y, landmarks);
-  const Eigen::Index last = (std::min)({options.modes, X.pairs.size(), Y.pairs.size()});
-  const auto start = [&](double factor, double orientation, Eigen::Index modes) {
-    const Eigen::Index k =
-        (std::min)(static_cast<Eigen::Index>(factor * static_cast<double>(options.initial_modes)), modes);
-    SG::Functional_map_weights weights = options.weights;
-    weights.orientation *= orientation;
-    return SG::zoom_out(SG::functional_map_of_descriptors(Y, X, descriptors.f_Y, descriptors.f_X, k, weights),
-                        Y, X, modes, 2 * options.zoom_step, 1);
-  };
-  if(!several_starts)
-    return SG::zoom_out(start(1, 1, (std::min)(last, options.initial_modes + 4)), Y, X, last,
-                        options.zoom_step, options.threads);
-
-  std::vector<std::pair<double, double>> settings;
-  for(const double factor : {0.6, 1., 1.5})
-    for(const double orientation : {1., 10., 100.})
-      settings.emplace_back(factor, orientation);
-  const Eigen::Index middle = (std::min)(last, Eigen::Index(50));
-  std::vector<Eigen::MatrixXd> maps(settings.size());
-  std::vector<double> scores(settings.size());
-  const std::size_t threads = static_cast<std::size_t>(options.threads);
-  std::vector<std::future<void>> workers;
-  for(std::size_t w = 0; w < threads; ++w)
-    workers.push_back(std::async(threads > 1 ? std::launch::async : std::launch::deferred, [&, w] {
-      for(std::size_t i = w; i < settings.size(); i += threads) {
-        maps[i] = start(settings[i].first, settings[i].second, middle);
-        scores[i] = strangeness(maps[i], X, Y);
-      }
-    }));
-  for(std::future<void>& worker : workers)
-    worker.get();
-  const auto best = std::min_element(scores.begin(), scores.end()) - scores.begin();
-  return SG::zoom_out(maps[static_cast<std::size_t>(best)], Y, X, last, options.zoom_step, options.threads);
 }
 
 // Permutations of largest score under ever narrower kernels.
@@ -184,15 +88,13 @@ Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const 
   return C;
 }
 
-void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options)
+void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options,
+            const Keep_going& keep_going)
 {
-  const SG::Spectral_shape &x = X.spectral, &y = Y.spectral;
-  match.map = SG::target_to_source_map(match.C, y.pairs.vectors, x.pairs.vectors, options.threads);
-  for(int i = 0; i < options.fine_iterations; ++i) {
-    match.C = SG::functional_map_of_vertex_map(y.pairs.vectors.leftCols(match.C.cols()),
-                                               x.pairs.vectors.leftCols(match.C.rows()), x.op.B, match.map);
-    match.map = SG::target_to_source_map(match.C, y.pairs.vectors, x.pairs.vectors, options.threads);
-  }
+  match.map =
+      SG::target_to_source_map(match.C, Y.spectral.pairs.vectors, X.spectral.pairs.vectors, options.threads);
+  Local_refinement(X, Y, options.local_weight, options.threads)
+      .refine(match.map, match.C, options.fine_iterations, keep_going);
 }
 
 } // namespace
@@ -208,7 +110,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
     coarse_landmarks.emplace_back(coarse_X.vertex_map[static_cast<std::size_t>(x)],
                                   coarse_Y.vertex_map[static_cast<std::size_t>(y)]);
   const SG::Spectral_shape &x = coarse_X.shape.spectral, &y = coarse_Y.shape.spectral;
-  Eigen::MatrixXd C = initial_map(x, y, coarse_landmarks, options, true);
+  Eigen::MatrixXd C = map_of_many_starts(x, y, coarse_landmarks, options, keep_going);
   C = filtered(std::move(C), x, y, options, keep_going);
   match.seconds_coarse = seconds_since(begin);
 
@@ -224,18 +126,18 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
   match.condition = lifted.condition;
   match.relative_residual = lifted.relative_residual;
   match.C = refined_between_levels(std::move(match.C), X, coarse_X, Y, coarse_Y, options);
-  finish(match, X, Y, options);
+  finish(match, X, Y, options, keep_going);
   match.seconds_lift = seconds_since(middle);
   return match;
 }
 
 Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
-                     const Matching_options& options, const Keep_going&)
+                     const Matching_options& options, const Keep_going& keep_going)
 {
   Match match;
   const auto begin = std::chrono::steady_clock::now();
-  match.C = initial_map(X.spectral, Y.spectral, landmarks, options, false);
-  finish(match, X, Y, options);
+  match.C = map_of_descriptors(X.spectral, Y.spectral, landmarks, options, keep_going);
+  finish(match, X, Y, options, keep_going);
   match.seconds_coarse = seconds_since(begin);
   return match;
 }

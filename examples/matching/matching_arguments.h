@@ -23,8 +23,9 @@ struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
   std::string proxies = "spectral", mass = "averaged";
-  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 1;
+  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 12;
   long samples = 300;
+  double local_weight = 4;
   int threads = 2;
   bool quiet = false;
   std::string command, help;
@@ -84,7 +85,9 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("filter-iterations", number(a.filter_iterations, "I"),
       "of the Product Manifold Filter; 0 leaves it out");
   add("fine-iterations", number(a.fine_iterations, "I"),
-      "from all vertices to functional map and back on the fine meshes, at the end");
+      "from all vertices to functional map and back on the fine meshes, at the end, at most");
+  add("local-weight", po::value(&a.local_weight)->value_name("w")->default_value(a.local_weight),
+      "of curvature in these, at most; 0: the modes alone");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads), "at most");
   add("quiet", po::bool_switch(&a.quiet), "no table");
@@ -109,6 +112,9 @@ inline void check(const Matching_arguments& a)
   at_least("filter-iterations", a.filter_iterations, 0);
   at_least("fine-iterations", a.fine_iterations, 0);
   at_least("samples", a.samples, 1);
+  if(!(a.local_weight >= 0 && a.local_weight <= 100))
+    throw std::runtime_error("--local-weight is " + std::to_string(a.local_weight) +
+                             ", it must lie between 0 and 100.");
   at_least("threads", a.threads, 1);
   if(a.initial_modes > 60)
     throw std::runtime_error("--initial is " + std::to_string(a.initial_modes) +
