@@ -10,7 +10,9 @@
 
 import base64
 import collections
+import math
 import os
+import random
 import re
 import struct
 import subprocess
@@ -20,7 +22,9 @@ import zlib
 from make_figures import Image
 
 PAIRS = [("walk", "walk.off", "walk.txt"), ("bend", "bend.off", "bend.txt"),
-         ("walk, other triangles", "other_walk.off", "other.txt"), ("bend, other triangles", "other_bend.off", "other.txt")]
+         ("wave 3", "wave3.off", "same.txt"), ("walk, other triangles", "other_walk.off", "other.txt"),
+         ("bend, other triangles", "other_bend.off", "other.txt"), ("wave 1, other triangles", "other_wave1.off", "other.txt"),
+         ("wave 2, other triangles", "other_wave2.off", "other.txt")]
 
 
 def run(build, folder, output, program, *arguments):
@@ -31,6 +35,10 @@ def run(build, folder, output, program, *arguments):
     if output.endswith(".out"):
         with open(os.path.join(folder, output), "w") as file:
             file.write(said)
+
+
+def report_name(pair):
+    return pair.replace(", other triangles", "_other").replace(" ", "")
 
 
 def read_vertices(path):
@@ -58,6 +66,30 @@ def nearest_vertices(X, Y, output):
             file.write(f"{min(near, key=lambda j: sum((s - t) ** 2 for s, t in zip(p, targets[j])))}\n")
 
 
+# Moves the vertices by four waves of random direction and length, which stretches by about a tenth; the triangles stay.
+def wave(source, output, seed):
+    if os.path.exists(output):
+        return
+    chance = random.Random(seed)
+    waves = []
+    for _ in range(4):
+        k = [chance.gauss(0, 1.3) for _ in range(3)]
+        d = [chance.gauss(0, 1) for _ in range(3)]
+        length = math.sqrt(sum(x * x for x in d))
+        waves.append((k, [0.05 * x / length for x in d], chance.uniform(0, 2 * math.pi)))
+    points = read_vertices(source)
+    with open(source) as file:
+        lines = [line for line in file if line.strip()]
+    for i, p in enumerate(points):
+        q = p
+        for k, d, phase in waves:
+            height = math.sin(sum(a * b for a, b in zip(k, p)) + phase)
+            q = [x + height * y for x, y in zip(q, d)]
+        lines[2 + i] = "{:.9g} {:.9g} {:.9g}\n".format(*q)
+    with open(output, "w") as file:
+        file.writelines(lines)
+
+
 def run_all(build, folder):
     os.makedirs(folder, exist_ok=True)
     for pose in ("walk", "bend"):
@@ -68,8 +100,14 @@ def run_all(build, folder):
     truth = os.path.join(folder, "other.txt")
     if not os.path.exists(truth):
         nearest_vertices(os.path.join(folder, "stand.off"), os.path.join(folder, "other_stand.off"), truth)
+    for source, target, seed in (("other_stand", "other_wave1", 1), ("other_stand", "other_wave2", 2), ("stand", "wave3", 3)):
+        wave(os.path.join(folder, f"{source}.off"), os.path.join(folder, f"{target}.off"), seed)
+    same = os.path.join(folder, "same.txt")
+    if not os.path.exists(same):
+        with open(same, "w") as file:
+            file.writelines(f"{v}\n" for v in range(len(read_vertices(os.path.join(folder, "stand.off")))))
     for name, Y, truth in PAIRS:
-        report = name.replace(", other triangles", "_other")
+        report = report_name(name)
         run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--proxy", "spectral,garland_heckbert",
             "--ground-truth", truth, "--report", f"{report}.html")
     run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000", "--report", "distances.html")
@@ -130,7 +168,7 @@ def main():
     # Of the biharmonic distance: fine, coarse, brought back by prolongation.
     strip(images(folder, "distances.html")[4:7], os.path.join(output, "distances.png"))
     for name, _, _ in PAIRS:
-        with open(os.path.join(folder, name.replace(", other triangles", "_other") + ".out")) as file:
+        with open(os.path.join(folder, report_name(name) + ".out")) as file:
             print(f"{name}\n{file.read()}")
     with open(os.path.join(folder, "distances.out")) as file:
         print(file.read())
