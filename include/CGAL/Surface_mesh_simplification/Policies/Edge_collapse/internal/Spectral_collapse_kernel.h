@@ -180,6 +180,8 @@ private:
       set_ends(w);
       gather_gram(w);
     }
+    multiply_far_residuals(m_u, m_v, true);
+    multiply_far_residuals(m_v, m_u, false);
     m_merged.prepare(*m_fields, (*m_products)[m_u], (*m_products)[m_v], m_u, m_v, m_v_in_u, m_u_in_v);
   }
 
@@ -303,7 +305,7 @@ private:
     const Spectral_ring_products& own = (*m_products)[w.slot];
     const std::size_t d = own.degree();
     w.gram[residual][residual] = m_fields->E[w.slot] * m_fields->mass[w.slot];
-    w.gram[residual][z_self] = own.rz(d, d);
+    w.gram[residual][z_self] = own.rz(d);
     w.gram[z_self][z_self] = own.zz(d, d);
     if(w.next_to_both()) {
       const std::size_t in[4] = {std::size_t(w.u_in), std::size_t(w.v_in), std::size_t(w.neighbor_in[0]),
@@ -328,13 +330,13 @@ private:
     for(int i = 0; i < n; ++i) {
       if(skip_far && i == 1)
         continue;
-      w.gram[residual][g_near + i] = own.rg(d, in[i]);
+      w.gram[residual][g_near + i] = own.rg(in[i]);
       w.gram[z_self][g_near + i] = own.zg(d, in[i]);
       for(int j = i; j < n; ++j)
         w.gram[g_near + i][g_near + j] = own.gg(in[i], in[j]);
       if(!full)
         continue;
-      w.gram[residual][z_near + i] = own.rz(d, in[i]);
+      w.gram[residual][z_near + i] = own.rz(in[i]);
       w.gram[z_self][z_near + i] = own.zz(d, in[i]);
       for(int j = 0; j < n; ++j) {
         w.gram[g_near + i][z_near + j] = own.zg(in[j], in[i]);
@@ -352,7 +354,6 @@ private:
     const std::size_t c = near.degree(), self = std::size_t(near_u ? w.in_u : w.in_v);
     const std::size_t o = near_u ? m_v_in_u : m_u_in_v;
     const std::size_t k[2] = {std::size_t(w.neighbor_near[0]), std::size_t(w.neighbor_near[1])};
-    w.gram[residual][g_far] = near.rg(self, o);
     w.gram[z_self][g_far] = near.zg(self, o);
     w.gram[g_far][g_far] = near.gg(o, o);
     w.gram[g_near][g_far] = -near.gg(o, self);
@@ -367,12 +368,42 @@ private:
         w.gram[(std::min)(z_near + j, int(z_far))][(std::max)(z_near + j, int(z_far))] =
             near.zz(o, z_in_near[j]);
     }
-    w.gram[residual][z_far] = near.rz(self, o);
     w.gram[z_self][z_far] = near.zz(self, o);
     w.gram[z_far][z_far] = near.zz(o, o);
     w.gram[g_near][z_far] = -near.zg(o, self);
     for(int i = 0; i < 2; ++i)
       w.gram[g_first + i][z_far] = near.zg(o, k[i]) - near.zg(o, self);
+  }
+
+  // R_w . (f_o - f_c), and R_w . z_o, for each w next to the end c alone.
+  CGAL_SPECTRAL_INLINE void multiply_far_residuals(const Spectral_slot c, const Spectral_slot o,
+                                                   const bool near_u)
+  {
+    const Spectral_fields& fields = *m_fields;
+    const std::size_t length = std::size_t(fields.F.cols());
+    const int ends = near_u ? next_to_u : next_to_v;
+    m_rows.clear();
+    for(const Link_vertex& w : m_link)
+      if(w.ends == ends)
+        m_rows.push_back(fields.r_row(w.slot));
+    if(m_rows.empty())
+      return;
+    m_far.resize(2 * m_rows.size());
+    const Spectral_row_list rows{m_rows.data(), m_rows.size()};
+    const double* row = fields.f_row(o);
+    spectral_dots<false, true>(rows, {&row, 1, fields.f_row(c)}, length, m_far.data(), 2);
+    if(fields.theta != 0) {
+      m_scratch.resize(length);
+      row = fields.z_row(o, m_scratch.data());
+      spectral_dots<false, false>(rows, {&row, 1}, length, m_far.data() + 1, 2);
+    }
+    const double* next = m_far.data();
+    for(Link_vertex& w : m_link)
+      if(w.ends == ends) {
+        w.gram[residual][g_far] = next[0];
+        w.gram[residual][z_far] = next[1];
+        next += 2;
+      }
   }
 
   CGAL_SPECTRAL_INLINE void evaluate_body(Spectral_sample* samples, const int count)
@@ -497,6 +528,8 @@ private:
   std::vector<int> m_link_of_u, m_link_of_v; // ring index -> link index
   std::vector<Outer_triangle> m_outer;
   std::vector<Spectral_new_entries> m_new;
+  std::vector<const double*> m_rows;
+  std::vector<double> m_far, m_scratch;
   Spectral_merged_row m_merged;
 };
 

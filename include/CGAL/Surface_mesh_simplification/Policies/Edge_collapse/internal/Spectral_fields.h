@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 
 #include <Eigen/Core>
@@ -49,6 +50,16 @@ struct Spectral_fields
   const double* z_row(const Spectral_slot s) const
   {
     return Z.data() + std::size_t(s) * std::size_t(Z.cols());
+  }
+  /// The same where Z = F Lambda: then it is put into `result`, with room for a row.
+  CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_slot s, double* result) const
+  {
+    if(has_z_rows())
+      return z_row(s);
+    const double* f = f_row(s);
+    for(std::size_t k = 0; k < std::size_t(F.cols()); ++k)
+      result[k] = lambda.data()[k] * f[k];
+    return result;
   }
   const double* r_row(const Spectral_slot s) const
   {

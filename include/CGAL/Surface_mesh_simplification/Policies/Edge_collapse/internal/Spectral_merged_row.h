@@ -163,28 +163,15 @@ private:
     if(!m_full)
       return;
     m_scratch.resize((na + nb) * length);
-    double* next = m_scratch.data();
+    double* const scratch = m_scratch.data();
     for(std::size_t i = 0; i < na; ++i)
-      m_a[na + i] = z_row(fields, fields.rings[u][m_only_u[i]].vertex, length, next);
+      m_a[na + i] = fields.z_row(fields.rings[u][m_only_u[i]].vertex, scratch + i * length);
     for(std::size_t m = 0; m < nb; ++m)
-      m_b[nb + m] = z_row(fields, fields.rings[v][m_far[m]].vertex, length, next);
+      m_b[nb + m] = fields.z_row(fields.rings[v][m_far[m]].vertex, scratch + (na + m) * length);
     const Spectral_row_list za{m_a.data() + na, na}, zb{m_b.data() + nb, nb};
     spectral_dots<true, false>(a, zb, length, m_across.data() + nb, stride);
     spectral_dots<false, true>(za, b, length, m_across.data() + na * stride, stride);
     spectral_dots<false, false>(za, zb, length, m_across.data() + na * stride + nb, stride);
-  }
-
-  CGAL_SPECTRAL_INLINE static const double* z_row(const Spectral_fields& fields, const Spectral_slot s,
-                                                  const std::size_t length, double*& next)
-  {
-    if(fields.has_z_rows())
-      return fields.z_row(s);
-    const double *f = fields.f_row(s), *lambda = fields.lambda.data();
-    double* result = next;
-    for(std::size_t k = 0; k < length; ++k)
-      result[k] = lambda[k] * f[k];
-    next += length;
-    return result;
   }
 
   double across(const int row, const std::size_t m, const bool z_of_u, const bool z_of_v) const

@@ -145,22 +145,24 @@ CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectr
 
 /*!
  * Inner products in the ring of a vertex c with neighbours n_0 .. n_(d-1): of the differences g_j = f_j - f_c, and of
- * the rows of Z and R of the neighbours and, at index d, of c itself.
+ * the rows of Z of the neighbours and, at index d, of c itself, and of R_c.
  *
  * Every residual row that a collapse changes is a combination of such vectors whose coefficients depend on
  * geometry alone. With the products at hand a candidate costs no work over K, except for the few pairs that lie
- * across its edge; keeping them up costs as much as a handful of evaluations per collapse.
+ * across its edge and, for each vertex of its link next to one end only, the product of R there with the other end. All
+ * products with R of the neighbours could be kept as well, but then a collapse would change those of the rings around its
+ * own: more work than the products that it saves.
  */
 class Spectral_ring_products
 {
 public:
-  /// `full`: all of Z Z^T and R Z^T in the ring, which a mass with off-diagonal entries needs.
+  /// `full`: all of Z Z^T in the ring and R_c Z^T, which a mass with off-diagonal entries needs.
   void resize(const std::size_t degree, const bool full)
   {
     m_degree = degree;
     m_full = full;
     const std::size_t d = degree;
-    m_data.resize((3 * d + 2) * d + (full ? 2 * (d + 1) * (d + 1) : d + 2));
+    m_data.resize((2 * d + 2) * d + (full ? (d + 2) * (d + 1) : d + 2));
   }
   void clear()
   {
@@ -176,47 +178,45 @@ public:
     smaller.resize(d - 1, m_full);
     const auto old = [i](const std::size_t j) { return j < i ? j : j + 1; };
     double* out = smaller.m_data.data();
-    for(std::size_t family = 0; family < 3; ++family)
-      for(std::size_t r = 0; r < (family == 0 ? d - 1 : d); ++r)
-        for(std::size_t j = 0; j + 1 < d; ++j)
-          *out++ = family == 0 ? gg(old(r), old(j)) : family == 1 ? zg(old(r), old(j)) : rg(old(r), old(j));
+    for(std::size_t r = 0; r + 1 < d; ++r)
+      for(std::size_t j = 0; j + 1 < d; ++j)
+        *out++ = gg(old(r), old(j));
+    for(std::size_t r = 0; r < d; ++r)
+      for(std::size_t j = 0; j + 1 < d; ++j)
+        *out++ = zg(old(r), old(j));
+    for(std::size_t j = 0; j + 1 < d; ++j)
+      *out++ = rg(old(j));
     for(std::size_t r = m_full ? 0 : d - 1; r < d; ++r)
       for(std::size_t j = 0; j < d; ++j)
         *out++ = zz(old(r), old(j));
-    for(std::size_t r = m_full ? 0 : d - 1; r < d; ++r)
-      for(std::size_t j = m_full ? 0 : d - 1; j < d; ++j)
-        *out++ = rz(old(r), old(j));
+    for(std::size_t j = m_full ? 0 : d - 1; j < d; ++j)
+      *out++ = rz(old(j));
     m_data.swap(smaller.m_data);
     m_degree = d - 1;
   }
 
-  std::size_t degree() const { return m_degree; } ///< also the index of the centre among rows of Z and R
+  std::size_t degree() const { return m_degree; } ///< also the index of the centre among rows of Z
 
   double gg(const std::size_t i, const std::size_t j) const { return m_data[i * m_degree + j]; }
   double zg(const std::size_t i, const std::size_t j) const { return m_data[(m_degree + i) * m_degree + j]; }
-  double rg(const std::size_t i, const std::size_t j) const
-  {
-    return m_data[(2 * m_degree + 1 + i) * m_degree + j];
-  }
+  /// R_c . g_j
+  double rg(const std::size_t j) const { return m_data[(2 * m_degree + 1) * m_degree + j]; }
   /// z_i . z_j; only i = degree() unless full
   double zz(const std::size_t i, const std::size_t j) const
   {
     return m_data[zz_offset() + (m_full ? i * (m_degree + 1) : 0) + j];
   }
-  /// R_i . z_j; only i = j = degree() unless full
-  double rz(const std::size_t i, const std::size_t j) const
-  {
-    return m_data[rz_offset() + (m_full ? i * (m_degree + 1) + j : 0)];
-  }
+  /// R_c . z_j; only j = degree() unless full
+  double rz(const std::size_t j) const { return m_data[rz_offset() + (m_full ? j : 0)]; }
 
-  double* g_rows() { return m_data.data(); } ///< rows of d, as those of zg and rg
+  double* g_rows() { return m_data.data(); } ///< rows of d, as those of zg
   double* zg_rows() { return m_data.data() + m_degree * m_degree; }
-  double* rg_row(const std::size_t i) { return m_data.data() + (2 * m_degree + 1 + i) * m_degree; }
+  double* rg_row() { return m_data.data() + (2 * m_degree + 1) * m_degree; }
   double* zz_rows() { return m_data.data() + zz_offset(); }
-  double* rz_rows() { return m_data.data() + rz_offset(); }
+  double* rz_row() { return m_data.data() + rz_offset(); }
 
 private:
-  std::size_t zz_offset() const { return (3 * m_degree + 2) * m_degree; }
+  std::size_t zz_offset() const { return (2 * m_degree + 2) * m_degree; }
   std::size_t rz_offset() const { return zz_offset() + (m_degree + 1) * (m_full ? m_degree + 1 : 1); }
 
   std::vector<double> m_data;
@@ -238,16 +238,10 @@ public:
     compute_body(fields, c, products);
   }
 
-  /// Only the products with R_i, for the ring indices i with `changed(i)`, where i = degree is c itself, and those
-  /// with f and z of the neighbour at index `moved`, unless that is the degree.
-  template <class Changed>
+  /// Only the products with R_c, and those with f and z of the neighbour at index `moved`.
   void update(const Spectral_fields& fields, const Spectral_slot c, Spectral_ring_products& products,
-              const std::size_t moved, const Changed& changed)
+              const std::size_t moved)
   {
-    m_changed.clear();
-    for(std::size_t i = 0; i <= products.degree(); ++i)
-      if(changed(i))
-        m_changed.push_back(i);
 #ifdef CGAL_SPECTRAL_DISPATCH
     if(spectral_has_avx2())
       return update_avx2(fields, c, products, moved);
@@ -289,39 +283,22 @@ private:
     }
     const Spectral_row_list g{m_g.data(), d};
     spectral_dots<false, false>(g, g, length, products.g_rows(), d);
-    spectral_dots<false, false>({m_r.data(), d + 1}, g, length, products.rg_row(0), d);
+    dots_with_residual(fields, c, g, products);
     for(std::size_t j = 0; j < d; ++j)
       dots_with_z(fields, m_g[j], products.zg_rows() + j, d);
     for(std::size_t i = full ? 0 : d; i <= d; ++i)
       dots_with_z(fields, z_row(fields, i), products.zz_rows() + (full ? i * (d + 1) : 0), 1);
-    if(full)
-      for(std::size_t i = 0; i <= d; ++i)
-        dots_with_z(fields, m_r[i], products.rz_rows() + i * (d + 1), 1);
-    else
-      dot_of_center(fields, products);
   }
 
   CGAL_SPECTRAL_INLINE void update_body(const Spectral_fields& fields, const Spectral_slot c,
                                         Spectral_ring_products& products, const std::size_t moved)
   {
     const std::size_t d = fields.rings[c].size(), length = std::size_t(fields.F.cols());
-    const bool full = fields.theta != 0;
     set_rows(fields, c);
     m_scratch.resize((d + 1) * length);
     const Spectral_row_list g{m_f.data(), d, fields.f_row(c)};
-    m_changed_rows.resize(m_changed.size());
-    for(std::size_t n = 0; n < m_changed.size(); ++n)
-      m_changed_rows[n] = m_r[m_changed[n]];
-    spectral_dots<false, true>({m_changed_rows.data(), m_changed.size()}, g, length,
-                               [&](const std::size_t n) { return products.rg_row(m_changed[n]); });
-    for(const std::size_t i : m_changed) {
-      if(full)
-        dots_with_z(fields, m_r[i], products.rz_rows() + i * (d + 1), 1);
-      else if(i == d)
-        dot_of_center(fields, products);
-    }
-    if(moved < d)
-      update_moved(fields, products, moved, g);
+    update_moved(fields, products, moved, g);
+    dots_with_residual(fields, c, g, products);
   }
 
   // The column of the neighbour in all products, and its row where it is one.
@@ -337,7 +314,6 @@ private:
     spectral_dots<false, true>(x, g, length, products.g_rows() + moved * d, d);
     for(std::size_t j = 0; j < d; ++j)
       products.g_rows()[j * d + moved] = products.g_rows()[moved * d + j];
-    spectral_dots<false, false>({m_r.data(), d + 1}, x, length, products.rg_row(0) + moved, d);
     dots_with_z(fields, gx, products.zg_rows() + moved, d);
     const double* z = z_row(fields, moved);
     spectral_dots<false, true>({&z, 1}, g, length, products.zg_rows() + moved * d, d);
@@ -350,22 +326,34 @@ private:
     dots_with_z(fields, z, products.zz_rows() + moved * (d + 1), 1);
     for(std::size_t j = 0; j <= d; ++j)
       products.zz_rows()[j * (d + 1) + moved] = products.zz_rows()[moved * (d + 1) + j];
-    z = z_row(fields, moved);
-    spectral_dots<false, false>({m_r.data(), d + 1}, {&z, 1}, length, products.rz_rows() + moved, d + 1);
   }
 
-  // Rows of F (of Z if stored) and of R: the neighbours, then c.
+  // R_c . g_j, and R_c . z_c or R_c . z_j.
+  CGAL_SPECTRAL_INLINE void dots_with_residual(const Spectral_fields& fields, const Spectral_slot c,
+                                               const Spectral_row_list& g, Spectral_ring_products& products)
+  {
+    const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
+    const double* r = fields.r_row(c);
+    if(g.center != nullptr)
+      spectral_dots<false, true>({&r, 1}, g, length, products.rg_row(), d);
+    else
+      spectral_dots<false, false>({&r, 1}, g, length, products.rg_row(), d);
+    if(fields.theta != 0)
+      return dots_with_z(fields, r, products.rz_row(), 1);
+    const double* z = z_row(fields, d);
+    spectral_dots<false, false>({&r, 1}, {&z, 1}, length, products.rz_row(), 1);
+  }
+
+  // Rows of F, and of Z if stored: the neighbours, then c.
   CGAL_SPECTRAL_INLINE void set_rows(const Spectral_fields& fields, const Spectral_slot c)
   {
     const Spectral_ring& ring = fields.rings[c];
     const std::size_t n = ring.size() + 1;
     m_f.resize(n);
-    m_r.resize(n);
     m_z.resize(fields.has_z_rows() ? n : 0);
     for(std::size_t i = 0; i < n; ++i) {
       const Spectral_slot s = i + 1 < n ? ring[i].vertex : c;
       m_f[i] = fields.f_row(s);
-      m_r[i] = fields.r_row(s);
       if(fields.has_z_rows())
         m_z[i] = fields.z_row(s);
     }
@@ -399,17 +387,8 @@ private:
     return result.data();
   }
 
-  // R_c . z_c
-  CGAL_SPECTRAL_INLINE void dot_of_center(const Spectral_fields& fields, Spectral_ring_products& products)
-  {
-    const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
-    const double* z = z_row(fields, d);
-    spectral_dots<false, false>({&m_r[d], 1}, {&z, 1}, length, products.rz_rows(), 1);
-  }
-
   std::vector<double> m_scratch, m_scratch_z, m_scaled;
-  std::vector<const double*> m_f, m_z, m_r, m_g, m_changed_rows;
-  std::vector<std::size_t> m_changed;
+  std::vector<const double*> m_f, m_z, m_g;
 };
 
 } // namespace internal
