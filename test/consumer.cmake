@@ -33,22 +33,21 @@ set(solver "simplicial")
 if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
   set(solver "cholmod")
 endif()
-# Headers in two files of one program are tried by the first; the others compile both as one.
+# Headers in two files of one program are tried by the first, with what is installed here; the second compiles both as one
+# and does without CHOLMOD.
 spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
                            "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer ${solver})
+set_tests_properties("consumer-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DCMAKE_UNITY_BUILD=ON" consumer)
-spectral_add_consumer_test("consumer-without-cholmod" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSpectral_mesh_simplification_ROOT=${prefix};-DSPECTRAL_WITH_CHOLMOD=OFF;-DCMAKE_UNITY_BUILD=ON"
+                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DSPECTRAL_WITH_CHOLMOD=OFF;-DCMAKE_UNITY_BUILD=ON"
                            consumer simplicial)
-set_tests_properties("consumer-find-package" "consumer-without-cholmod" PROPERTIES FIXTURES_REQUIRED installed)
 
-# The examples' own CMakeLists.txt, outside of the project.
+# The examples' own CMakeLists.txt, outside of the project, with its smallest program.
 if(TARGET make_demo_shape)
   spectral_add_consumer_test("examples-find-package" "${PROJECT_SOURCE_DIR}/examples"
-                             "-DSpectral_mesh_simplification_ROOT=${prefix}" edge_collapse_spectral
-                             "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/installed-example.off" 400)
-  set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED "installed;shape")
+                             "-DSpectral_mesh_simplification_ROOT=${prefix}" make_demo_shape
+                             "${CMAKE_CURRENT_BINARY_DIR}/installed-example.off" --vertices 2000)
+  set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 
   # Without CMake and without the optional libraries: the compiler, the folder include/, and the flags of the manual.
   add_test(NAME "consumer-include-folder"

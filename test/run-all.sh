@@ -26,7 +26,7 @@ install_packages g++ make cmake libcgal-dev libeigen3-dev libspectra-dev libboos
 
 # CMAKE_ARGS is split into words on purpose.
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSPECTRAL_BUILD_TESTS=ON -DSPECTRAL_BUILD_EXAMPLES=ON \
-  ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
+  -DSPECTRAL_PRECOMPILE_HEADERS=ON ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
 cmake --build "$build" -j "$jobs" || stop "The tests were not run: the build failed."
 
 log=$build/ctest.log

@@ -180,7 +180,8 @@ private:
   // The space is (nearly) invariant along some directions: those become random vectors without a link.
   void replace_dependent_vectors(const Small_matrix& G)
   {
-    const Eigen::SelfAdjointEigenSolver<Small_matrix> solver(G);
+    // The type used below as well: that of the fixed size takes long to compile.
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
     const Small_matrix Q = solver.eigenvectors();
     Small_matrix T = Small_matrix::Zero(), R = Small_matrix::Zero();
     std::vector<int> replaced;
@@ -213,7 +214,7 @@ private:
 
   static double smallest_singular_value(const Small_matrix& R)
   {
-    const Eigen::SelfAdjointEigenSolver<Small_matrix> solver(R.transpose() * R, Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(R.transpose() * R, Eigen::EigenvaluesOnly);
     return (std::max)(1e-12, std::sqrt((std::max)(0., solver.eigenvalues()(0))));
   }
 

@@ -35,7 +35,7 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
       throw std::invalid_argument("functional map: a map is empty or has an entry that is not finite, check "
                                   "the eigenvectors and restrictions.");
 
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(target_restriction, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& sigma = svd.singularValues();
   const Eigen::MatrixXd right = coarse * source_restriction;
   Lifted_functional_map result;
