@@ -165,12 +165,22 @@ private:
         m_bar.show("comparison",
                    static_cast<double>(done++) / static_cast<double>(sizes.size() * simplifiers.size()));
         stop_if_interrupted();
-        if(s.name.find(m_arguments.only) != std::string::npos)
+        if(is_wanted(s.name))
           try_simplifier(s, N);
       }
+    if(!m_arguments.without.empty())
+      m_comparison.notes.push_back("Left out by --without: simplifiers with '" + m_arguments.without +
+                                   "' in their names.");
     if(m_comparison.results.empty())
-      throw std::runtime_error("no simplifier has '" + m_arguments.only +
-                               "' in its name and can simplify this mesh.");
+      throw std::runtime_error("no simplifier has '" + m_arguments.only + "' in its name" +
+                               (m_arguments.without.empty() ? "" : ", lacks '" + m_arguments.without + "'") +
+                               " and can simplify this mesh.");
+  }
+
+  bool is_wanted(const std::string& name) const
+  {
+    return name.find(m_arguments.only) != std::string::npos &&
+           (m_arguments.without.empty() || name.find(m_arguments.without) == std::string::npos);
   }
 
   // A simplifier that fails does not end the comparison.

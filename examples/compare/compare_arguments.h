@@ -21,7 +21,7 @@ struct Compare_arguments
   std::string fine;                                          // MESH or --fine
   std::string vertices;                                      // N[,N2...], each a number or a percentage
   std::string coarse, operator_file, mass_file, restriction; // anybody's result
-  std::string masses = "lumped,averaged", only;
+  std::string masses = "lumped,averaged", only, without;
   std::string report, json, coloured;
   long eigenvectors = 100, sources = 20, seed = 1;
   int threads = 1;
@@ -54,6 +54,7 @@ inline boost::program_options::options_description described(Compare_arguments& 
   add("judge", text(a.masses, "MASS,...")->default_value(a.masses),
       "the masses to judge in: lumped, averaged or both; also those of the spectral metric");
   add("only", text(a.only, "TEXT"), "only simplifiers with TEXT in their names");
+  add("without", text(a.without, "TEXT"), "no simplifiers with TEXT in their names");
   add("report", text(a.report, "report.html"), "write a page with tables and figures that any browser shows");
   add("json", text(a.json, "out.json"), "write all figures for programs");
   add("coloured", text(a.coloured, "DIR"),
