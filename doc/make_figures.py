@@ -20,7 +20,7 @@ import zlib
 
 K = 100
 SIZES = [100, 150, 200, 300, 450, 600, 900, 1400, 2000]
-COLOURS = {"spectral": "#01508c", "isotropic": "#c8501e", "floor": "#888888"}
+COLOURS = {"spectral": "#01508c", "relocated": "#56a4d8", "isotropic": "#c8501e", "floor": "#888888"}
 
 
 def run(build, folder, output, program, *arguments):
@@ -206,9 +206,10 @@ def curve(folder, output):
                 if key == "spectral" and (r["placement"] != "on_edge" or r["metric_mass"] != r["judged_mass"]):
                     continue
                 norms = r["carried_P"] or r["closest_point_P"]
-                lines.setdefault((r["judged_mass"], key), []).append(
+                line = "relocated" if r["relocation"] != "none" else key
+                lines.setdefault((r["judged_mass"], line), []).append(
                     (r["vertices"], norms["norm_L"], norms["norm_D"], 100 * r["eigenvalue_error_mean"]))
-                if key == "spectral":
+                if line == "spectral":
                     lines.setdefault((r["judged_mass"], "floor"), []).append(
                         (r["requested_vertices"], r["floor_norm_L"], r["floor_norm_D"], None))
     body = ""
@@ -239,10 +240,10 @@ def curve(folder, output):
             body += f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"{dash}/>\n'
             if key != "floor":
                 body += "".join('<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>\n'.format(*place(n, v), colour) for n, v in points)
-    names = {"spectral": "spectral, placement on the edge", "isotropic": "isotropic remeshing (closest-point P)",
-             "floor": "ideal linear elements (estimate)"}
+    names = {"spectral": "spectral, on the edge", "relocated": "the same, relocated", "isotropic": "isotropic remeshing",
+             "floor": "ideal elements (estimate)"}
     for i, (key, colour) in enumerate(COLOURS.items()):
-        body += f'<rect x="{60 + 270 * i}" y="515" width="14" height="4" fill="{colour}"/>\n' + text(80 + 270 * i, 521, names[key], 11, "start")
+        body += f'<rect x="{60 + 190 * i}" y="515" width="14" height="4" fill="{colour}"/>\n' + text(80 + 190 * i, 521, names[key], 11, "start")
     with open(os.path.join(output, "norms_over_n.svg"), "w") as file:
         file.write(svg(810, 532, body))
 
