@@ -150,8 +150,8 @@ CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectr
  * Every residual row that a collapse changes is a combination of such vectors whose coefficients depend on
  * geometry alone. With the products at hand a candidate costs no work over K, except for the few pairs that lie
  * across its edge and, for each vertex of its link next to one end only, the product of R there with the other end. All
- * products with R of the neighbours could be kept as well, but then a collapse would change those of the rings around its
- * own: more work than the products that it saves.
+ * products with R of the neighbours could be kept as well, but then a collapse changes those of the rings around its
+ * own: measured, that is no faster, even where they are updated only when they are asked for.
  */
 class Spectral_ring_products
 {
