@@ -7,6 +7,7 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 
@@ -14,6 +15,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -79,8 +82,8 @@ std::vector<std::vector<Eigen::Index>> neighbours_of_vertices(const SG::Mesh_mat
 Eigen::MatrixXd embedding(const Eigen::MatrixXd& modes, const Eigen::MatrixXd& local,
                           const Eigen::VectorXd& weights)
 {
-  Eigen::MatrixXd result(modes.cols() + local.rows(), modes.rows());
-  result.topRows(modes.cols()) = modes.transpose();
+  Eigen::MatrixXd result(modes.rows() + local.rows(), modes.cols());
+  result.topRows(modes.rows()) = modes;
   result.bottomRows(local.rows()) = weights.asDiagonal() * local;
   return result;
 }
@@ -107,12 +110,33 @@ Local_refinement::Local_refinement(const Shape& X, const Shape& Y, double larges
   m_of_Y = curvature_bands(Y, shortest_time, bands);
 }
 
-Eigen::VectorXd Local_refinement::weights(const std::vector<Eigen::Index>& map) const
+Local_refinement::Part Local_refinement::part(std::vector<Eigen::Index> vertices, Eigen::Index modes) const
+{
+  const Eigen::Index n = static_cast<Eigen::Index>(vertices.size());
+  Part part;
+  part.modes.resize(modes, n);
+  part.bands.resize(m_of_X.rows(), n);
+  Eigen::VectorXd mass(n);
+  for(Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Index x = vertices[static_cast<std::size_t>(i)];
+    part.modes.col(i) = m_X.spectral.pairs.vectors.row(x).head(modes).transpose();
+    part.bands.col(i) = m_of_X.col(x);
+    mass(i) = m_X.spectral.op.mass(x);
+  }
+  // Least squares, weighted by the mass: the modes are orthonormal over all vertices, not over some.
+  const Eigen::MatrixXd weighted = part.modes * mass.asDiagonal();
+  part.to_map = (weighted * part.modes.transpose()).ldlt().solve(weighted);
+  part.complete = n == m_of_X.cols();
+  part.vertices = std::move(vertices);
+  return part;
+}
+
+Eigen::VectorXd Local_refinement::weights(const Part& part, const std::vector<Eigen::Index>& images) const
 {
   const Eigen::Index bands = m_of_X.rows();
   Eigen::VectorXd products = Eigen::VectorXd::Zero(bands), squares_X = products, squares_Y = products;
-  for(Eigen::Index x = 0; x < m_of_X.cols(); ++x) {
-    const auto of_x = m_of_X.col(x), of_y = m_of_Y.col(map[static_cast<std::size_t>(x)]);
+  for(std::size_t i = 0; i < images.size(); ++i) {
+    const auto of_x = part.bands.col(static_cast<Eigen::Index>(i)), of_y = m_of_Y.col(images[i]);
     products += of_x.cwiseProduct(of_y);
     squares_X += of_x.cwiseAbs2();
     squares_Y += of_y.cwiseAbs2();
@@ -126,67 +150,117 @@ Eigen::VectorXd Local_refinement::weights(const std::vector<Eigen::Index>& map) 
   return result;
 }
 
-std::vector<Eigen::Index> Local_refinement::step(const std::vector<Eigen::Index>& map,
-                                                 const Eigen::MatrixXd& C,
-                                                 const Eigen::VectorXd& weights) const
+std::vector<Eigen::Index> Local_refinement::walked(const Part& part, const Eigen::MatrixXd& points,
+                                                   const Eigen::MatrixXd& queries) const
 {
-  const Eigen::MatrixXd points =
-      embedding(m_Y.spectral.pairs.vectors.leftCols(C.cols()) * C.transpose(), m_of_Y, weights);
-  const Eigen::MatrixXd queries = embedding(m_X.spectral.pairs.vectors.leftCols(C.rows()), m_of_X, weights);
-  std::vector<Eigen::Index> result(map.size());
+  const std::vector<Eigen::Index>& images = part.images;
+  std::vector<Eigen::Index> result(images.size());
   const auto work = [&](std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> last_query(m_neighbours_Y.size(), map.size()); // that tried this vertex
-    for(std::size_t x = begin; x < end; ++x) {
+    std::vector<std::size_t> last_query(m_neighbours_Y.size(), images.size()); // that tried this vertex
+    for(std::size_t i = begin; i < end; ++i) {
       Eigen::Index best = -1;
       double smallest = std::numeric_limits<double>::infinity();
       const auto try_vertex = [&](Eigen::Index y) {
-        if(std::exchange(last_query[static_cast<std::size_t>(y)], x) == x)
+        if(std::exchange(last_query[static_cast<std::size_t>(y)], i) == i)
           return;
-        const double d = (points.col(y) - queries.col(static_cast<Eigen::Index>(x))).squaredNorm();
+        const double d = (points.col(y) - queries.col(static_cast<Eigen::Index>(i))).squaredNorm();
         if(d < smallest) {
           smallest = d;
           best = y;
         }
       };
-      try_vertex(map[x]);
-      for(const Eigen::Index neighbour : m_neighbours_X[x])
-        try_vertex(map[static_cast<std::size_t>(neighbour)]);
+      try_vertex(images[i]);
+      if(part.complete)
+        for(const Eigen::Index neighbour : m_neighbours_X[i])
+          try_vertex(images[static_cast<std::size_t>(neighbour)]);
       for(Eigen::Index from = -1; from != best;) {
         from = best;
         for(const Eigen::Index y : m_neighbours_Y[static_cast<std::size_t>(from)])
           try_vertex(y);
       }
-      result[x] = best;
+      result[i] = best;
     }
   };
   std::vector<std::thread> others;
   const std::size_t share =
-      (map.size() + static_cast<std::size_t>(m_threads) - 1) / static_cast<std::size_t>(m_threads);
-  for(std::size_t begin = share; begin < map.size(); begin += share)
-    others.emplace_back(work, begin, (std::min)(begin + share, map.size()));
-  work(0, (std::min)(share, map.size()));
+      (images.size() + static_cast<std::size_t>(m_threads) - 1) / static_cast<std::size_t>(m_threads);
+  for(std::size_t begin = share; begin < images.size(); begin += share)
+    others.emplace_back(work, begin, (std::min)(begin + share, images.size()));
+  work(0, (std::min)(share, images.size()));
   for(std::thread& other : others)
     other.join();
   return result;
 }
 
-void Local_refinement::refine(std::vector<Eigen::Index>& map, Eigen::MatrixXd& C, int iterations,
-                              const Keep_going& keep_going) const
+std::vector<Eigen::Index> Local_refinement::searched(const Part& part, const Eigen::MatrixXd& C,
+                                                     const Eigen::VectorXd& weights) const
 {
-  std::vector<Eigen::Index> by_modes = map;
-  for(int i = 0; i < iterations; ++i) {
+  const Eigen::MatrixXd modes = C * m_Y.spectral.pairs.vectors.leftCols(C.cols()).transpose();
+  return SG::nearest_rows(embedding(modes, m_of_Y, weights).transpose(),
+                          embedding(part.modes, part.bands, weights).transpose(), m_threads);
+}
+
+void Local_refinement::set_map(const Part& part, Eigen::MatrixXd& C) const
+{
+  Eigen::MatrixXd at_images(static_cast<Eigen::Index>(part.images.size()), C.cols());
+  for(std::size_t i = 0; i < part.images.size(); ++i)
+    at_images.row(static_cast<Eigen::Index>(i)) =
+        m_Y.spectral.pairs.vectors.row(part.images[i]).head(C.cols());
+  C = part.to_map * at_images;
+}
+
+std::size_t Local_refinement::iterate(Part& part, Eigen::MatrixXd& C, Eigen::VectorXd& weights,
+                                      bool among_all) const
+{
+  const Eigen::MatrixXd modes = C * m_Y.spectral.pairs.vectors.leftCols(C.cols()).transpose();
+  // What a band is worth is judged by a map that did not use it.
+  if(m_largest_weight > 0)
+    weights = this->weights(part, walked(part, modes, part.modes));
+  std::vector<Eigen::Index> next =
+      among_all ? searched(part, C, weights)
+                : walked(part, embedding(modes, m_of_Y, weights), embedding(part.modes, part.bands, weights));
+  std::size_t changes = 0;
+  for(std::size_t i = 0; i < next.size(); ++i)
+    changes += next[i] != part.images[i];
+  part.images = std::move(next);
+  set_map(part, C);
+  return changes;
+}
+
+std::vector<Eigen::Index> Local_refinement::refine(Eigen::MatrixXd& C, int iterations,
+                                                   const Keep_going& keep_going) const
+{
+  constexpr std::size_t sample_size = 3000;
+  constexpr int round = 4, iterations_of_all = 4;
+  std::vector<Eigen::Index> vertices(static_cast<std::size_t>(m_of_X.cols()));
+  std::iota(vertices.begin(), vertices.end(), Eigen::Index(0));
+  Part all = part(vertices, C.rows());
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(m_of_X.rows());
+
+  std::mt19937 random(2020);
+  for(std::size_t i = 0; i < vertices.size() && i < sample_size; ++i)
+    std::swap(vertices[i], vertices[i + random() % (vertices.size() - i)]);
+  vertices.resize((std::min)(vertices.size(), sample_size));
+  Part sample = part(std::move(vertices), C.rows());
+  if(iterations > 0)
+    sample.images = searched(sample, C, weights);
+  for(int i = 1; i <= iterations; ++i) {
     if(!keep_going())
       throw SG::Cancelled();
-    // What a band is worth is judged by a map that did not use it.
-    if(m_largest_weight > 0)
-      by_modes = step(map, C, Eigen::VectorXd::Zero(m_of_X.rows()));
-    std::vector<Eigen::Index> next = step(map, C, weights(by_modes));
-    const bool moved = next != map;
-    map = std::move(next);
-    C = SG::functional_map_of_vertex_map(m_Y.spectral.pairs.vectors.leftCols(C.cols()),
-                                         m_X.spectral.pairs.vectors.leftCols(C.rows()), m_X.spectral.op.B,
-                                         map);
-    if(!moved && i > 0) // C was another map's at first
+    const bool among_all = i % round == 0;
+    const std::size_t changes = iterate(sample, C, weights, among_all);
+    if(among_all && 1000 * changes <= sample.images.size())
       break;
   }
+
+  all.images = searched(all, C, weights);
+  if(iterations > 0)
+    set_map(all, C);
+  for(int i = 0; i < (std::min)(iterations, iterations_of_all); ++i) {
+    if(!keep_going())
+      throw SG::Cancelled();
+    if(iterate(all, C, weights, false) == 0)
+      break;
+  }
+  return all.images;
 }

@@ -91,10 +91,8 @@ Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const 
 void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options,
             const Keep_going& keep_going)
 {
-  match.map =
-      SG::target_to_source_map(match.C, Y.spectral.pairs.vectors, X.spectral.pairs.vectors, options.threads);
-  Local_refinement(X, Y, options.local_weight, options.threads)
-      .refine(match.map, match.C, options.fine_iterations, keep_going);
+  match.map = Local_refinement(X, Y, options.local_weight, options.threads)
+                  .refine(match.C, options.fine_iterations, keep_going);
 }
 
 } // namespace

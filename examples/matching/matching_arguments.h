@@ -23,7 +23,7 @@ struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
   std::string proxies = "spectral", mass = "averaged";
-  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 12;
+  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 60;
   long samples = 300;
   double local_weight = 4;
   int threads = 2;
@@ -85,7 +85,8 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("filter-iterations", number(a.filter_iterations, "I"),
       "of the Product Manifold Filter; 0 leaves it out");
   add("fine-iterations", number(a.fine_iterations, "I"),
-      "from all vertices to functional map and back on the fine meshes, at the end, at most");
+      "from vertices of the fine meshes to the functional map and back, at the end, until nothing moves or "
+      "this many");
   add("local-weight", po::value(&a.local_weight)->value_name("w")->default_value(a.local_weight),
       "of curvature in these, at most; 0: the modes alone");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
