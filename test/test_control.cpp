@@ -239,6 +239,21 @@ TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of 
   }
 }
 
+TEST_CASE("Pre-simplification never brings two vertices to keep together that share a position")
+{
+  // Two triangles on one edge, of which every other edge leads from an end to one of the two.
+  shapes::Matrices input{Eigen::MatrixXd(4, 3), Eigen::MatrixXi(2, 3)};
+  input.V << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0;
+  input.T << 0, 1, 2, 0, 3, 1;
+  Spectral_options options = options_with(1);
+  options.kept_vertices = {2, 3};
+  options.pre_simplify = 2;
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 2, options);
+  CHECK(result.pre_simplified_vertices == 4);
+  CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
+}
+
 // --- stop at an error --------------------------------------------------------------------------------------------------
 
 TEST_CASE("A bound of the error stops before the collapse that would exceed it")

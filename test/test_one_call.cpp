@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -389,4 +391,87 @@ TEST_CASE(
   CHECK(result.relocation.moved_vertices == 0);
   REQUIRE_FALSE(result.warnings.empty());
   CHECK_THAT(result.warnings.back(), ContainsSubstring("not relocated") && ContainsSubstring("has no area"));
+}
+
+TEST_CASE("Rough eigenpairs have one E, in the collapses and after edge flips")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Eigenpairs_options rough = SG::Eigenpairs_options::with_tolerance(1e-3);
+  Spectral_options options = options_with(20);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op, 20, rough));
+  REQUIRE(SMS::internal::pairs_are_rough(SMS::internal::spectral_residuals(op, *options.eigenpairs)));
+  Basis basis = basis_of_pairs(op, *options.eigenpairs);
+  basis.Z = signal_basis(input, 0, basis.F).Z;
+  options.flips = GENERATE(SG::Edge_flips::none, SG::Edge_flips::delaunay);
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
+  CHECK(result.flips.flips.empty() == (options.flips == SG::Edge_flips::none));
+  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) < 1e-8);
+}
+
+TEST_CASE("Of one eigenvector of a mesh with needles there is nothing to lose but rounding")
+{
+  shapes::Matrices input = shapes::grid_matrices(4, 4);
+  const double length = GENERATE(1., 1e-6, 1e-9);
+  for(const int v : {6, 12, 18}) // towards the next vertex
+    input.V.row(v) = (1 - length) * input.V.row(v + 1) + length * input.V.row(v);
+  Spectral_options options = options_with(1);
+  options.maximum_error = 0.1;
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 6, options);
+  CAPTURE(length, result.eigenpairs->values[0], result.E);
+  CHECK(result.stop_reason != Result::Stop_reason::error_reached);
+  CHECK(result.relative_error == 0);
+}
+
+TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplification or by the collapses")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Spectral_options options = options_with(8);
+  options.pre_simplify = GENERATE(0, 100);
+  std::string word;
+  SECTION("weights")
+  {
+    options.weights = Eigen::VectorXd::Ones(7);
+    word = "7 weights";
+  }
+  SECTION("the solver's options")
+  {
+    options.eigenpairs_options.tolerance = 2;
+    word = "tolerance";
+  }
+  SECTION("what a flip may not do")
+  {
+    options.flips = SG::Edge_flips::delaunay;
+    options.flipping.size_tolerance = -1;
+    word = "size_tolerance";
+  }
+  SECTION("how vertices are moved")
+  {
+    options.relocate = true;
+    options.relocation.beyond = 11;
+    word = "beyond";
+  }
+  SECTION("a coordinate that is no number")
+  {
+    input.V(50, 1) = std::numeric_limits<double>::quiet_NaN();
+    word = "not a finite number";
+  }
+  SECTION("coordinates whose squares of areas overflow")
+  {
+    input.V *= 1e60;
+    word = "1e50";
+  }
+  SECTION("an isolated vertex")
+  {
+    input.V.conservativeResize(163, 3);
+    input.V.row(162).setZero();
+    word = "isolated";
+  }
+  Mesh mesh = make_mesh(input);
+  CAPTURE(options.pre_simplify, word);
+  CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 50, options), std::invalid_argument);
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring(word));
+  CHECK(count_vertices(mesh) == std::size_t(input.V.rows()));
 }

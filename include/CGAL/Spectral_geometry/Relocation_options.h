@@ -9,9 +9,12 @@
 
 #include <Eigen/SparseCore>
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -93,6 +96,28 @@ struct Relocation_result
 };
 
 /// @}
+
+namespace internal {
+
+inline void check_relocation_options(const Relocation_options& o)
+{
+  const auto require = [](const bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("relocation: " + sentence);
+  };
+  require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
+          "smoothing and plain must be numbers from 0.");
+  require(o.beyond >= 0 && o.beyond <= 10,
+          "beyond must lie in [0, 10], but is " + std::to_string(o.beyond) + ".");
+  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
+          "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
+  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
+          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
+  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
+          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
+}
+
+} // namespace internal
 
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 
 namespace CGAL {
@@ -72,6 +73,24 @@ struct Eigenpairs_options
     return options;
   }
 };
+
+namespace internal {
+
+inline void check_eigenpairs_options(const Eigenpairs_options& options, const Eigen::Index K)
+{
+  if(!(options.tolerance > 0. && options.tolerance < 1.))
+    throw std::invalid_argument("Eigenpairs: the tolerance must lie between 0 and 1.");
+  if(options.maximum_iterations < 1)
+    throw std::invalid_argument("Eigenpairs: the number of iterations must be positive.");
+  if(options.threads < 1)
+    throw std::invalid_argument("Eigenpairs: the number of threads must be positive.");
+  if(options.maximum_vectors != 0 && options.maximum_vectors < K + 32)
+    throw std::invalid_argument(
+        "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = " + std::to_string(K + 32) + ", but is " +
+        std::to_string(options.maximum_vectors) + ".");
+}
+
+} // namespace internal
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.
 ///

@@ -255,6 +255,24 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
   own.resize(0, 0);
 }
 
+/// The policies of the second stage. What they refuse here is the mesh that the first one has left: an input that is
+/// refused as `std::invalid_argument` has not been changed.
+template <class Policies, class TriangleMesh, class NamedParameters>
+Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np,
+                           const Pre_simplification& first)
+{
+  if(!first.done)
+    return Policies(mesh, options, np);
+  try {
+    return Policies(mesh, options, np);
+  } catch(const std::invalid_argument& error) {
+    throw std::runtime_error("spectral_edge_collapse: the mesh of " + std::to_string(first.slots.size()) +
+                             " vertices that pre_simplify has left cannot be used, choose another number or "
+                             "repair the input (" +
+                             error.what() + ")");
+  }
+}
+
 /// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
 void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spectral_options& options,
@@ -267,7 +285,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   const Spectral_post_process post_process(mesh, options, policies_np);
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
-  const Policies policies(mesh, options, policies_np);
+  const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   const auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine_points().rows());
   const std::size_t K = std::size_t(state.core().number_of_signals());
@@ -377,8 +395,9 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target, Spectra
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
  *
  * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is changed
- * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed (with
- *         `Spectral_options::pre_simplify` the first stage has been done)
+ * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
+ *         `Spectral_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
+ *         mesh that the spectral cost refuses (a needle, a vertex without area)
  * @throws Spectral_geometry::Cancelled when the run is cancelled before the first collapse; later a
  *         cancelled run returns what was done
  */
@@ -395,6 +414,7 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   Spectral_edge_collapse_result result;
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target(number_of_vertices, result.input_vertices);
+  internal::check_post_process_options(options);
   const internal::Pre_simplification first =
       internal::pre_simplify<Geom_traits>(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = seconds();

@@ -43,7 +43,7 @@ public:
     , m_shift(4. * 3.14159265358979323846 / mass.sum())
   {}
 
-  void check(Eigen::Index K, double tolerance, Eigen::Index maximum_iterations) const
+  void check(Eigen::Index K) const
   {
     const Eigen::Index n = size();
     if(m_L.cols() != n || m_B.rows() != n || m_B.cols() != n || m_mass.size() != n)
@@ -56,10 +56,6 @@ public:
           "Eigenpairs: the number of eigenvectors must lie between 1 and the number of "
           "vertices " +
           std::to_string(n) + ", but is " + std::to_string(K) + ".");
-    if(!(tolerance > 0. && tolerance < 1.))
-      throw std::invalid_argument("Eigenpairs: the tolerance must lie between 0 and 1.");
-    if(maximum_iterations < 1)
-      throw std::invalid_argument("Eigenpairs: the number of iterations must be positive.");
   }
 
   Eigen::Index size() const { return m_L.rows(); }

@@ -58,16 +58,7 @@ inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd&
   require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
           "the list of fixed vertices has " + std::to_string(fixed.size()) + " entries for " +
               std::to_string(V.rows()) + " vertices; pass one for each, or none.");
-  require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
-          "smoothing and plain must be numbers from 0.");
-  require(o.beyond >= 0 && o.beyond <= 10,
-          "beyond must lie in [0, 10], but is " + std::to_string(o.beyond) + ".");
-  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
-          "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
-          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
+  check_relocation_options(o);
 }
 
 /// The directed edges that have a face on their left only: the boundary.

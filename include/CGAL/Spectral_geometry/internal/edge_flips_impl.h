@@ -40,11 +40,7 @@ inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& 
               "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
               " fine vertices and one column for each signal.");
   require(theta >= 0 && theta <= 1, "theta must lie in [0, 1], but is " + std::to_string(theta) + ".");
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
-          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
-  require(o.size_tolerance > 0, "size_tolerance must be positive.");
+  check_edge_flip_options(o);
 }
 
 } // namespace internal

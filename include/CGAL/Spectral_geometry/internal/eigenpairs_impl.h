@@ -23,13 +23,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
 {
   using Method = Eigenpairs_method;
   const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
-  problem.check(K, options.tolerance, options.maximum_iterations);
-  if(options.threads < 1)
-    throw std::invalid_argument("Eigenpairs: the number of threads must be positive.");
-  if(options.maximum_vectors != 0 && options.maximum_vectors < K + 32)
-    throw std::invalid_argument(
-        "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = " + std::to_string(K + 32) + ", but is " +
-        std::to_string(options.maximum_vectors) + ".");
+  problem.check(K);
+  internal::check_eigenpairs_options(options, K);
 
   internal::Ritz_pairs pairs;
   Eigenpairs result;

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -76,6 +77,14 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
                                 to_string(n) + " vertices; use a number from 1 to " + to_string(n - 1) + ".");
 }
 
+inline void check_extent(const Eigen::MatrixXd& V)
+{
+  if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
+    throw std::invalid_argument(
+        "Spectral_policies: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+        "magnitude; rescale the mesh.");
+}
+
 inline Eigen::VectorXd spectral_weights(const Spectral_options& options, const Eigen::Index K)
 {
   if(options.weights.size() == 0)
@@ -111,6 +120,17 @@ inline Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op,
   return Z;
 }
 
+/// What rounding leaves of || B^-1 L F ||_B for constant signals, || |L| |F| ||_{M^-1} times a few units in the last place:
+/// needles, with their large cotangents, leave most.
+inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
+{
+  const Eigen::SparseMatrix<double> size_of_L = op.L.cwiseAbs();
+  double sum = 0;
+  for(Eigen::Index k = 0; k < F.cols(); ++k)
+    sum += (size_of_L * F.col(k).cwiseAbs()).cwiseAbs2().cwiseQuotient(op.mass).sum();
+  return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+}
+
 /// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area, for each pair.
 inline Eigen::VectorXd spectral_residuals(const Spectral_geometry::Laplace_operator& op,
                                           const Spectral_geometry::Eigenpairs& pairs)
@@ -122,6 +142,26 @@ inline Eigen::VectorXd spectral_residuals(const Spectral_geometry::Laplace_opera
     result[k] = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values[k] + shift);
   }
   return result;
+}
+
+/// Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add. Here it is at most 1e-10 of
+/// sum lambda_k^2, a millionth of what a thousand collapses cost. Rougher pairs get a Z = B^-1 L F of its own.
+inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
+{
+  return residuals.size() != 0 && residuals.maxCoeff() > 1e-5;
+}
+
+/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K = 1 on a mesh with
+/// needles, where the solver may leave a lambda of 1e-5 for 0.
+inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
+                                     const Spectral_geometry::Eigenpairs& pairs,
+                                     const Eigen::VectorXd& residuals)
+{
+  const double shift = 4 * std::acos(-1.) / op.mass.sum();
+  for(Eigen::Index k = 0; k < pairs.size(); ++k)
+    if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
+      return false;
+  return true;
 }
 
 /// Refuses ready pairs that are not those of this mesh: their residuals must be small, or the very ones that they came
@@ -148,6 +188,9 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   basis.F = options.signals * weights.cwiseSqrt().asDiagonal();
   basis.Z = area * spectral_z(op, basis.F);
   basis.sum_of_squares = basis.Z.cwiseProduct(op.B * basis.Z).sum() / area;
+  const double rounding = rounding_of_spectral_z(op, basis.F);
+  if(!(basis.sum_of_squares > area * rounding * rounding))
+    basis.sum_of_squares = 0;
   return basis;
 }
 
@@ -164,9 +207,9 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
   basis.F = pairs->vectors * (weights * area).cwiseSqrt().asDiagonal();
   basis.lambda = area * pairs->values;
   basis.sum_of_squares = weights.dot(basis.lambda.cwiseAbs2());
-  // Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add. Here it is at most 1e-10 of
-  // sum lambda_k^2, a millionth of what a thousand collapses cost.
-  if(residuals.size() != 0 && residuals.maxCoeff() > 1e-5)
+  if(eigenvalues_are_rounding(op, *pairs, residuals))
+    basis.sum_of_squares = 0;
+  if(pairs_are_rough(residuals))
     basis.Z = area * spectral_z(op, basis.F);
   basis.eigenpairs = std::move(pairs);
   return basis;
@@ -177,10 +220,7 @@ inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::Matr
                                      const Spectral_options& options)
 {
   check_spectral_options(options, V.rows());
-  if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
-    throw std::invalid_argument(
-        "Spectral_policies: the coordinates of the mesh are not between 1e-50 and 1e50 in "
-        "magnitude; rescale the mesh.");
+  check_extent(V);
   const double theta = Spectral_geometry::mass_blend(options.mass);
   const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, theta);
   const double area = op.mass.sum();

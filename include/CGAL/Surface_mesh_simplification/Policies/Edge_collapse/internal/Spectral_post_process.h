@@ -28,6 +28,15 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
+/// Throws for what would otherwise be found out after the collapses.
+inline void check_post_process_options(const Spectral_options& options)
+{
+  if(options.flips != Spectral_geometry::Edge_flips::none)
+    Spectral_geometry::internal::check_edge_flip_options(options.flipping);
+  if(options.relocate)
+    Spectral_geometry::internal::check_relocation_options(options.relocation);
+}
+
 /// What follows the collapses: `Spectral_options::flips`, then `Spectral_options::relocate`. Made before the first collapse:
 /// it needs the mesh of the eigenpairs.
 class Spectral_post_process
@@ -56,7 +65,7 @@ public:
       return;
     const double theta = mass_blend(m_options.mass);
     Eigen::MatrixXd F, Z;
-    signals(theta, result.eigenpairs.get(), F, Z);
+    signals(theta, result.eigenpairs.get(), policies.state().core().fields().Z.size() != 0, F, Z);
     const Eigen::SparseMatrix<double> P = policies.restriction();
     const char* where = "as the collapses left them";
     try {
@@ -130,17 +139,16 @@ private:
     set_error(mesh, result.relocation.restriction, theta, F, Z, np, result);
   }
 
-  // At the scale of the input.
-  void signals(const double theta, const Spectral_geometry::Eigenpairs* pairs, Eigen::MatrixXd& F,
-               Eigen::MatrixXd& Z) const
+  // At the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
+  void signals(const double theta, const Spectral_geometry::Eigenpairs* pairs, const bool own_rows,
+               Eigen::MatrixXd& F, Eigen::MatrixXd& Z) const
   {
-    if(m_options.signals.size() != 0) {
-      F = m_options.signals * spectral_weights(m_options, m_options.signals.cols()).cwiseSqrt().asDiagonal();
+    const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
+    F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
+    if(own_rows)
       Z = spectral_z(Spectral_geometry::laplace_operator(m_fine.V, m_fine.T, theta), F);
-    } else {
-      F = pairs->vectors * spectral_weights(m_options, pairs->size()).cwiseSqrt().asDiagonal();
+    else
       Z = F * pairs->values.asDiagonal();
-    }
   }
 
   // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's

@@ -18,6 +18,9 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
@@ -98,6 +101,23 @@ inline void check_pre_simplification(const Spectral_options& options, const std:
     throw std::invalid_argument(size + ", but " + to_string(options.number_of_eigenvectors) +
                                 " eigenvectors are asked for; use a number of vertices above that.");
   check_spectral_options(options, Eigen::Index(n));
+  spectral_weights(options, options.number_of_eigenvectors);
+  Spectral_geometry::internal::check_eigenpairs_options(options.eigenpairs_options,
+                                                        options.number_of_eigenvectors);
+}
+
+/// The same for what is wrong with the mesh and stays so in the first stage. Needles and faces without area need not.
+template <class TriangleMesh, class NamedParameters>
+void check_mesh_to_pre_simplify(const TriangleMesh& mesh, const NamedParameters& np)
+{
+  check_extent(Spectral_geometry::mesh_matrices(mesh, np).V);
+  Eigen::Index i = 0;
+  for(const auto v : vertices(mesh)) {
+    if(halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
+      throw std::invalid_argument("Spectral_policies: " + Spectral_geometry::internal::vertex_name(i) +
+                                  " is isolated, no face uses it; remove it.");
+    ++i;
+  }
 }
 
 /// The first stage of `Spectral_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices.
@@ -111,6 +131,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
   check_pre_simplification(options, n, target);
+  check_mesh_to_pre_simplify(mesh, np);
   if(!report_progress(options, Spectral_phase::pre_simplification, 0., n))
     throw Spectral_geometry::Cancelled();
 
@@ -122,7 +143,11 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   check_kept_vertices_apart(
       mesh, [&](const vertex_descriptor v) { return tracker->is_kept(v); },
       [&](const vertex_descriptor v) { return tracker->slots().slot(v); },
-      [&](const vertex_descriptor v, const vertex_descriptor w) { return get(vpm, v) == get(vpm, w); });
+      [&](const vertex_descriptor v, const vertex_descriptor w) {
+        return coordinates(get(vpm, v)) == coordinates(get(vpm, w));
+      });
+  const auto shared = std::make_shared<const Shared_positions>(
+      positions_of_several(mesh, vpm, [&](const vertex_descriptor v) { return tracker->is_kept(v); }));
   using Policies = GarlandHeckbert_plane_policies<TriangleMesh, GeomTraits>;
   using Placement = typename Policies::Get_placement;
   const Policies policies(mesh);
@@ -135,11 +160,11 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
     const Constrained constrained(ecm, policies.get_placement());
     edge_collapse(mesh, stop,
                   common.edge_is_constrained_map(ecm).get_placement(
-                      Kept_vertices_placement<Tracker, Constrained>(tracker, constrained)));
+                      Kept_vertices_placement<Tracker, Constrained>(tracker, shared, constrained)));
   } else
-    edge_collapse(
-        mesh, stop,
-        common.get_placement(Kept_vertices_placement<Tracker, Placement>(tracker, policies.get_placement())));
+    edge_collapse(mesh, stop,
+                  common.get_placement(Kept_vertices_placement<Tracker, Placement>(
+                      tracker, shared, policies.get_placement())));
   result.done = true;
   result.cancelled = stop.cancelled();
   result.log = tracker->log();
