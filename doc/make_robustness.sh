@@ -42,11 +42,68 @@ row()
     "$(outcome "$file" "$folder/out.off" --repair "$@")"
 }
 
-# small NAME EXPECTED: the file comes from standard input.
+# made NAME EXPECTED OPTIONS...: the file comes from standard input.
+made()
+{
+  name=$1
+  expected=$2
+  shift 2
+  cat >"$folder/$name.off"
+  row "$name" "$expected" "$folder/$name.off" "$@"
+}
+
+# small NAME EXPECTED: the same to half of the vertices.
 small()
 {
-  cat >"$folder/$1.off"
-  row "$1" "$2" "$folder/$1.off" --ratio 0.5 --eigenvectors 2 --no-evaluation
+  made "$1" "$2" --ratio 0.5 --eigenvectors 2 --no-evaluation
+}
+
+# tori OPEN N M [N M]...: N x M vertices each, beside each other; tubes where OPEN is 1.
+tori()
+{
+  awk -v list="$*" 'BEGIN {
+    k = split(list, size, " "); open = size[1]; pi = atan2(0, -1)
+    for(t = 2; t < k; t += 2) {
+      vertices += size[t] * size[t + 1]
+      faces += 2 * (size[t] - open) * size[t + 1]
+    }
+    print "OFF"; print vertices, faces, 0
+    for(t = 2; t < k; t += 2)
+      for(i = 0; i < size[t]; ++i)
+        for(j = 0; j < size[t + 1]; ++j) {
+          a = (2 - open) * pi * i / size[t]; b = 2 * pi * j / size[t + 1]; r = 1 + 0.4 * cos(b)
+          printf "%.17g %.17g %.17g\n", 2 * t + r * cos(a), r * sin(a), 0.4 * sin(b)
+        }
+    for(t = 2; t < k; t += 2) {
+      n = size[t]; m = size[t + 1]
+      for(i = 0; i < n - open; ++i)
+        for(j = 0; j < m; ++j) {
+          a = first + i * m + j; b = first + (i + 1) % n * m + j
+          c = first + (i + 1) % n * m + (j + 1) % m; d = first + i * m + (j + 1) % m
+          print 3, a, b, c
+          print 3, a, c, d
+        }
+      first += n * m
+    }
+  }'
+}
+
+# strip N: N triangles in a row, no vertex inside. loose N: N that do not touch.
+strip()
+{
+  awk -v n="$1" 'BEGIN {
+    print "OFF"; print n + 2, n, 0
+    for(v = 0; v < n + 2; ++v) print v / 2, v % 2, sin(v) / 10
+    for(f = 0; f < n; ++f) print 3, f + f % 2, f + 1 - f % 2, f + 2
+  }'
+}
+loose()
+{
+  awk -v n="$1" 'BEGIN {
+    print "OFF"; print 3 * n, n, 0
+    for(f = 0; f < n; ++f) { print 2 * f, 0, 0; print 2 * f + 1, 0, 0; print 2 * f, 1, 0.1 }
+    for(f = 0; f < n; ++f) print 3, 3 * f, 3 * f + 1, 3 * f + 2
+  }'
 }
 
 # A wavy sheet of 21 x 21 vertices; `where` changes x, y, z of vertex v.
@@ -99,6 +156,16 @@ printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2
   small "tetrahedron" "says why it cannot be reduced"
 printf 'OFF\n6 8 0\n1 0 0\n0 1 0\n-1 0 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n3 1 0 5\n3 2 1 5\n3 3 2 5\n3 0 3 5\n' |
   small "octahedron" "reduced to a tetrahedron, says why not to 3"
+tori 0 30 15 | made "a torus" "simplified" --vertices 120 --eigenvectors 20
+tori 0 30 15 | made "a torus, K = 1" "simplified: nothing to lose" --vertices 30 --eigenvectors 1
+tori 0 30 15 | made "a torus, K = n - 1" "simplified" --vertices 100 --eigenvectors 449 --no-evaluation
+tori 0 30 15 | made "a torus, K = n" "refused" --vertices 100 --eigenvectors 450 --no-evaluation
+tori 0 30 15 | made "a torus, K above the target" "refused: cannot be judged" --vertices 30 --eigenvectors 40
+tori 0 30 15 6 4 20 10 | made "three tori, K above the smallest" "simplified, each kept" --vertices 120 --eigenvectors 30
+tori 0 30 15 6 4 20 10 | made "three tori, to fewer vertices than they need" "says why it stops" --vertices 10 --eigenvectors 3
+tori 1 30 15 | made "a tube" "simplified, open at both ends" --vertices 120 --eigenvectors 20
+strip 18 | made "a strip without inner vertices" "simplified" --vertices 8 --eigenvectors 2
+loose 30 | made "triangles that do not touch" "says why they cannot be reduced" --vertices 40 --eigenvectors 40
 printf '' | small "empty file" "refused"
 echo "no mesh" | small "a file of words" "refused"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | small "points without faces" "refused"
