@@ -68,6 +68,10 @@ public:
     , m_Y(read_mesh(arguments.Y))
     , m_mass(arguments.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped)
   {
+    for(const std::string& path :
+        {m_arguments.X, m_arguments.Y, m_arguments.landmarks, m_arguments.ground_truth})
+      if(!path.empty())
+        m_files.keep(path);
     for(const std::string& path : {m_arguments.output, m_arguments.report})
       if(!path.empty())
         m_files.add(path);

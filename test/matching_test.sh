@@ -49,7 +49,10 @@ refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
 echo "1 2 3" >three.txt
 echo "1" >one.txt
-refuses "landmarks of three vertices" "'1 2 3'" X.off Y.off --output map.txt --landmarks three.txt
+refuses "landmarks of three vertices" "'1 2 3' in line 1" X.off Y.off --output map.txt --landmarks three.txt
+: >nothing.txt
+refuses "no landmarks in the file" "names no vertex" X.off Y.off --output map.txt --landmarks nothing.txt
+refuses "an input as output" "read as an input" X.off Y.off --output ./X.off
 refuses "a truth for another mesh" "lines" X.off Y.off --output map.txt --ground-truth one.txt
 
 "$matching" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,none --ground-truth truth.txt \

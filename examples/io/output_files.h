@@ -38,6 +38,15 @@ public:
       std::filesystem::remove(*folder, ignored);
   }
 
+  // The file `path` is an input that no output may replace; call it before `add()`.
+  void keep(const std::string& path)
+  {
+    std::error_code error;
+    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+    if(!error)
+      m_inputs.insert(std::filesystem::weakly_canonical(absolute, error).string());
+  }
+
   // Makes room for the file `path`.
   void add(const std::string& path)
   {
@@ -52,6 +61,8 @@ public:
       throw std::runtime_error("cannot write '" + path + "': there is no folder '" + folder.string() + "'.");
     if(target.filename().empty() || (fs::exists(target, error) && !fs::is_regular_file(target, error)))
       throw std::runtime_error("cannot write '" + path + "': it is not an ordinary file.");
+    if(m_inputs.count(target.string()) > 0)
+      throw std::runtime_error("cannot write '" + path + "': it is read as an input, give another name.");
     if(!m_targets.insert(target.string()).second)
       throw std::runtime_error("cannot write '" + path + "' twice: two outputs have the same name.");
     if(fs::exists(target, error) && access(target.c_str(), W_OK) != 0)
@@ -142,7 +153,7 @@ private:
 
   std::vector<File> m_files;
   std::vector<std::filesystem::path> m_new_folders;
-  std::set<std::string> m_targets;
+  std::set<std::string> m_inputs, m_targets;
 };
 
 #endif // SPECTRAL_EXAMPLES_IO_OUTPUT_FILES_H

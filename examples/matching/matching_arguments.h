@@ -173,7 +173,9 @@ inline std::vector<std::vector<Eigen::Index>> read_vertex_lines(const std::strin
   if(!stream)
     throw std::runtime_error("cannot read '" + path + "': there is no such file, or it may not be read.");
   std::vector<std::vector<Eigen::Index>> lines;
+  std::size_t number = 0;
   for(std::string line; std::getline(stream, line);) {
+    ++number;
     if(line.find_first_not_of(" \t\r") == std::string::npos)
       continue;
     std::istringstream numbers(line);
@@ -183,11 +185,13 @@ inline std::vector<std::vector<Eigen::Index>> read_vertex_lines(const std::strin
       good = good && numbers >> row[c] && row[c] >= 0 && row[c] < static_cast<Eigen::Index>(sizes[c]);
     std::string rest;
     if(!good || numbers >> rest)
-      throw std::runtime_error("'" + path + "' has '" + line + "' where it must have " +
-                               (sizes.size() == 1 ? "one vertex" : "two vertices") +
+      throw std::runtime_error("'" + path + "' has '" + line + "' in line " + std::to_string(number) +
+                               ", where it must have " + (sizes.size() == 1 ? "one vertex" : "two vertices") +
                                ", counted from 0 and below the number of vertices of the mesh.");
     lines.push_back(row);
   }
+  if(lines.empty())
+    throw std::runtime_error("'" + path + "' names no vertex.");
   return lines;
 }
 
