@@ -353,6 +353,7 @@ Distance_arguments parse(int argc, char* argv[])
 void run(const Distance_arguments& a)
 {
   Output_files files;
+  files.keep(a.mesh);
   if(!a.report.empty())
     files.add(a.report);
   const Pair pair = simplify(a);
