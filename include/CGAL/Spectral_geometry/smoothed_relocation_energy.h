@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H
 
 #include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -156,31 +157,52 @@ private:
     Rows F, Z, by_F, by_Z;
     m_moving->evaluate(V, F, Z);
     if(gradient) {
-      by_F.setZero(F.rows(), F.cols());
-      by_Z.setZero(F.rows(), F.cols());
+      by_F.resize(F.rows(), F.cols());
+      by_Z.resize(F.rows(), F.cols());
     }
     for(Index first = 0; first < F.cols(); first += width) {
       add({panel(F, first), panel(Z, first)}, d);
-      if(!gradient)
-        continue;
-      const Index columns = (std::min)(Index(width), F.cols() - first);
-      for(Index w = 0; w < F.rows(); ++w) { // R is linear in both
-        Row f{}, z{};
-        add_multiple(2 * m_entries.B_diagonal(w), m_multiplier.row(w).data(), z);
-        for(const auto& entry : m_geometry.row(w)) {
-          const double* const x = m_multiplier.row(entry.neighbour).data();
-          const double L = 2 * m_entries.L(entry.edge);
-          add_multiple(2 * m_entries.B(entry.edge), x, z);
-          add_multiple(-L, x, f);
-          add_multiple(L, m_multiplier.row(w).data(), f);
-        }
-        std::copy_n(f, columns, by_F.row(w).data() + first);
-        std::copy_n(z, columns, by_Z.row(w).data() + first);
-      }
+      if(gradient)
+        add_linear(first, (std::min)(Index(width), F.cols() - first), by_F, by_Z);
     }
     if(gradient)
       m_moving->add_gradient(by_F, by_Z, *gradient);
   }
+
+  // Derivatives with respect to the entries of F and Z, in which R is linear.
+  CGAL_SPECTRAL_PANEL_INLINE void add_linear_body(const Index first, const Index columns, Rows& by_F,
+                                                  Rows& by_Z) const
+  {
+    for(Index w = 0; w < number_of_vertices(); ++w) {
+      Row f{}, z{};
+      add_multiple(2 * m_entries.B_diagonal(w), m_multiplier.row(w).data(), z);
+      for(const auto& entry : m_geometry.row(w)) {
+        const double* const x = m_multiplier.row(entry.neighbour).data();
+        const double L = 2 * m_entries.L(entry.edge);
+        add_multiple(2 * m_entries.B(entry.edge), x, z);
+        add_difference(-L, x, m_multiplier.row(w).data(), f);
+      }
+      std::copy_n(f, columns, by_F.row(w).data() + first);
+      std::copy_n(z, columns, by_Z.row(w).data() + first);
+    }
+  }
+
+  void add_linear(const Index first, const Index columns, Rows& by_F, Rows& by_Z) const
+  {
+#ifdef CGAL_SPECTRAL_PANEL_AVX2
+    if(internal::panel_has_avx2())
+      return add_linear_avx2(first, columns, by_F, by_Z);
+#endif
+    add_linear_body(first, columns, by_F, by_Z);
+  }
+
+#ifdef CGAL_SPECTRAL_PANEL_AVX2
+  CGAL_SPECTRAL_PANEL_AVX2 void add_linear_avx2(const Index first, const Index columns, Rows& by_F,
+                                                Rows& by_Z) const
+  {
+    add_linear_body(first, columns, by_F, by_Z);
+  }
+#endif
 
   // A = B + tau L, lower triangle.
   bool factorise()
@@ -208,7 +230,7 @@ private:
   }
 
   // x <- A^-1 x, row by row of the factor: what belongs to one vertex is contiguous.
-  void solve(Panel& x) const
+  CGAL_SPECTRAL_PANEL_INLINE void solve(Panel& x) const
   {
     using Entry_of_factor = Eigen::SparseMatrix<double>::InnerIterator;
     const auto& G = m_cholesky.matrixL().nestedExpression();
@@ -239,6 +261,22 @@ private:
   // With Y = A^-1 R, X = A^-1 B Y and Q = R / M:
   // dS = Y^T dB Y - 2 X^T dA Y + 2 (X + mu Q)^T (dB Z - dL F) - mu E_w / M_w dM_w.
   void add(const Signals& s, Entries* d)
+  {
+#ifdef CGAL_SPECTRAL_PANEL_AVX2
+    if(internal::panel_has_avx2())
+      return add_avx2(s, d);
+#endif
+    add_body(s, d);
+  }
+
+#ifdef CGAL_SPECTRAL_PANEL_AVX2
+  CGAL_SPECTRAL_PANEL_AVX2 void add_avx2(const Signals& s, Entries* d)
+  {
+    add_body(s, d);
+  }
+#endif
+
+  CGAL_SPECTRAL_PANEL_INLINE void add_body(const Signals& s, Entries* d)
   {
     const Index n = number_of_vertices();
     Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
@@ -276,7 +314,7 @@ private:
     add_derivatives(s, *d);
   }
 
-  void add_derivatives(const Signals& s, Entries& d) const
+  CGAL_SPECTRAL_PANEL_INLINE void add_derivatives(const Signals& s, Entries& d) const
   {
     const Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
     for(Index w = 0; w < number_of_vertices(); ++w) {
@@ -305,26 +343,27 @@ private:
   // the time it takes for Eigen's expressions.
   using Row = double[width];
 
-  static void add_multiple(const double a, const double* x, double* y)
+  CGAL_SPECTRAL_PANEL_INLINE static void add_multiple(const double a, const double* x, double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] += a * x[c];
   }
 
-  static void add_difference(const double a, const double* x, const double* x0, double* y)
+  CGAL_SPECTRAL_PANEL_INLINE static void add_difference(const double a, const double* x, const double* x0,
+                                                        double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] += a * (x[c] - x0[c]);
   }
 
-  static void scale(const double a, double* y)
+  CGAL_SPECTRAL_PANEL_INLINE static void scale(const double a, double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] *= a;
   }
 
   // Eight partial sums: one alone could not be vectorised.
-  static double dot(const double* x, const double* y)
+  CGAL_SPECTRAL_PANEL_INLINE static double dot(const double* x, const double* y)
   {
     double partial[lanes] = {};
     for(int k = 0; k < width; k += lanes)
@@ -333,7 +372,7 @@ private:
     return sum(partial);
   }
 
-  static double sum(const double* partial)
+  CGAL_SPECTRAL_PANEL_INLINE static double sum(const double* partial)
   {
     return ((partial[0] + partial[1]) + (partial[2] + partial[3])) +
            ((partial[4] + partial[5]) + (partial[6] + partial[7]));

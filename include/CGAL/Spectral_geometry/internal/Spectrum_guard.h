@@ -9,7 +9,11 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -53,19 +57,17 @@ public:
 
   bool is_active() const { return m_last > m_first; }
 
-  /// The eigenvectors of the mesh as it is now.
+  /// The eigenvectors of the mesh as it is now: from those before by two steps of inverse iteration on all of them.
   void refresh(const Positions& V)
   {
     if(!is_active())
       return;
     const Laplace_operator op = laplace_operator(V, m_T, m_geometry.theta());
-    Eigenpairs_options options;
-    options.tolerance = 1e-3;
-    options.verify = false;
-    const Eigenpairs pairs = eigenpairs(op, m_last, options);
-    m_phi = pairs.vectors.middleCols(m_first, m_last - m_first);
-    if(m_reference.size() == 0)
-      m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
+    if(m_vectors.size() == 0)
+      find(op);
+    else
+      follow(op);
+    m_phi = m_vectors.middleCols(m_first, m_last - m_first);
   }
 
   /// The mean over the modes of their relative change since the start.
@@ -90,7 +92,40 @@ private:
   // eigenvalues by 17 % instead of 7 % and |C|_L by 28 % instead of 31 % (means over eight runs).
   static constexpr double aim = 0.002, width = 0.005;
 
+  // Modes beyond the last that are followed as well: the iteration turns the last ones least.
+  static constexpr Index spare = 16;
+
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
+
+  void find(const Laplace_operator& op)
+  {
+    Eigenpairs_options options;
+    options.tolerance = 1e-3;
+    options.verify = false;
+    const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, op.mass.size() - 1), options);
+    m_vectors = pairs.vectors;
+    m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
+  }
+
+  // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span.
+  void follow(const Laplace_operator& op)
+  {
+    const double shift = 4 * CGAL_PI / op.mass.sum();
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(op.L + shift * op.B);
+    if(cholesky.info() != Eigen::Success)
+      return find(op);
+    Eigen::MatrixXd X = cholesky.solve(op.B * m_vectors);
+    X = cholesky.solve(op.B * X).eval();
+    const Eigen::MatrixXd BX = op.B * X;
+    for(Index k = 0; k < X.cols(); ++k) // their lengths are near 1 / (lambda + s)^2
+      X.col(k) /= std::sqrt(X.col(k).dot(BX.col(k)));
+    const Eigen::MatrixXd LX = op.L * X, MX = op.B * X;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(X.transpose() * LX,
+                                                                         X.transpose() * MX);
+    if(ritz.info() != Eigen::Success)
+      return find(op);
+    m_vectors = X * ritz.eigenvectors();
+  }
 
   double change_of_entries()
   {
@@ -129,6 +164,7 @@ private:
   Operator_geometry::Entries m_entries;
   Index m_first, m_last;
   Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_phi;
+  Eigen::MatrixXd m_vectors; // all modes from the first to the last and the spare ones
   Row m_reference, m_stiffness, m_norm;
 };
 
