@@ -58,7 +58,10 @@ std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes
     return fault;
   if(position_error(result.restriction, input.V, coarse.V) > 1e-12)
     return "P V";
-  const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
+  SG::Eigenpairs seen = *result.eigenpairs; // by the metric
+  seen.values.conservativeResize(Eigen::Index(result.signals));
+  seen.vectors.conservativeResize(Eigen::NoChange, Eigen::Index(result.signals));
+  const Basis basis = eigen_input(input, options.mass, seen).basis;
   if(relative_difference(energy(coarse, basis, result.restriction), result.E) > 1e-8)
     return "E";
   if(relative_difference(std::sqrt(result.E / basis.lambda.squaredNorm()), result.relative_error) > 1e-8)
@@ -97,10 +100,47 @@ TEST_CASE("The one call returns what the policies give, and counts, times and re
   // Its eigenpairs serve another target.
   Mesh again = make_mesh(input);
   options.eigenpairs = result.eigenpairs;
-  const Result second = SMS::spectral_edge_collapse(again, 25, options);
+  const Result second = SMS::spectral_edge_collapse(again, 60, options);
   CHECK(fault_of_result(again, second, input, options) == "");
-  CHECK(second.output_vertices == 25);
+  CHECK(second.output_vertices == 60);
   CHECK(second.E > result.E);
+}
+
+TEST_CASE("Below 3 K vertices the metric sees N / 4 of the eigenvectors, unless it is told how many")
+{
+  const shapes::Matrices input = wavy_grid_matrices(20, 18);
+  Spectral_options options = options_with(10);
+  Mesh mesh = make_mesh(input), other = mesh, all = mesh;
+  const Result result = SMS::spectral_edge_collapse(mesh, 29, options);
+  CHECK(fault_of_result(mesh, result, input, options) == "");
+  CHECK(result.signals == 8); // the constant one and 29 / 4
+  CHECK(result.eigenpairs->size() == 10);
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0],
+             ContainsSubstring("3 K = 30") && ContainsSubstring("the first 8 eigenvectors"));
+
+  // The same as to pass these eight alone, and not the same as with all of them.
+  SG::Eigenpairs first = *result.eigenpairs;
+  first.values.conservativeResize(8);
+  first.vectors.conservativeResize(Eigen::NoChange, 8);
+  first.residuals.conservativeResize(8);
+  options.eigenpairs = std::make_shared<const SG::Eigenpairs>(first);
+  const SMS::Spectral_policies<Mesh, Kernel> policies(other, options);
+  collapse(other, policies, 29);
+  CHECK(positions(other) == positions(mesh));
+  options.eigenpairs = nullptr;
+  options.metric_eigenvectors = 10;
+  const Result whole = SMS::spectral_edge_collapse(all, 29, options);
+  CHECK(fault_of_result(all, whole, input, options) == "");
+  CHECK(whole.signals == 10);
+  CHECK(positions(all) != positions(mesh));
+
+  CHECK(SMS::metric_eigenvectors_for(300, 100) == 100);
+  CHECK(SMS::metric_eigenvectors_for(299, 100) == 74);
+  CHECK(SMS::metric_eigenvectors_for(1, 100) == 1);
+  options.metric_eigenvectors = -1;
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(all, 20, options),
+                    ContainsSubstring("metric_eigenvectors is -1"));
 }
 
 TEST_CASE("The one call to the size that the mesh has changes nothing")

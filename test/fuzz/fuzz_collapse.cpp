@@ -221,6 +221,7 @@ struct Outcome
   Eigen::SparseMatrix<double> P;
   double E, relative_error;
   const SG::Eigenpairs* pairs;
+  Eigen::Index signals; // that the metric saw, the first ones
 };
 
 // E recomputed from whole matrices, with the rounding that cotangents of that size leave in it.
@@ -246,6 +247,8 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
     PF *= options.weights.cwiseSqrt().asDiagonal();
     PZ *= options.weights.cwiseSqrt().asDiagonal();
   }
+  PF.conservativeResize(Eigen::NoChange, outcome.signals);
+  PZ.conservativeResize(Eigen::NoChange, outcome.signals);
   const Eigen::VectorXd mass = now.mass / basis.area;
   const Eigen::VectorXd E = (B * PZ - now.L * PF).rowwise().squaredNorm().cwiseQuotient(mass);
   const Eigen::SparseMatrix<double> size_of_L = now.L.cwiseAbs();
@@ -272,7 +275,9 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies, const sh
   if(!options.binary && options.placement != SMS::Spectral_placement_strategy::free &&
      !(position_error(P, fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off by " + std::to_string(position_error(P, fine.V, coarse.V));
-  return fault_of_E(coarse, {P, policies.error(), policies.relative_error(), policies.eigenpairs().get()},
+  return fault_of_E(coarse,
+                    {P, policies.error(), policies.relative_error(), policies.eigenpairs().get(),
+                     policies.state().core().number_of_signals()},
                     fine, options);
 }
 
@@ -452,7 +457,9 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
     return std::isfinite(result.E) && result.E >= 0 ? "" : "E is " + std::to_string(result.E);
-  return fault_of_E(coarse, {result.restriction, result.E, result.relative_error, result.eigenpairs.get()},
+  return fault_of_E(coarse,
+                    {result.restriction, result.E, result.relative_error, result.eigenpairs.get(),
+                     Eigen::Index(result.signals)},
                     call.fine, call.options);
 }
 

@@ -78,7 +78,8 @@ struct Spectral_edge_collapse_result
   double seconds_relocation = 0;         ///< wall seconds of `Spectral_options::relocate`
   double seconds_total = 0;              ///< the whole call
 
-  double E = 0;              ///< Eq. 2, for the input scaled to unit area
+  std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
+  double E = 0;              ///< Eq. 2 of these signals, for the input scaled to unit area
   double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
 
   /// what `Spectral_options::flips` did: vertices by their rows of P, E in the scale of the input
@@ -275,24 +276,32 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, 
 
 /// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
-void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spectral_options& options,
+void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, Spectral_options options,
                         const PoliciesNamedParameters& policies_np, const NamedParameters& np,
                         const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
+  const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols()
+                         : options.eigenpairs        ? options.eigenpairs->size()
+                                                     : options.number_of_eigenvectors;
+  if(options.metric_eigenvectors == 0 && !std::isfinite(options.maximum_error))
+    options.metric_eigenvectors = metric_eigenvectors_for(target, K);
   const Spectral_post_process post_process(mesh, options, policies_np);
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   const auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine_points().rows());
-  const std::size_t K = std::size_t(state.core().number_of_signals());
-  if(target < 3 * K && !std::isfinite(options.maximum_error))
+  result.signals = std::size_t(state.core().number_of_signals());
+  if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
     result.warnings.push_back(
         "The target of " + std::to_string(target) + " vertices is less than 3 K = " + std::to_string(3 * K) +
-        "; the upper part of the spectrum will not be preserved (section 4.3 of the paper).");
+        "; the upper part of the spectrum will not be preserved (section 4.3 of the paper)" +
+        (Eigen::Index(result.signals) < K
+             ? ", and the metric saw the first " + std::to_string(result.signals) + " eigenvectors."
+             : "."));
 
   const auto begin = std::chrono::steady_clock::now();
   const Spectral_stop_predicate<Policies> stop(policies, target, options.maximum_error);

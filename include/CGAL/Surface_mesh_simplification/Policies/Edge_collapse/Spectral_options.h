@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <functional>
@@ -80,6 +81,11 @@ struct Spectral_options
   /// The target size should be at least 3 K (section 4.3 of the paper). Ignored when `signals` or
   /// `eigenpairs` are given: they bring their own number of columns.
   Eigen::Index number_of_eigenvectors = 100;
+
+  /// How many of the K eigenvectors the metric sees: the lowest of them, those of eigenvalue 0 not counted. The others are
+  /// found, returned, and used by `relocate` all the same. 0: all; but `spectral_edge_collapse()` takes N / 4 where its
+  /// target N is less than 3 K, see `metric_eigenvectors_for()`. Ignored with `signals`; not negative.
+  Eigen::Index metric_eigenvectors = 0;
 
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
@@ -160,6 +166,16 @@ struct Spectral_options
   /// two collapses, before each report, and never changed. Must outlive the policies. Null: nobody cancels.
   const std::atomic<bool>* cancel = nullptr;
 };
+
+/// How many eigenvectors the metric should see for a target of N vertices: all K from 3 K vertices on (section 4.3 of the
+/// paper), N / 4 below. There the upper modes cannot be had, and those who ask for them lose the lower ones with
+/// them: whole limbs, which carry few modes, are given up. `spectral_edge_collapse()` does this by itself;
+/// with `Spectral_policies` set `Spectral_options::metric_eigenvectors` to it.
+inline Eigen::Index metric_eigenvectors_for(const std::size_t number_of_vertices, const Eigen::Index K)
+{
+  const Eigen::Index N = Eigen::Index(number_of_vertices);
+  return N / 3 >= K ? K : (std::max)(N / 4, Eigen::Index(1));
+}
 
 /// @}
 

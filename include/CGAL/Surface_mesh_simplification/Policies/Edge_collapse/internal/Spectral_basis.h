@@ -12,6 +12,8 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
@@ -39,7 +41,7 @@ struct Spectral_basis
   double area = 1; ///< of the input
   /// || Z ||_B^2; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
   double sum_of_squares = 0;
-  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< at the input's scale
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< all of them, at the input's scale
 };
 
 inline void check_spectral_options(const Spectral_options& options, const Eigen::Index n)
@@ -70,6 +72,9 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
   if(options.eigenpairs && options.eigenpairs->values.size() == 0)
     throw std::invalid_argument(
         "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
+  if(options.metric_eigenvectors < 0)
+    throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
+                                to_string(options.metric_eigenvectors) + ", use a number from 0.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
@@ -194,6 +199,17 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   return basis;
 }
 
+/// The pairs that the metric sees, from the first.
+inline Eigen::Index number_in_metric(const Spectral_options& options,
+                                     const Spectral_geometry::Eigenpairs& pairs, const double area)
+{
+  Eigen::Index zeros = 0;
+  while(zeros < pairs.size() && pairs.values[zeros] * area <= 1e-6 * 4 * CGAL_PI)
+    ++zeros;
+  return options.metric_eigenvectors == 0 ? pairs.size()
+                                          : (std::min)(zeros + options.metric_eigenvectors, pairs.size());
+}
+
 inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
                                           const Spectral_options& options,
                                           std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
@@ -204,9 +220,10 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
   const Eigen::VectorXd residuals = spectral_residuals(op, *pairs);
   if(options.eigenpairs)
     check_eigenpairs(*pairs, residuals, options.mass);
-  basis.F = pairs->vectors * (weights * area).cwiseSqrt().asDiagonal();
-  basis.lambda = area * pairs->values;
-  basis.sum_of_squares = weights.dot(basis.lambda.cwiseAbs2());
+  const Eigen::Index seen = number_in_metric(options, *pairs, area);
+  basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
+  basis.lambda = area * pairs->values.head(seen);
+  basis.sum_of_squares = weights.head(seen).dot(basis.lambda.cwiseAbs2());
   if(eigenvalues_are_rounding(op, *pairs, residuals))
     basis.sum_of_squares = 0;
   if(pairs_are_rough(residuals))

@@ -118,8 +118,9 @@ private:
     flipping.progress = [&](const double fraction) {
       return policies.state().report(Spectral_phase::flips, fraction);
     };
-    result.flips = flip_mesh_edges(mesh, P, F, Z, theta, flipping, np);
-    set_error(mesh, P, theta, F, Z, np, result);
+    const Eigen::Index seen = policies.state().core().number_of_signals();
+    result.flips = flip_mesh_edges(mesh, P, F.leftCols(seen), Z.leftCols(seen), theta, flipping, np);
+    set_error(mesh, P, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
@@ -136,10 +137,11 @@ private:
       return policies.state().report(Spectral_phase::relocation, fraction);
     };
     result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, kept, np);
-    set_error(mesh, result.relocation.restriction, theta, F, Z, np, result);
+    const Eigen::Index seen = policies.state().core().number_of_signals();
+    set_error(mesh, result.relocation.restriction, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
-  // At the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
+  // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
   void signals(const double theta, const Spectral_geometry::Eigenpairs* pairs, const bool own_rows,
                Eigen::MatrixXd& F, Eigen::MatrixXd& Z) const
   {
