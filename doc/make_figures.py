@@ -203,7 +203,8 @@ def curve(folder, output):
     for name, key in (("curve.json", "spectral"), ("curve_iso.json", "isotropic")):
         with open(os.path.join(folder, name)) as file:
             for r in json.load(file)["rows"]:
-                if key == "spectral" and (r["placement"] != "on_edge" or r["metric_mass"] != r["judged_mass"]):
+                if key == "spectral" and (r["placement"] != "on_edge" or r["metric_mass"] != r["judged_mass"] or
+                                          r["relocation"] == "sampled"):
                     continue
                 norms = r["carried_P"] or r["closest_point_P"]
                 line = "relocated" if r["relocation"] != "none" else key

@@ -47,7 +47,7 @@ def name(row):
     if row["metric_mass"] != "none":
         parts.append(row["metric_mass"] + " metric")
     if row["relocation"] != "none":
-        parts.append("relocated")
+        parts.append("relocated, P anew" if row["relocation"] == "sampled" else "relocated")
     return ", ".join(parts)
 
 

@@ -136,6 +136,8 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
                   : a.flips == "delaunay" ? SG::Edge_flips::delaunay
                                           : SG::Edge_flips::none;
   options.relocate = a.relocate;
+  if(a.resample)
+    options.relocation.signals = SG::Relocation_options::Signals::sampled;
   options.threads = a.threads;
   options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
@@ -143,6 +145,8 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
     return true;
   };
   options.cancel = &interrupted;
+  if(!a.levels.empty()) // one run for all of them: the largest decides how many eigenvectors steer it
+    options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
   if(a.max_error)
     options.maximum_error = *a.max_error;
   if(!a.keep.empty())
@@ -231,7 +235,7 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   if(a.flips != "none")
     run.simplifier += ", " + a.flips + " flips";
   if(a.relocate)
-    run.simplifier += ", relocation";
+    run.simplifier += a.resample ? ", relocation, P anew" : ", relocation";
   run.placement = a.placement;
   run.metric_mass = a.mass;
   run.requested_vertices = run.vertices = result.output_vertices;

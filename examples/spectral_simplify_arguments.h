@@ -30,7 +30,8 @@ struct Arguments
   long pre_simplify = 0; // never
   std::string placement = "on_edge", flips = "none", mass = "lumped";
   int threads = 1;
-  bool binary = false, preserve_border = false, relocate = false, no_evaluation = false, quiet = false, repair = false;
+  bool binary = false, preserve_border = false, relocate = false, resample = false, no_evaluation = false,
+       quiet = false, repair = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
@@ -94,10 +95,16 @@ inline boost::program_options::options_description described(Arguments& a)
   add("binary", po::bool_switch(&a.binary), "a restriction of ones and zeros: it picks vertices of INPUT");
   add("preserve-border", po::bool_switch(&a.preserve_border), "no edge is drawn away from the border");
   add("flips", text(a.flips, "none|spectral|delaunay")->default_value(a.flips),
-      "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite angles are more than 180 "
+      "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite angles "
+      "are more than 180 "
       "degrees together; --levels are written without");
   add("relocate", po::bool_switch(&a.relocate),
       "afterwards move the vertices so that the spectrum is kept still better; made for --mass averaged");
+  add("resample", po::bool_switch(&a.resample),
+      "with --relocate: restrict by the closest points of INPUT from then on, not by what the collapses "
+      "merged; it lowers the "
+      "norms "
+      "most, but --restriction no longer follows --map");
   add("repair", po::bool_switch(&a.repair),
       "make INPUT an oriented manifold of triangles first and say what was changed: polygons are "
       "triangulated, vertices of "
@@ -185,6 +192,8 @@ inline void check(const Arguments& a)
     refuse("--mass is '" + a.mass + "', it must be lumped or averaged.");
   if(a.flips != "none" && a.flips != "spectral" && a.flips != "delaunay")
     refuse("--flips is '" + a.flips + "', it must be none, spectral or delaunay.");
+  if(a.resample && !a.relocate)
+    refuse("--resample says how --relocate works: add --relocate.");
   if(a.threads < 1)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be positive.");
   if(a.no_evaluation && !a.eigenpairs.empty())

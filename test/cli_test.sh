@@ -73,6 +73,12 @@ runs "edge flips" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass a
 grep -q 'flipped edges .* [1-9].*(spectral)' said || fail "no flips in the table"
 grep -q '"flips": "spectral"' out.json || fail "no flips in the JSON file"
 
+norm_of() { awk -F'[:,]' '/"norm_L":/ { print $2 }' out.json; }
+runs "relocation" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --relocate $all
+relocated=$(norm_of)
+runs "relocation with a new P" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --relocate --resample $all
+awk "BEGIN { exit !($(norm_of) < $relocated) }" || fail "--resample: $(norm_of) is not below $relocated"
+
 runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
 runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
 cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"
@@ -221,6 +227,7 @@ refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 
 refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
   --signals pairs/coarse_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
+refuses "resampling without relocation" "add --relocate" shape.off out.off --vertices 100 --resample
 refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --flips up
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0

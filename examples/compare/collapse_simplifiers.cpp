@@ -84,18 +84,30 @@ Simplifier plain(const std::string& name, const std::string& placement)
           }};
 }
 
+enum class Relocate {
+  no,
+  carried, // by the default signals: P stays
+  sampled  // by signals at the closest points alone, where P is taken anew
+};
+
 struct Spectral_variant
 {
   SMS::Spectral_placement_strategy placement;
-  bool relocate = false;
+  Relocate relocate = Relocate::no;
   bool preserve_border = false;
 };
 
+const char* relocation_name(Relocate relocate)
+{
+  return relocate == Relocate::no ? "none" : relocate == Relocate::carried ? "smoothed" : "sampled";
+}
+
 Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Basis& basis,
-                                const SMS::Spectral_options& options, bool relocate)
+                                SMS::Spectral_options options, Relocate relocate)
 {
   Coarse_mesh result;
   result.mesh = fine;
+  options.metric_eigenvectors = SMS::metric_eigenvectors_for(N, basis.pairs->size());
   const auto begin = std::chrono::steady_clock::now();
   const SMS::Spectral_policies<Mesh> policies(result.mesh, options);
   SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
@@ -105,8 +117,14 @@ Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Basis& ba
   result.note = note_on_size(result.mesh, N);
   result.mesh.collect_garbage();
   result.carried = policies.restriction();
-  if(relocate)
-    SMS::spectral_relocation(result.mesh, *result.carried, SG::mesh_matrices(fine), *basis.pairs, basis.mass);
+  if(relocate != Relocate::no) {
+    SG::Relocation_options how;
+    if(relocate == Relocate::sampled)
+      how.signals = SG::Relocation_options::Signals::sampled;
+    result.carried = SMS::spectral_relocation(result.mesh, *result.carried, SG::mesh_matrices(fine),
+                                              *basis.pairs, basis.mass, how)
+                         .restriction;
+  }
   result.seconds = seconds_since(begin);
   return result;
 }
@@ -127,7 +145,7 @@ Simplifier spectral(const Spectral_variant& variant, const Basis& basis, int thr
           [options, basis, relocate = variant.relocate](const Mesh& fine, std::size_t N) {
             return simplify_spectrally(fine, N, basis, options, relocate);
           },
-          variant.relocate ? "smoothed" : "none"};
+          relocation_name(variant.relocate)};
 }
 
 std::vector<Spectral_variant> variants(const Mesh& fine, SG::Mass mass)
@@ -136,10 +154,12 @@ std::vector<Spectral_variant> variants(const Mesh& fine, SG::Mass mass)
   std::vector<Spectral_variant> result{{Placement::on_edge}, {Placement::midpoint}, {Placement::free}};
   if(mass != SG::Mass::averaged)
     return result;
-  result.push_back({Placement::on_edge, true});
-  result.push_back({Placement::free, true});
-  if(!CGAL::is_closed(fine))
-    result.push_back({Placement::on_edge, true, true});
+  for(const Relocate relocate : {Relocate::carried, Relocate::sampled}) {
+    result.push_back({Placement::on_edge, relocate});
+    result.push_back({Placement::free, relocate});
+    if(!CGAL::is_closed(fine))
+      result.push_back({Placement::on_edge, relocate, true});
+  }
   return result;
 }
 

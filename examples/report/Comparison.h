@@ -93,7 +93,7 @@ struct Simplified
     if(metric_mass != "none")
       text += ", " + metric_mass + " metric";
     if(relocation != "none")
-      text += ", relocated";
+      text += relocation == "sampled" ? ", relocated, P anew" : ", relocated";
     return text;
   }
 };
