@@ -384,6 +384,21 @@ TEST_CASE("with sampled signals the closest-point restriction comes back and fit
   CHECK(broken_guard(s, W) == "");
 }
 
+TEST_CASE("relocation does not depend on the number of threads")
+{
+  const Simplified_mesh& s = open_example();
+  SG::Relocation_options options;
+  options.maximum_steps = 12;
+  SG::Relocation_result one, three;
+  const Eigen::MatrixXd V = relocated(s, one, options);
+  options.threads = 3;
+  CHECK(relocated(s, three, options) == V);
+  CHECK(three.objective_after == one.objective_after);
+  CHECK(one.moved_vertices > 0);
+  options.threads = 0;
+  CHECK_THROWS_WITH(relocated(s, three, options), ContainsSubstring("threads") && ContainsSubstring("0"));
+}
+
 TEST_CASE("the plain metric alone falls monotonically")
 {
   const Simplified_mesh& s = closed_example();

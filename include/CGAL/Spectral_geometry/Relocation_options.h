@@ -66,6 +66,9 @@ struct Relocation_options
   /// No vertex moves further than this from the fine surface unless it was; in the unit of the mesh.
   double largest_distance = std::numeric_limits<double>::infinity();
 
+  /// Number of threads; from 1. The result does not depend on it.
+  int threads = 1;
+
   /// Ends when ten steps lower the objective by less than this part.
   double relative_decrease = 0.005;
   /// Ends after so many steps; one step is a value and a gradient, seldom two.
@@ -113,6 +116,7 @@ inline void check_relocation_options(const Relocation_options& o)
           "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
   require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
           "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
+  require(o.threads >= 1, "threads must be a number from 1, but is " + std::to_string(o.threads) + ".");
   require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
           "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
 }

@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
 #include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
+#include <CGAL/Spectral_geometry/internal/for_each_task.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -57,7 +58,7 @@ of it keeps E from rising.
 The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
 
 A value or a gradient takes one sparse Cholesky factorisation of A and two solves for each signal. Signals are
-treated 32 at a time, so that what a solve works on stays in the cache.
+treated 32 at a time, so that what a solve works on stays in the cache, on as many threads as `set_threads()` says.
 */
 class Smoothed_relocation_energy
 {
@@ -102,6 +103,9 @@ public:
   /// The weight of E; the gradient follows.
   void set_mu(const double mu) { m_mu = mu; }
 
+  /// Threads to use, from 1; no result depends on them.
+  void set_threads(const int threads) { m_threads = threads; }
+
   /// returns S(V), infinity if a triangle has no area.
   double value(const Positions& V) { return evaluate(V, nullptr); }
 
@@ -135,72 +139,84 @@ private:
     return result;
   }
 
+  // What 32 signals add, and the memory to find it.
+  struct Work
+  {
+    double smoothed, plain;
+    Entries derivatives;
+    Panel Y, X, multiplier, scratch;
+  };
+
   double evaluate(const Positions& V, Positions* gradient)
   {
     m_smoothed = m_plain = std::numeric_limits<double>::infinity();
     if(!m_geometry.assemble(V, m_entries) || !factorise())
       return m_smoothed;
-    m_smoothed = m_plain = 0;
-    Entries derivatives = m_geometry.zero_entries();
-    Entries* const d = gradient ? &derivatives : nullptr;
-    for(const Signals& signals : m_given)
-      add(signals, d);
-    if(m_moving)
-      add_moving(V, gradient, d);
-    if(gradient)
-      m_geometry.add_gradient(derivatives, V, *gradient);
-    return m_smoothed + m_mu * m_plain;
-  }
-
-  void add_moving(const Positions& V, Positions* gradient, Entries* d)
-  {
     Rows F, Z, by_F, by_Z;
-    m_moving->evaluate(V, F, Z);
-    if(gradient) {
+    if(m_moving) {
+      m_moving->evaluate(V, F, Z);
       by_F.resize(F.rows(), F.cols());
       by_Z.resize(F.rows(), F.cols());
     }
-    for(Index first = 0; first < F.cols(); first += width) {
-      add({panel(F, first), panel(Z, first)}, d);
+    const int given = int(m_given.size()), moving = int((F.cols() + width - 1) / width);
+    m_work.resize(std::size_t(given + moving));
+    internal::for_each_task(given + moving, m_threads, [&](const int i) {
+      Work& work = m_work[std::size_t(i)];
+      if(i < given)
+        return add(m_given[std::size_t(i)], gradient != nullptr, work);
+      const Index first = Index(i - given) * width;
+      add({panel(F, first), panel(Z, first)}, gradient != nullptr, work);
       if(gradient)
-        add_linear(first, (std::min)(Index(width), F.cols() - first), by_F, by_Z);
+        add_linear(first, (std::min)(Index(width), F.cols() - first), work, by_F, by_Z);
+    });
+    m_smoothed = m_plain = 0;
+    Entries derivatives = m_geometry.zero_entries();
+    for(const Work& work : m_work) {
+      m_smoothed += work.smoothed;
+      m_plain += work.plain;
+      if(gradient)
+        derivatives += work.derivatives;
     }
-    if(gradient)
-      m_moving->add_gradient(by_F, by_Z, *gradient);
+    if(gradient) {
+      if(m_moving)
+        m_moving->add_gradient(by_F, by_Z, *gradient);
+      m_geometry.add_gradient(derivatives, V, *gradient);
+    }
+    return m_smoothed + m_mu * m_plain;
   }
 
   // Derivatives with respect to the entries of F and Z, in which R is linear.
-  CGAL_SPECTRAL_PANEL_INLINE void add_linear_body(const Index first, const Index columns, Rows& by_F,
-                                                  Rows& by_Z) const
+  CGAL_SPECTRAL_PANEL_INLINE void add_linear_body(const Index first, const Index columns, const Work& work,
+                                                  Rows& by_F, Rows& by_Z) const
   {
     for(Index w = 0; w < number_of_vertices(); ++w) {
       Row f{}, z{};
-      add_multiple(2 * m_entries.B_diagonal(w), m_multiplier.row(w).data(), z);
+      add_multiple(2 * m_entries.B_diagonal(w), work.multiplier.row(w).data(), z);
       for(const auto& entry : m_geometry.row(w)) {
-        const double* const x = m_multiplier.row(entry.neighbour).data();
+        const double* const x = work.multiplier.row(entry.neighbour).data();
         const double L = 2 * m_entries.L(entry.edge);
         add_multiple(2 * m_entries.B(entry.edge), x, z);
-        add_difference(-L, x, m_multiplier.row(w).data(), f);
+        add_difference(-L, x, work.multiplier.row(w).data(), f);
       }
       std::copy_n(f, columns, by_F.row(w).data() + first);
       std::copy_n(z, columns, by_Z.row(w).data() + first);
     }
   }
 
-  void add_linear(const Index first, const Index columns, Rows& by_F, Rows& by_Z) const
+  void add_linear(const Index first, const Index columns, const Work& work, Rows& by_F, Rows& by_Z) const
   {
 #ifdef CGAL_SPECTRAL_PANEL_AVX2
     if(internal::panel_has_avx2())
-      return add_linear_avx2(first, columns, by_F, by_Z);
+      return add_linear_avx2(first, columns, work, by_F, by_Z);
 #endif
-    add_linear_body(first, columns, by_F, by_Z);
+    add_linear_body(first, columns, work, by_F, by_Z);
   }
 
 #ifdef CGAL_SPECTRAL_PANEL_AVX2
-  CGAL_SPECTRAL_PANEL_AVX2 void add_linear_avx2(const Index first, const Index columns, Rows& by_F,
-                                                Rows& by_Z) const
+  CGAL_SPECTRAL_PANEL_AVX2 void add_linear_avx2(const Index first, const Index columns, const Work& work,
+                                                Rows& by_F, Rows& by_Z) const
   {
-    add_linear_body(first, columns, by_F, by_Z);
+    add_linear_body(first, columns, work, by_F, by_Z);
   }
 #endif
 
@@ -230,13 +246,13 @@ private:
   }
 
   // x <- A^-1 x, row by row of the factor: what belongs to one vertex is contiguous.
-  CGAL_SPECTRAL_PANEL_INLINE void solve(Panel& x) const
+  CGAL_SPECTRAL_PANEL_INLINE void solve(Panel& x, Panel& scratch) const
   {
     using Entry_of_factor = Eigen::SparseMatrix<double>::InnerIterator;
     const auto& G = m_cholesky.matrixL().nestedExpression();
     const auto& place = m_cholesky.permutationP().indices();
-    m_scratch.resize(x.rows(), width);
-    double* const y = m_scratch.data();
+    scratch.resize(x.rows(), width);
+    double* const y = scratch.data();
     for(Index i = 0; i < x.rows(); ++i)
       std::copy_n(x.row(i).data(), width, y + place(i) * width);
     for(Index j = 0; j < x.rows(); ++j) {
@@ -260,26 +276,28 @@ private:
 
   // With Y = A^-1 R, X = A^-1 B Y and Q = R / M:
   // dS = Y^T dB Y - 2 X^T dA Y + 2 (X + mu Q)^T (dB Z - dL F) - mu E_w / M_w dM_w.
-  void add(const Signals& s, Entries* d)
+  void add(const Signals& s, const bool derive, Work& work) const
   {
 #ifdef CGAL_SPECTRAL_PANEL_AVX2
     if(internal::panel_has_avx2())
-      return add_avx2(s, d);
+      return add_avx2(s, derive, work);
 #endif
-    add_body(s, d);
+    add_body(s, derive, work);
   }
 
 #ifdef CGAL_SPECTRAL_PANEL_AVX2
-  CGAL_SPECTRAL_PANEL_AVX2 void add_avx2(const Signals& s, Entries* d)
+  CGAL_SPECTRAL_PANEL_AVX2 void add_avx2(const Signals& s, const bool derive, Work& work) const
   {
-    add_body(s, d);
+    add_body(s, derive, work);
   }
 #endif
 
-  CGAL_SPECTRAL_PANEL_INLINE void add_body(const Signals& s, Entries* d)
+  CGAL_SPECTRAL_PANEL_INLINE void add_body(const Signals& s, const bool derive, Work& work) const
   {
     const Index n = number_of_vertices();
-    Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
+    Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
+    work.smoothed = work.plain = 0;
+    work.derivatives = m_geometry.zero_entries();
     Y.setZero(n, width);
     X.setZero(n, width);
     Q.setZero(n, width);
@@ -294,29 +312,30 @@ private:
       if(m_geometry.row(w).empty())
         continue;
       const double mass = m_entries.mass(w), E = dot(r, r) / mass;
-      m_plain += E;
+      work.plain += E;
       add_multiple(m_mu / mass, r, Q.row(w).data());
-      if(d)
-        d->mass(w) -= m_mu * E / mass;
+      if(derive)
+        work.derivatives.mass(w) -= m_mu * E / mass;
     }
-    solve(Y);
+    solve(Y, work.scratch);
     for(Index w = 0; w < n; ++w) {
       double* const x = X.row(w).data();
       add_multiple(m_entries.B_diagonal(w), Y.row(w).data(), x);
       for(const auto& entry : m_geometry.row(w))
         add_multiple(m_entries.B(entry.edge), Y.row(entry.neighbour).data(), x);
-      m_smoothed += dot(x, Y.row(w).data());
+      work.smoothed += dot(x, Y.row(w).data());
     }
-    if(!d)
+    if(!derive)
       return;
-    solve(X);
+    solve(X, work.scratch);
     Q += X;
-    add_derivatives(s, *d);
+    add_derivatives(s, work);
   }
 
-  CGAL_SPECTRAL_PANEL_INLINE void add_derivatives(const Signals& s, Entries& d) const
+  CGAL_SPECTRAL_PANEL_INLINE void add_derivatives(const Signals& s, Work& work) const
   {
-    const Panel &Y = m_Y, &X = m_X, &Q = m_multiplier;
+    const Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
+    Entries& d = work.derivatives;
     for(Index w = 0; w < number_of_vertices(); ++w) {
       const double *const y = Y.row(w).data(), *const x = X.row(w).data();
       d.B_diagonal(w) += dot(y, y) + 2 * dot(Q.row(w).data(), s.Z.row(w).data()) - 2 * dot(x, y);
@@ -386,8 +405,8 @@ private:
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
   bool m_analysed = false;
   double m_smoothed = 0, m_plain = 0;
-  Panel m_Y, m_X, m_multiplier;
-  mutable Panel m_scratch;
+  int m_threads = 1;
+  std::vector<Work> m_work;
 };
 
 /// @}

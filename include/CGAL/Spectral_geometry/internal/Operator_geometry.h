@@ -37,6 +37,15 @@ public:
   struct Entries
   {
     Eigen::VectorXd L, B, B_diagonal, mass;
+
+    Entries& operator+=(const Entries& other)
+    {
+      L += other.L;
+      B += other.B;
+      B_diagonal += other.B_diagonal;
+      mass += other.mass;
+      return *this;
+    }
   };
 
   Operator_geometry(const Eigen::MatrixXi& T, const Index n, const double theta)

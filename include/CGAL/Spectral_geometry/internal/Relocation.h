@@ -198,6 +198,7 @@ private:
         m_T, carried_F, carried_Z, theta, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
         largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
+    m_objective->set_threads(m_options.threads);
   }
 
   // Goes back where triangles that were apart meet, and everywhere while the size is out of its bounds.

@@ -150,6 +150,12 @@ public:
     return m_spectrum.is_active();
   }
 
+  void set_threads(const int threads)
+  {
+    if(m_smoothed)
+      m_smoothed->set_threads(threads);
+  }
+
   double E(const Positions& V) { return m_E.value(V); }
 
   double value_and_gradient(const Positions& V, Positions& gradient)

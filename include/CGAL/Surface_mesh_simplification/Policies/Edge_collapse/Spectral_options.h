@@ -153,7 +153,7 @@ struct Spectral_options
   /// How they are moved; its progress callback is replaced by the one below.
   Spectral_geometry::Relocation_options relocation;
 
-  /// Number of threads that evaluate costs; from 1. The result does not depend on it.
+  /// Number of threads that find eigenpairs, evaluate costs and relocate; from 1. The result does not depend on it.
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`

@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -136,6 +137,7 @@ private:
     relocation.progress = [&](const double fraction) {
       return policies.state().report(Spectral_phase::relocation, fraction);
     };
+    relocation.threads = (std::max)(relocation.threads, m_options.threads);
     result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, kept, np);
     const Eigen::Index seen = policies.state().core().number_of_signals();
     set_error(mesh, result.relocation.restriction, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
