@@ -116,12 +116,15 @@ private:
       return find(op);
     Eigen::MatrixXd X = cholesky.solve(op.B * m_vectors);
     X = cholesky.solve(op.B * X).eval();
-    const Eigen::MatrixXd BX = op.B * X;
-    for(Index k = 0; k < X.cols(); ++k) // their lengths are near 1 / (lambda + s)^2
-      X.col(k) /= std::sqrt(X.col(k).dot(BX.col(k)));
-    const Eigen::MatrixXd LX = op.L * X, MX = op.B * X;
+    Eigen::MatrixXd BX = op.B * X;
+    for(Index k = 0; k < X.cols(); ++k) { // their lengths are near 1 / (lambda + s)^2
+      const double length = std::sqrt(X.col(k).dot(BX.col(k)));
+      X.col(k) /= length;
+      BX.col(k) /= length;
+    }
+    const Eigen::MatrixXd LX = op.L * X;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(X.transpose() * LX,
-                                                                         X.transpose() * MX);
+                                                                         X.transpose() * BX);
     if(ritz.info() != Eigen::Success)
       return find(op);
     m_vectors = X * ritz.eigenvectors();
