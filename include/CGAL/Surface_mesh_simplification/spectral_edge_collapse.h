@@ -28,6 +28,7 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -276,18 +277,23 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, 
 
 /// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
-void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, Spectral_options options,
+void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spectral_options& given,
                         const PoliciesNamedParameters& policies_np, const NamedParameters& np,
                         const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
-  const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols()
-                         : options.eigenpairs        ? options.eigenpairs->size()
-                                                     : options.number_of_eigenvectors;
-  if(options.metric_eigenvectors == 0 && !std::isfinite(options.maximum_error))
-    options.metric_eigenvectors = metric_eigenvectors_for(target, K);
+  const Eigen::Index K = given.signals.size() != 0 ? given.signals.cols()
+                         : given.eigenpairs        ? given.eigenpairs->size()
+                                                   : given.number_of_eigenvectors;
+  std::optional<Spectral_options> narrowed; // with signals, which may be large, there is no need of a copy
+  if(given.signals.size() == 0 && given.metric_eigenvectors == 0 && !std::isfinite(given.maximum_error) &&
+     metric_eigenvectors_for(target, K) < K) {
+    narrowed = given;
+    narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
+  }
+  const Spectral_options& options = narrowed ? *narrowed : given;
   const Spectral_post_process post_process(mesh, options, policies_np);
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
