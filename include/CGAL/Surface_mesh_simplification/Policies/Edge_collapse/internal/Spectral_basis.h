@@ -11,6 +11,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -203,11 +204,10 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
 inline Eigen::Index number_in_metric(const Spectral_options& options,
                                      const Spectral_geometry::Eigenpairs& pairs, const double area)
 {
-  Eigen::Index zeros = 0;
-  while(zeros < pairs.size() && pairs.values[zeros] * area <= 1e-6 * 4 * CGAL_PI)
-    ++zeros;
-  return options.metric_eigenvectors == 0 ? pairs.size()
-                                          : (std::min)(zeros + options.metric_eigenvectors, pairs.size());
+  if(options.metric_eigenvectors == 0)
+    return pairs.size();
+  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(pairs.values, 4 * CGAL_PI / area);
+  return (std::min)(zeros + options.metric_eigenvectors, pairs.size());
 }
 
 inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
