@@ -272,8 +272,13 @@ public:
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const internal::Spectral_candidate* c = m_core.candidates().find(u, v);
-    if(c != nullptr && c->collapsible && CGAL::to_double(FT(c->cost)) == change)
+    if(c != nullptr && c->collapsible && CGAL::to_double(FT(c->cost)) == change) {
+      c = &m_core.candidate(u, v,
+                            true); // one that was put off is evaluated now: the placement will be that one's
+      if(!c->collapsible)
+        return relative_error();
       change = m_core.cost_at(u, v, Eigen::Vector3d(c->point)); // a copy: it may be moved
+    }
     return std::isfinite(change) ? relative_error(error() + change) : relative_error();
   }
 
