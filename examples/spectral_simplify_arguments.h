@@ -114,7 +114,7 @@ inline boost::program_options::options_description described(Arguments& a)
   add("repaired", text(a.repaired, "mesh.ply"),
       "write the repaired mesh; with --repair the matrices and maps number its vertices, not INPUT's");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
-      "threads for the costs; the result does not depend on it");
+      "threads for eigenpairs, costs and relocation; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),
       "write the matrix (OUTPUT's vertices x INPUT's, Matrix Market) that carries functions to OUTPUT");
   add("prolongation", text(a.prolongation, "Q.mtx"),

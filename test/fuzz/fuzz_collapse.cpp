@@ -452,7 +452,8 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
   // Before the first collapse E is the rounding of 0, which a bound of 0 is below.
   if(!(result.relative_error <= call.options.maximum_error) && result.collapses != 0 &&
      !call.post_processed() && !call.pre_simplified() && !call.has_zero_lengths())
-    return "the error is above the bound";
+    return "the error is " + std::to_string(result.relative_error) + ", " +
+           std::to_string(result.relative_error / call.options.maximum_error) + " times the bound";
   if(!result.eigenpairs && call.options.signals.size() == 0) // cancelled before the first spectral collapse
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
