@@ -88,7 +88,7 @@ inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& 
   return done;
 }
 
-// The largest difference of fast and slow cost over some edges of each kind, at points on and off the edge.
+// The largest difference of fast and slow cost, and of that from whole rows, over some edges of each kind, at points on and off the edge.
 struct Comparison
 {
   double worst = 0;
@@ -122,8 +122,11 @@ inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per
       const double fast = core.cost_at(u, v, point);
       if(std::isfinite(slow) != std::isfinite(fast))
         result.worst = infinity;
-      else if(std::isfinite(slow))
-        result.worst = (std::max)(result.worst, std::abs(fast - slow) / (std::abs(slow) + before));
+      else if(std::isfinite(slow)) {
+        const double whole = core.change_at(u, v, weight, point);
+        for(const double cost : {fast, whole})
+          result.worst = (std::max)(result.worst, std::abs(cost - slow) / (std::abs(slow) + before));
+      }
     }
   }
   return result;

@@ -299,6 +299,43 @@ TEST_CASE("A bound of the error stops before the collapse that would exceed it")
   CHECK(counted.output_vertices == N + 5);
 }
 
+TEST_CASE("A bound of the error holds beside a cap, whose cost is nothing but rounding")
+{
+  int stopped = 0;
+  for(const int face : {20, 40, 60})
+    for(const double height : {1e-8, 1e-9, 1e-10})
+      for(const double bound : {0.1, 0.2}) {
+        shapes::Matrices input = wavy_grid_matrices(8, 8);
+        const Eigen::RowVector3i t = input.T.row(face);
+        input.V.row(t[1]) = (input.V.row(t[0]) + input.V.row(t[2])) / 2 + height * input.V.row(t[1]);
+        Mesh mesh = make_mesh(input);
+        Spectral_options options = options_with(5);
+        options.maximum_error = bound;
+        const Result result = SMS::spectral_edge_collapse(mesh, 1, options);
+        CAPTURE(face, height, bound, result.output_vertices);
+        CHECK(result.relative_error <= bound);
+        stopped += int(result.stop_reason == Result::Stop_reason::error_reached);
+      }
+  CHECK(stopped >= 9); // some go on to the end below the higher bound
+}
+
+TEST_CASE("A bound of the error looks at the placement of a wrapper")
+{
+  // Always the first end, wherever the policies would have put the vertex.
+  const auto first_end = [](const auto& profile) {
+    return SMS::internal::Spectral_optional<Kernel::Point_3>(profile.p0());
+  };
+  const double bound = GENERATE(0.05, 0.15, 0.3);
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(3));
+  const Policies policies(mesh, options_with(20));
+  SMS::edge_collapse(
+      mesh, SMS::Spectral_error_stop_predicate(policies, bound, first_end),
+      CGAL::parameters::get_cost(policies.get_cost()).get_placement(first_end).visitor(policies.visitor()));
+  CAPTURE(bound, count_vertices(mesh));
+  CHECK(policies.relative_error() <= bound);
+  CHECK(policies.relative_error() > 0.8 * bound);
+}
+
 TEST_CASE("A bound that is no number is refused; 0 lets nothing be lost; constants lose nothing")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));

@@ -113,10 +113,16 @@ struct Spectral_edge_collapse_result
 
 namespace internal {
 
+/// What ended the loop before the target, if anything did.
+struct Loop_end
+{
+  bool cancelled = false, error_reached = false;
+};
+
 /// Runs the loop with the constraint map, filter and visitor that the user gave, if any.
-template <class TriangleMesh, class Policies, class Stop, class NamedParameters>
-void run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const Stop& stop,
-                                const NamedParameters& np)
+template <class TriangleMesh, class Policies, class NamedParameters>
+Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
+                                    const double maximum_error, const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -129,6 +135,7 @@ void run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, co
                           .vertex_point_map(policies.state().vertex_point_map())
                           .geom_traits(policies.state().geom_traits());
   const auto run = [&](const auto& placement, const auto& with_placement) {
+    const Spectral_stop_predicate stop(policies, target, maximum_error, placement);
     const auto with_cost = with_placement.get_cost(policies.get_cost()).get_placement(placement);
     if constexpr(has_filter)
       edge_collapse(mesh, stop, with_cost.filter(policies.filter(get_parameter(np, internal_np::filter))));
@@ -136,14 +143,15 @@ void run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, co
       edge_collapse(mesh, stop, with_cost.filter(policies.filter()));
     else
       edge_collapse(mesh, stop, with_cost);
+    return Loop_end{stop.cancelled(), stop.error_reached()};
   };
   if constexpr(has_constraints) {
     const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
     using Map = std::decay_t<decltype(ecm)>;
-    run(Constrained_placement<typename Policies::Get_placement, Map>(ecm, policies.get_placement()),
-        common.edge_is_constrained_map(ecm));
+    return run(Constrained_placement<typename Policies::Get_placement, Map>(ecm, policies.get_placement()),
+               common.edge_is_constrained_map(ecm));
   } else
-    run(policies.get_placement(), common);
+    return run(policies.get_placement(), common);
 }
 
 /// Why a mesh that has run out of edges cannot be reduced further.
@@ -213,17 +221,17 @@ inline void set_restriction(Spectral_edge_collapse_result& result, const Pre_sim
 }
 
 /// Why the run ended.
-template <class TriangleMesh, class Stop>
-void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& mesh, const Stop& stop,
+template <class TriangleMesh>
+void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& mesh, const Loop_end& end,
                      const std::size_t target)
 {
   using Reason = Spectral_edge_collapse_result::Stop_reason;
   if(result.output_vertices <= target)
     return;
-  if(stop.cancelled()) {
+  if(end.cancelled) {
     result.stop_reason = Reason::cancelled;
     result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) + " vertices.";
-  } else if(stop.error_reached())
+  } else if(end.error_reached)
     result.stop_reason = Reason::error_reached;
   else {
     result.stop_reason = Reason::queue_exhausted;
@@ -310,8 +318,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
              : "."));
 
   const auto begin = std::chrono::steady_clock::now();
-  const Spectral_stop_predicate<Policies> stop(policies, target, options.maximum_error);
-  run_spectral_edge_collapse(mesh, policies, stop, np);
+  const Loop_end end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
   result.seconds_collapse = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
@@ -323,7 +330,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   result.refusals.geometry = state.refusals().geometry;
   result.refusals.filter = state.refusals().filter;
   result.refusals.placement = state.refusals().placement;
-  set_stop_reason(result, mesh, stop, target);
+  set_stop_reason(result, mesh, end, target);
   result.E = policies.error();
   result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();

@@ -49,20 +49,27 @@ namespace Surface_mesh_simplification {
  * differ. A bound above that value never stops a run: give it a number of vertices as well, 3 K for
  * instance, with `Spectral_stop_predicate`.
  *
- * The bound holds for the result to rounding. Two things are outside of it: edges without length, which are merged before any
- * predicate is asked, and placements that a wrapper has moved, which are judged by their cost in the queue. It
- * needs the visitor of the policies.
+ * The bound holds for the result to rounding, but for edges without length, which are merged before any predicate is
+ * asked. It needs the visitor of the policies, and, where the placement is wrapped, the wrapper.
  *
  * @tparam Policies a `Spectral_policies`; deduced
+ * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
  */
-template <class Policies>
+template <class Policies, class GetPlacement = typename Policies::Get_placement>
 class Spectral_error_stop_predicate
 {
 public:
   /// @param policies those of the run
   /// @param maximum_error the bound, from 0; a number that is not throws `std::invalid_argument`
   Spectral_error_stop_predicate(const Policies& policies, const double maximum_error)
+    : Spectral_error_stop_predicate(policies, maximum_error, policies.get_placement())
+  {}
+
+  /// The same for a placement that wraps that of the policies, `Constrained_placement` for instance.
+  Spectral_error_stop_predicate(const Policies& policies, const double maximum_error,
+                                const GetPlacement& placement)
     : m_state(policies.shared_state())
+    , m_placement(placement)
     , m_bound(maximum_error)
   {
     if(!(maximum_error >= 0))
@@ -72,14 +79,15 @@ public:
 
   /// whether to stop before the collapse of the selected candidate
   template <class Cost, class Profile>
-  bool operator()(const Cost& cost, const Profile& profile, std::size_t, std::size_t) const
+  bool operator()(const Cost&, const Profile& profile, std::size_t, std::size_t) const
   {
     // A ten-thousandth of a per cent aside, so that rounding does not lift the result over the bound.
-    return m_state->relative_error_after(profile, cost) * (1 + 1e-6) > m_bound;
+    return m_state->relative_error_after(profile, m_placement) * (1 + 1e-6) > m_bound;
   }
 
 private:
   std::shared_ptr<typename Policies::State> m_state;
+  GetPlacement m_placement;
   double m_bound;
 };
 

@@ -185,11 +185,7 @@ public:
     m_pending.removed = slot(profile.v0());
     m_pending.kept = slot(profile.v1());
     const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[m_pending.kept];
-    const internal::Spectral_candidate* c = m_core.candidates().find(m_pending.removed, m_pending.kept);
-    if(c != nullptr && c->collapsible && c->point == point)
-      m_pending.weight = c->other == m_pending.removed ? c->weight : 1 - c->weight;
-    else
-      m_pending.weight = m_core.projected_weight(m_pending.kept, m_pending.removed, point);
+    m_pending.weight = weight_of(m_pending.removed, m_pending.kept, point);
     m_pending.open = true;
   }
 
@@ -261,25 +257,23 @@ public:
     return Optional_cost(FT(value));
   }
 
-  /// The relative error after the collapse of a selected candidate, to rounding; that of now if it cannot be collapsed.
-  /// `cost` is the one in CGAL's queue, which may be of before some collapses nearby: the candidate is evaluated
-  /// again, unless a wrapper of the placement has chosen another point.
-  template <class Profile, class Cost>
-  double relative_error_after(const Profile& profile, const Cost& cost)
+  /// The relative error after the collapse of the selected candidate, to rounding; that of now if it cannot be collapsed.
+  /// `get_placement` is the one that `edge_collapse()` has been given: the cost in CGAL's queue may be of before some
+  /// collapses nearby.
+  template <class Profile, class GetPlacement>
+  double relative_error_after(const Profile& profile, const GetPlacement& get_placement)
   {
-    double change = CGAL::to_double(cost);
-    if(!(change < double((std::numeric_limits<float>::max)())))
+    const bool asked = m_placement_asked, found = m_placement_found;
+    const auto placement = get_placement(profile);
+    m_placement_asked = asked; // CGAL itself has not asked yet
+    m_placement_found = found;
+    if(!placement)
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    const internal::Spectral_candidate* c = m_core.candidates().find(u, v);
-    if(c != nullptr && c->collapsible && CGAL::to_double(FT(c->cost)) == change) {
-      c = &m_core.candidate(u, v,
-                            true); // one that was put off is evaluated now: the placement will be that one's
-      if(!c->collapsible)
-        return relative_error();
-      change = m_core.cost_at(u, v, Eigen::Vector3d(c->point)); // a copy: it may be moved
-    }
-    return std::isfinite(change) ? relative_error(error() + change) : relative_error();
+    const Eigen::Vector3d point = to_vector(*placement);
+    if(m_core.moves_kept_vertex(u, v, point) || !std::isfinite(m_core.cost_at(u, v, point)))
+      return relative_error();
+    return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
 
   /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or merge two of them.
@@ -394,6 +388,15 @@ private:
   }
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
+
+  // Of `removed`, where it is merged into `kept` at `point`: the one that was costed with that point, or its projection.
+  double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
+  {
+    const internal::Spectral_candidate* c = m_core.candidates().find(removed, kept);
+    if(c != nullptr && c->collapsible && c->point == point)
+      return c->other == removed ? c->weight : 1 - c->weight;
+    return m_core.projected_weight(kept, removed, point);
+  }
 
   // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts with.
   internal::Spectral_ring ring_of(const vertex_descriptor v) const

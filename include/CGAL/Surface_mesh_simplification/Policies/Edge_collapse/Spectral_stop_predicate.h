@@ -34,8 +34,9 @@ namespace Surface_mesh_simplification {
  * It needs the visitor of the policies.
  *
  * @tparam Policies a `Spectral_policies`; deduced
+ * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
  */
-template <class Policies>
+template <class Policies, class GetPlacement = typename Policies::Get_placement>
 class Spectral_stop_predicate
 {
 public:
@@ -44,11 +45,17 @@ public:
   /// @param maximum_error as that of `Spectral_error_stop_predicate`; infinite: none
   Spectral_stop_predicate(const Policies& policies, const std::size_t number_of_vertices,
                           const double maximum_error = std::numeric_limits<double>::infinity())
+    : Spectral_stop_predicate(policies, number_of_vertices, maximum_error, policies.get_placement())
+  {}
+
+  /// The same for a placement that wraps that of the policies, `Constrained_placement` for instance.
+  Spectral_stop_predicate(const Policies& policies, const std::size_t number_of_vertices,
+                          const double maximum_error, const GetPlacement& placement)
     : m_state(policies.shared_state())
     , m_target(number_of_vertices)
     , m_bound(maximum_error)
     , m_count_stop(number_of_vertices, m_state->mesh())
-    , m_error_stop(policies, maximum_error)
+    , m_error_stop(policies, maximum_error, placement)
     , m_begin(m_state->number_of_vertices())
   {}
 
@@ -94,7 +101,7 @@ private:
   std::size_t m_target;
   double m_bound;
   Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
-  Spectral_error_stop_predicate<Policies> m_error_stop;
+  Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
   std::size_t m_begin;
   mutable double m_next_report = 0, m_fraction = 0;
   mutable bool m_reached = false, m_error_reached = false, m_cancelled = false;

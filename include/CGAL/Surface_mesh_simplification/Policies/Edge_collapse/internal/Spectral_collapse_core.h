@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_quadric.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
@@ -175,6 +176,13 @@ public:
     sample.weight = projected_weight(u, v, point);
     kernel.evaluate(&sample, 1);
     return sample.cost;
+  }
+
+  /// The change of E that commit() would make, to rounding whatever the cotangents are; f = (1 - weight) f_u + weight f_v.
+  double change_at(const Spectral_slot u, const Spectral_slot v, const double weight,
+                   const Eigen::Vector3d& point)
+  {
+    return m_change(m_fields, u, v, weight, point);
   }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
@@ -536,6 +544,7 @@ private:
   std::vector<Edge> m_batch;
   std::vector<Spectral_candidate> m_results;
   std::vector<Spectral_row_entry> m_row;
+  Spectral_change m_change;
   std::size_t m_number_of_evaluations = 0;
 };
 
