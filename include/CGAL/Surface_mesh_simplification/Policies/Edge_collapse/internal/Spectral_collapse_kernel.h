@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_merged_row.h>
@@ -42,7 +43,8 @@ struct Spectral_sample
  * For a vertex w of the link only the triangles around u and v change, so R_w after is R_w plus a
  * combination of z_w and of four differences of rows of F (and, with a mass that has off-diagonal entries, of the
  * rows of Z of the same vertices). Its square is a quadratic form in the coefficients, whose matrix is gathered from
- * `Spectral_ring_products`. The coefficients of up to four samples are computed side by side.
+ * `Spectral_ring_products`. The coefficients of up to four samples are computed side by side. Where a triangle that goes
+ * has such cotangents that their squares leave nothing but rounding, `Spectral_change` takes the place of all that.
  *
  * The object holds the scratch memory of one thread; it allocates only while a larger ring than any
  * before comes along.
@@ -69,6 +71,7 @@ public:
     CGAL_assertion(fields.rings[v][m_u_in_v].vertex == u);
     const Topology topology = check_topology();
     if(topology == Topology::collapsible) {
+      m_roughness = 0;
 #ifdef CGAL_SPECTRAL_DISPATCH
       if(spectral_has_avx2())
         prepare_avx2();
@@ -85,9 +88,12 @@ public:
     CGAL_precondition(count >= 1 && count <= max_samples);
 #ifdef CGAL_SPECTRAL_DISPATCH
     if(spectral_has_avx2())
-      return evaluate_avx2(samples, count);
+      evaluate_avx2(samples, count);
+    else
 #endif
-    evaluate_body(samples, count);
+      evaluate_body(samples, count);
+    if(m_roughness > rough_cotangent)
+      correct(samples, count);
   }
 
 private:
@@ -270,11 +276,13 @@ private:
       w.old_area_neighbor[column] += t.area;
       w.old_area += t.area;
     }
+    m_roughness = (std::max)(m_roughness, sum_of_cotangents(t));
     m_outer.push_back(Outer_triangle{a, b, column_of_b, column_of_a, degenerate(t)});
   }
 
   void subtract_shared_triangle(const Spectral_triangle& t, const bool v_is_first, const int link)
   {
+    m_roughness = (std::max)(m_roughness, sum_of_cotangents(t));
     Link_vertex& w = m_link[link];
     w.old_u += (v_is_first ? t.cot_first : t.cot_second) / 2; // the angle at v
     w.old_v += t.cot_center / 2;                              // the angle at u
@@ -297,7 +305,22 @@ private:
   static constexpr double degenerate_cotangent = 1e10;
   static bool degenerate(const Spectral_triangle& t)
   {
-    return !(t.area > 0) || !(t.cot_center + t.cot_first + t.cot_second < degenerate_cotangent);
+    return !(t.area > 0) || !(sum_of_cotangents(t) < degenerate_cotangent);
+  }
+
+  // (a^2 + b^2 + c^2) / (4 area): never negative, and large where one of them is.
+  static double sum_of_cotangents(const Spectral_triangle& t)
+  {
+    return t.cot_center + t.cot_first + t.cot_second;
+  }
+
+  // The square of 1e5, times the rounding of doubles, is 1e-6, of costs that matter from about 1e-3.
+  static constexpr double rough_cotangent = 1e5;
+  void correct(Spectral_sample* samples, const int count)
+  {
+    for(int s = 0; s < count; ++s)
+      if(std::isfinite(samples[s].cost))
+        samples[s].cost = m_change(*m_fields, m_u, m_v, samples[s].weight, samples[s].point);
   }
 
   CGAL_SPECTRAL_INLINE void gather_gram(Link_vertex& w) const
@@ -524,6 +547,7 @@ private:
   Spectral_slot m_u = null_spectral_slot, m_v = null_spectral_slot;
   std::size_t m_v_in_u = 0, m_u_in_v = 0;
   double m_before = 0;
+  double m_roughness = 0; // largest sum of cotangents among the triangles around the edge
   std::vector<Link_vertex> m_link;
   std::vector<int> m_link_of_u, m_link_of_v; // ring index -> link index
   std::vector<Outer_triangle> m_outer;
@@ -531,6 +555,7 @@ private:
   std::vector<const double*> m_rows;
   std::vector<double> m_far, m_scratch;
   Spectral_merged_row m_merged;
+  Spectral_change m_change;
 };
 
 } // namespace internal
