@@ -27,31 +27,69 @@ struct Spectral_row_entry
   double of_z; ///< B_wj
 };
 
+/// sum += factor times 4 N numbers from `row` on. Written out, because compilers keep small arrays of vectors in memory.
+template <int N>
+CGAL_SPECTRAL_INLINE void spectral_add_multiple(Spectral_lanes& s0, Spectral_lanes& s1, Spectral_lanes& s2,
+                                                Spectral_lanes& s3, const double* row, const double factor)
+{
+  Spectral_lanes x;
+  spectral_load(x, row);
+  s0 += x * factor;
+  spectral_load(x, row + 4);
+  s1 += x * factor;
+  if(N > 2) {
+    spectral_load(x, row + 8);
+    s2 += x * factor;
+    spectral_load(x, row + 12);
+    s3 += x * factor;
+  }
+}
+
+/// 4 N numbers of R from column k on; adds their squares.
+template <int N>
+CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields,
+                                                   const std::vector<Spectral_row_entry>& row,
+                                                   const std::size_t k, double* R, Spectral_lanes& squares)
+{
+  const double* const F = fields.F.data() + k;
+  const double* const Z = fields.has_z_rows() ? fields.Z.data() + k : F;
+  const std::size_t length = std::size_t(fields.F.cols());
+  Spectral_lanes f0 = {}, f1 = {}, f2 = {}, f3 = {}, z0 = {}, z1 = {}, z2 = {}, z3 = {};
+  const Spectral_row_entry* const end = row.data() + row.size();
+  for(const Spectral_row_entry* e = row.data(); e != end; ++e)
+    spectral_add_multiple<N>(f0, f1, f2, f3, F + e->vertex * length, e->of_f);
+  for(const Spectral_row_entry* e = row.data(); e != end; ++e)
+    if(e->of_z != 0) // a lumped mass has an entry for the centre alone
+      spectral_add_multiple<N>(z0, z1, z2, z3, Z + e->vertex * length, e->of_z);
+  const bool scale = !fields.has_z_rows();
+  const auto put = [&](const Spectral_lanes& f, Spectral_lanes z, const std::size_t i) {
+    Spectral_lanes lambda;
+    if(scale) {
+      spectral_load(lambda, fields.lambda.data() + i);
+      z *= lambda;
+    }
+    z += f;
+    squares += z * z;
+    spectral_store(R + i, z);
+  };
+  put(f0, z0, k);
+  put(f1, z1, k + 4);
+  if(N > 2) {
+    put(f2, z2, k + 8);
+    put(f3, z3, k + 12);
+  }
+}
+
 CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fields,
                                                        const std::vector<Spectral_row_entry>& row, double* R)
 {
-  const std::size_t length = std::size_t(fields.F.cols());
-  const bool stored = fields.has_z_rows();
+  const std::size_t length = std::size_t(fields.F.cols()); // a multiple of 8
   Spectral_lanes squares = {};
-  for(std::size_t k = 0; k < length; k += 4) {
-    Spectral_lanes f = {}, z = {}, x;
-    for(const Spectral_row_entry& e : row) {
-      spectral_load(x, fields.f_row(e.vertex) + k);
-      f += x * e.of_f;
-      if(e.of_z == 0)
-        continue;
-      if(stored)
-        spectral_load(x, fields.z_row(e.vertex) + k);
-      z += x * e.of_z;
-    }
-    if(!stored) {
-      spectral_load(x, fields.lambda.data() + k);
-      z *= x;
-    }
-    f += z;
-    squares += f * f;
-    spectral_store(R + k, f);
-  }
+  std::size_t k = 0;
+  for(; k + 16 <= length; k += 16)
+    spectral_combine_columns<4>(fields, row, k, R, squares);
+  if(k < length)
+    spectral_combine_columns<2>(fields, row, k, R, squares);
   return spectral_sum(squares);
 }
 
