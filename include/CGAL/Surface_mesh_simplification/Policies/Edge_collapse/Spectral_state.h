@@ -211,7 +211,7 @@ public:
     if(!in_loop)
       m_core.drop_candidates_around(kept);
     else if(m_batched)
-      m_core.evaluate_around(kept);
+      m_core.start_around(kept);
     else
       m_core.defer_around(kept);
   }

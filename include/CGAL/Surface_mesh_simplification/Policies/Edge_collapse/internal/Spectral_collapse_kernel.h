@@ -98,6 +98,7 @@ public:
 
 private:
   using Lanes = Spectral_lanes;
+  using Ring = Spectral_ring_products::View;
 
   // The vectors that R_w after is a combination of. For w next to one end c of the edge, with the other end o:
   // f_c - f_w and f_o - f_c; for w next to both: f_u - f_w and f_v - f_w. Then the two neighbours along the link. The
@@ -182,9 +183,10 @@ private:
     m_outer.clear();
     collect_triangles(m_u, m_v, true);
     collect_triangles(m_v, m_u, false);
+    const Ring of_u = (*m_products)[m_u].view(), of_v = (*m_products)[m_v].view();
     for(Link_vertex& w : m_link) {
       set_ends(w);
-      gather_gram(w);
+      gather_gram(w, of_u, of_v);
     }
     multiply_far_residuals(m_u, m_v, true);
     multiply_far_residuals(m_v, m_u, false);
@@ -238,14 +240,15 @@ private:
   // Triangles with both u and v are seen from both ends; they are taken once.
   void collect_triangles(const Spectral_slot center, const Spectral_slot other, const bool with_shared)
   {
-    const Spectral_ring& ring = m_fields->rings[center];
-    const std::vector<int>& link_of = center == m_u ? m_link_of_u : m_link_of_v;
-    for(std::size_t i = 0; i < ring.size(); ++i) {
+    const Spectral_ring_entry* const ring = m_fields->rings[center].data();
+    const std::size_t d = m_fields->rings[center].size();
+    const int* const link_of = (center == m_u ? m_link_of_u : m_link_of_v).data();
+    for(std::size_t i = 0; i < d; ++i) {
       if(!ring[i].face)
         continue;
-      const std::size_t j = Spectral_rings::next(ring, i);
+      const std::size_t j = i + 1 == d ? 0 : i + 1;
       if(ring[i].vertex != other && ring[j].vertex != other)
-        add_outer_triangle(center == m_u, i, j, link_of[i], link_of[j]);
+        add_outer_triangle(ring[i].triangle, center == m_u, i, j, link_of[i], link_of[j]);
       else if(with_shared)
         subtract_shared_triangle(ring[i].triangle, ring[i].vertex == other,
                                  link_of[ring[i].vertex == other ? j : i]);
@@ -253,16 +256,15 @@ private:
   }
 
   // In the ring of a the corner b of the triangle (c; a, b) comes before c, in that of b the corner a comes after it.
-  void add_outer_triangle(const bool around_u, const std::size_t i, const std::size_t j, const int a,
-                          const int b)
+  void add_outer_triangle(const Spectral_triangle& t, const bool around_u, const std::size_t i,
+                          const std::size_t j, const int a, const int b)
   {
-    const Spectral_triangle& t = m_fields->rings[around_u ? m_u : m_v][i].triangle;
     Link_vertex &wa = m_link[a], &wb = m_link[b];
     const int column_of_b = wa.next_to_both() ? (around_u ? 0 : 1) : 0;
     const int column_of_a = wb.next_to_both() ? (around_u ? 0 : 1) : 1;
-    const Spectral_rings& rings = m_fields->rings;
-    wa.neighbor_in[column_of_b] = int(Spectral_rings::prev(rings[wa.slot], around_u ? wa.u_in : wa.v_in));
-    wb.neighbor_in[column_of_a] = int(Spectral_rings::next(rings[wb.slot], around_u ? wb.u_in : wb.v_in));
+    const int in_a = around_u ? wa.u_in : wa.v_in, in_b = around_u ? wb.u_in : wb.v_in;
+    wa.neighbor_in[column_of_b] = in_a == 0 ? degree(wa.slot) - 1 : in_a - 1;
+    wb.neighbor_in[column_of_a] = in_b + 1 == degree(wb.slot) ? 0 : in_b + 1;
     wa.neighbor_near[column_of_b] = int(j);
     wb.neighbor_near[column_of_a] = int(i);
     (around_u ? wa.old_u : wa.old_v) += t.cot_second / 2;
@@ -278,6 +280,11 @@ private:
     }
     m_roughness = (std::max)(m_roughness, sum_of_cotangents(t));
     m_outer.push_back(Outer_triangle{a, b, column_of_b, column_of_a, degenerate(t)});
+  }
+
+  int degree(const Spectral_slot s) const
+  {
+    return int((*m_products)[s].degree());
   }
 
   void subtract_shared_triangle(const Spectral_triangle& t, const bool v_is_first, const int link)
@@ -323,79 +330,100 @@ private:
         samples[s].cost = m_change(*m_fields, m_u, m_v, samples[s].weight, samples[s].point);
   }
 
-  CGAL_SPECTRAL_INLINE void gather_gram(Link_vertex& w) const
+  CGAL_SPECTRAL_INLINE void gather_gram(Link_vertex& w, const Ring& of_u, const Ring& of_v) const
   {
-    const Spectral_ring_products& own = (*m_products)[w.slot];
-    const std::size_t d = own.degree();
+    const Ring own = (*m_products)[w.slot].view();
     w.gram[residual][residual] = m_fields->E[w.slot] * m_fields->mass[w.slot];
-    w.gram[residual][z_self] = own.rz(d);
-    w.gram[z_self][z_self] = own.zz(d, d);
-    if(w.next_to_both()) {
-      const std::size_t in[4] = {std::size_t(w.u_in), std::size_t(w.v_in), std::size_t(w.neighbor_in[0]),
-                                 std::size_t(w.neighbor_in[1])};
-      gather_own(w, own, in, false);
-    } else {
-      const std::size_t in[4] = {std::size_t(w.in_u >= 0 ? w.u_in : w.v_in), d, std::size_t(w.neighbor_in[0]),
-                                 std::size_t(w.neighbor_in[1])};
-      gather_own(w, own, in, true);
-      gather_far(w);
+    if(w.next_to_both())
+      gather_own<true>(w, own, std::size_t(w.u_in), std::size_t(w.v_in));
+    else {
+      const bool near_u = w.in_u >= 0;
+      gather_own<false>(w, own, std::size_t(near_u ? w.u_in : w.v_in), own.d);
+      gather_far(w, near_u ? of_u : of_v, std::size_t(near_u ? w.in_u : w.in_v),
+                 near_u ? m_v_in_u : m_u_in_v);
     }
   }
 
-  // Products among the differences and the rows of Z at ring indices `in` (near, far, first, second) of w;
-  // without the far one if `skip_far`.
-  CGAL_SPECTRAL_INLINE void gather_own(Link_vertex& w, const Spectral_ring_products& own,
-                                       const std::size_t* in, const bool skip_far) const
+  // Products among the differences and the rows of Z at ring indices near, far and those of the two neighbours in the
+  // ring of w; with the far one only if `Far`.
+  template <bool Far>
+  CGAL_SPECTRAL_INLINE void gather_own(Link_vertex& w, const Ring& own, const std::size_t near,
+                                       const std::size_t far) const
   {
-    constexpr int n = 4;
-    const std::size_t d = own.degree();
+    const std::size_t first = std::size_t(w.neighbor_in[0]), second = std::size_t(w.neighbor_in[1]),
+                      d = own.d;
     const bool full = m_fields->theta != 0;
-    for(int i = 0; i < n; ++i) {
-      if(skip_far && i == 1)
+    const double *const z = own.z_g(d), *const zz = own.z(d);
+    w.gram[residual][z_self] = own.rz[full ? d : 0];
+    w.gram[z_self][z_self] = zz[d];
+    const double* g = own.g(near);
+    w.gram[residual][g_near] = own.rg[near];
+    w.gram[z_self][g_near] = z[near];
+    w.gram[g_near][g_near] = g[near];
+    w.gram[g_near][g_first] = g[first];
+    w.gram[g_near][g_second] = g[second];
+    if(Far) {
+      w.gram[g_near][g_far] = g[far];
+      g = own.g(far);
+      w.gram[residual][g_far] = own.rg[far];
+      w.gram[z_self][g_far] = z[far];
+      w.gram[g_far][g_far] = g[far];
+      w.gram[g_far][g_first] = g[first];
+      w.gram[g_far][g_second] = g[second];
+    }
+    g = own.g(first);
+    w.gram[residual][g_first] = own.rg[first];
+    w.gram[z_self][g_first] = z[first];
+    w.gram[g_first][g_first] = g[first];
+    w.gram[g_first][g_second] = g[second];
+    w.gram[residual][g_second] = own.rg[second];
+    w.gram[z_self][g_second] = z[second];
+    w.gram[g_second][g_second] = own.g(second)[second];
+    if(!full)
+      return;
+    const std::size_t in[4] = {near, far, first, second};
+    for(int j = 0; j < 4; ++j) {
+      if(!Far && j == 1)
         continue;
-      w.gram[residual][g_near + i] = own.rg(in[i]);
-      w.gram[z_self][g_near + i] = own.zg(d, in[i]);
-      for(int j = i; j < n; ++j)
-        w.gram[g_near + i][g_near + j] = own.gg(in[i], in[j]);
-      if(!full)
-        continue;
-      w.gram[residual][z_near + i] = own.rz(in[i]);
-      w.gram[z_self][z_near + i] = own.zz(d, in[i]);
-      for(int j = 0; j < n; ++j) {
-        w.gram[g_near + i][z_near + j] = own.zg(in[j], in[i]);
-        w.gram[z_near + i][z_near + j] = own.zz(in[i], in[j]);
-      }
+      const double *const row_g = own.z_g(in[j]), *const row_z = own.z(in[j]);
+      w.gram[residual][z_near + j] = own.rz[in[j]];
+      w.gram[z_self][z_near + j] = zz[in[j]];
+      w.gram[g_near][z_near + j] = row_g[near];
+      if(Far)
+        w.gram[g_far][z_near + j] = row_g[far];
+      w.gram[g_first][z_near + j] = row_g[first];
+      w.gram[g_second][z_near + j] = row_g[second];
+      for(int i = 0; i <= j; ++i)
+        w.gram[z_near + i][z_near + j] = row_z[in[i]];
     }
   }
 
   // The far end o is not in the ring of w, but both are in that of the near end c: e = f_o - f_c is one of
-  // its differences, and f_i - f_w = (f_i - f_c) - (f_w - f_c).
-  CGAL_SPECTRAL_INLINE void gather_far(Link_vertex& w) const
+  // its differences, and f_i - f_w = (f_i - f_c) - (f_w - f_c). `self` and `o` are the indices of w and o there.
+  CGAL_SPECTRAL_INLINE void gather_far(Link_vertex& w, const Ring& near, const std::size_t self,
+                                       const std::size_t o) const
   {
-    const bool near_u = w.in_u >= 0;
-    const Spectral_ring_products& near = (*m_products)[near_u ? m_u : m_v];
-    const std::size_t c = near.degree(), self = std::size_t(near_u ? w.in_u : w.in_v);
-    const std::size_t o = near_u ? m_v_in_u : m_u_in_v;
-    const std::size_t k[2] = {std::size_t(w.neighbor_near[0]), std::size_t(w.neighbor_near[1])};
-    w.gram[z_self][g_far] = near.zg(self, o);
-    w.gram[g_far][g_far] = near.gg(o, o);
-    w.gram[g_near][g_far] = -near.gg(o, self);
-    for(int i = 0; i < 2; ++i)
-      w.gram[g_far][g_first + i] = near.gg(o, k[i]) - near.gg(o, self);
+    const std::size_t first = std::size_t(w.neighbor_near[0]), second = std::size_t(w.neighbor_near[1]);
+    const double* const e = near.g(o);
+    w.gram[z_self][g_far] = near.z_g(self)[o];
+    w.gram[g_far][g_far] = e[o];
+    w.gram[g_near][g_far] = -e[self];
+    w.gram[g_far][g_first] = e[first] - e[self];
+    w.gram[g_far][g_second] = e[second] - e[self];
     if(m_fields->theta == 0)
       return;
-    const std::size_t z_in_near[4] = {c, o, k[0], k[1]};
+    const std::size_t in[4] = {near.d, o, first, second};
+    const double *const z_o = near.z_g(o), *const zz_o = near.z(o);
     for(int j = 0; j < 4; ++j) {
-      w.gram[g_far][z_near + j] = near.zg(z_in_near[j], o);
+      w.gram[g_far][z_near + j] = near.z_g(in[j])[o];
       if(j != 1)
-        w.gram[(std::min)(z_near + j, int(z_far))][(std::max)(z_near + j, int(z_far))] =
-            near.zz(o, z_in_near[j]);
+        w.gram[(std::min)(z_near + j, int(z_far))][(std::max)(z_near + j, int(z_far))] = zz_o[in[j]];
     }
-    w.gram[z_self][z_far] = near.zz(self, o);
-    w.gram[z_far][z_far] = near.zz(o, o);
-    w.gram[g_near][z_far] = -near.zg(o, self);
-    for(int i = 0; i < 2; ++i)
-      w.gram[g_first + i][z_far] = near.zg(o, k[i]) - near.zg(o, self);
+    w.gram[z_self][z_far] = zz_o[self];
+    w.gram[z_far][z_far] = zz_o[o];
+    w.gram[g_near][z_far] = -z_o[self];
+    w.gram[g_first][z_far] = z_o[first] - z_o[self];
+    w.gram[g_second][z_far] = z_o[second] - z_o[self];
   }
 
   // R_w . (f_o - f_c), and R_w . z_o, for each w next to the end c alone.

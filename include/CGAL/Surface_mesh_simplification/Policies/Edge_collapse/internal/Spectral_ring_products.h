@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -34,6 +35,13 @@ struct Spectral_strided_rows
   double* operator()(const std::size_t i) const { return first + i * stride; }
 };
 
+/// Row i of a result that is kept in up to three places.
+struct Spectral_three_rows
+{
+  double* row[3];
+  double* operator()(const std::size_t i) const { return row[i]; }
+};
+
 // out(i)[j] = a_i . b_j for M rows and N columns; three by three keep nine sums in registers for six loads. Written
 // out, because compilers keep small arrays of vectors in memory.
 template <int M, int N, bool CenterA, bool CenterB, class Out>
@@ -44,7 +52,7 @@ CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const doubl
   const double *a0 = a[0], *a1 = a[M > 1 ? 1 : 0], *a2 = a[M - 1];
   const double *b0 = b[0], *b1 = b[N > 1 ? 1 : 0], *b2 = b[N - 1];
   Spectral_lanes s00 = {}, s01 = {}, s02 = {}, s10 = {}, s11 = {}, s12 = {}, s20 = {}, s21 = {}, s22 = {};
-  for(std::size_t k = 0; k < length; k += 4) {
+  const auto step = [&](const std::size_t k) {
     Spectral_lanes x0, x1, x2, y, c = {};
     spectral_load(x0, a0 + k);
     if(M > 1)
@@ -89,6 +97,10 @@ CGAL_SPECTRAL_INLINE void spectral_dot_block(const double* const* a, const doubl
       if(M > 2)
         s22 += x2 * y;
     }
+  };
+  for(std::size_t k = 0; k < length; k += 8) { // rows are padded to a multiple of that
+    step(k);
+    step(k + 4);
   }
   const auto write = [&](const std::size_t row, const Spectral_lanes& s0, const Spectral_lanes& s1,
                          const Spectral_lanes& s2) {
@@ -164,20 +176,21 @@ public:
     const std::size_t d = degree;
     m_data.resize((2 * d + 2) * d + (full ? (d + 2) * (d + 1) : d + 2));
   }
-  void clear()
+  /// Of the ring of a vertex that is gone, which no longer needs its memory.
+  void take_memory(Spectral_ring_products& gone)
   {
-    std::vector<double>().swap(m_data);
-    m_degree = 0;
+    if(gone.m_data.capacity() > m_data.capacity())
+      m_data.swap(gone.m_data);
+    std::vector<double>().swap(gone.m_data);
+    gone.m_degree = 0;
   }
 
-  /// Forgets the neighbour at index i, which has left the ring.
+  /// Forgets the neighbour at index i, which has left the ring. What stays moves towards the front.
   void erase(const std::size_t i)
   {
-    Spectral_ring_products smaller;
     const std::size_t d = m_degree;
-    smaller.resize(d - 1, m_full);
     const auto old = [i](const std::size_t j) { return j < i ? j : j + 1; };
-    double* out = smaller.m_data.data();
+    double* out = m_data.data();
     for(std::size_t r = 0; r + 1 < d; ++r)
       for(std::size_t j = 0; j + 1 < d; ++j)
         *out++ = gg(old(r), old(j));
@@ -191,8 +204,7 @@ public:
         *out++ = zz(old(r), old(j));
     for(std::size_t j = m_full ? 0 : d - 1; j < d; ++j)
       *out++ = rz(old(j));
-    m_data.swap(smaller.m_data);
-    m_degree = d - 1;
+    resize(d - 1, m_full);
   }
 
   std::size_t degree() const { return m_degree; } ///< also the index of the centre among rows of Z
@@ -208,6 +220,22 @@ public:
   }
   /// R_c . z_j; only j = degree() unless full
   double rz(const std::size_t j) const { return m_data[rz_offset() + (m_full ? j : 0)]; }
+
+  /// The same numbers by rows, for who reads many of them: `g(i)[j]` is gg(i, j), and so on.
+  struct View
+  {
+    const double *gg, *zg, *rg, *zz, *rz;
+    std::size_t d, zz_stride;
+    const double* g(const std::size_t i) const { return gg + i * d; }
+    const double* z_g(const std::size_t i) const { return zg + i * d; }
+    const double* z(const std::size_t i) const { return zz + i * zz_stride; } ///< only i = d unless full
+  };
+  View view() const
+  {
+    const double* const p = m_data.data();
+    const std::size_t d = m_degree;
+    return View{p, p + d * d, p + (2 * d + 1) * d, p + zz_offset(), p + rz_offset(), d, m_full ? d + 1 : 0};
+  }
 
   double* g_rows() { return m_data.data(); } ///< rows of d, as those of zg
   double* zg_rows() { return m_data.data() + m_degree * m_degree; }
@@ -272,76 +300,76 @@ private:
     if(d == 0)
       return;
     set_rows(fields, c);
-    const double* fc = fields.f_row(c);
-    m_scratch.resize((d + 1) * length);
+    const double *fc = fields.f_row(c), *r = fields.r_row(c);
+    double* next = scratch((4 * d + 4) * length);
     m_g.resize(d);
+    m_right.resize(d);
     for(std::size_t j = 0; j < d; ++j) {
-      double* g = m_scratch.data() + j * length;
+      double* g = next;
+      next += length;
       for(std::size_t k = 0; k < length; ++k)
         g[k] = m_f[j][k] - fc[k];
       m_g[j] = g;
+      m_right[j] = against_z(fields, g, next);
     }
-    const Spectral_row_list g{m_g.data(), d};
-    spectral_dots<false, false>(g, g, length, products.g_rows(), d);
-    dots_with_residual(fields, c, g, products);
-    for(std::size_t j = 0; j < d; ++j)
-      dots_with_z(fields, m_g[j], products.zg_rows() + j, d);
-    for(std::size_t i = full ? 0 : d; i <= d; ++i)
-      dots_with_z(fields, z_row(fields, i), products.zz_rows() + (full ? i * (d + 1) : 0), 1);
+    const Spectral_row_list g{m_g.data(), d}, z{left_of_z(), d + 1};
+    for(std::size_t i = 0; i < d; i += 3) {
+      const std::size_t rows = (std::min)(d - i, std::size_t(3));
+      spectral_dots<false, false>({m_g.data() + i, rows}, {m_g.data() + i, d - i}, length,
+                                  products.g_rows() + i * d + i, d);
+    }
+    for(std::size_t i = 0; i < d; ++i)
+      for(std::size_t j = i + 1; j < d; ++j)
+        products.g_rows()[j * d + i] = products.g_rows()[i * d + j];
+    spectral_dots<false, false>({&r, 1}, g, length, products.rg_row(), d);
+    spectral_dots<false, false>(z, {m_right.data(), d}, length, products.zg_rows(), d);
+    const double* right = against_z(fields, r, next);
+    if(!full) {
+      spectral_dots<false, false>({&right, 1}, {z.rows + d, 1}, length, products.rz_row(), 1);
+      right = against_z(fields, z_row(fields, d, next), next);
+      spectral_dots<false, false>({&right, 1}, z, length, products.zz_rows(), d + 1);
+      return;
+    }
+    spectral_dots<false, false>({&right, 1}, z, length, products.rz_row(), d + 1);
+    m_right.resize(d + 1);
+    for(std::size_t i = 0; i <= d; ++i)
+      m_right[i] = against_z(fields, z_row(fields, i, next), next);
+    spectral_dots<false, false>(z, {m_right.data(), d + 1}, length, products.zz_rows(), d + 1);
   }
 
+  // The products with R_c, and the column of the neighbour in all others, with its row where it is one.
   CGAL_SPECTRAL_INLINE void update_body(const Spectral_fields& fields, const Spectral_slot c,
                                         Spectral_ring_products& products, const std::size_t moved)
   {
-    const std::size_t d = fields.rings[c].size(), length = std::size_t(fields.F.cols());
-    set_rows(fields, c);
-    m_scratch.resize((d + 1) * length);
-    const Spectral_row_list g{m_f.data(), d, fields.f_row(c)};
-    update_moved(fields, products, moved, g);
-    dots_with_residual(fields, c, g, products);
-  }
-
-  // The column of the neighbour in all products, and its row where it is one.
-  CGAL_SPECTRAL_INLINE void update_moved(const Spectral_fields& fields, Spectral_ring_products& products,
-                                         const std::size_t moved, const Spectral_row_list& g)
-  {
     const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
-    double* gx = m_scratch.data();
+    set_rows(fields, c);
+    double *next = scratch(5 * length + d + 1), *gx = next;
+    next += length;
+    const Spectral_row_list g{m_f.data(), d, fields.f_row(c)}, z{left_of_z(), d + 1};
     for(std::size_t k = 0; k < length; ++k)
       gx[k] = m_f[moved][k] - g.center[k];
-    const double* row = gx;
-    const Spectral_row_list x{&row, 1};
-    spectral_dots<false, true>(x, g, length, products.g_rows() + moved * d, d);
+    const double* const rows[3] = {gx, fields.r_row(c), z_row(fields, moved, next)};
+    double* const gg = products.g_rows() + moved * d;
+    spectral_dots<false, true>({rows, 3}, g, length,
+                               Spectral_three_rows{{gg, products.rg_row(), products.zg_rows() + moved * d}});
     for(std::size_t j = 0; j < d; ++j)
-      products.g_rows()[j * d + moved] = products.g_rows()[moved * d + j];
-    dots_with_z(fields, gx, products.zg_rows() + moved, d);
-    const double* z = z_row(fields, moved);
-    spectral_dots<false, true>({&z, 1}, g, length, products.zg_rows() + moved * d, d);
-    if(fields.theta == 0) {
-      const double* left = fields.has_z_rows() ? m_z[d] : m_f[d];
-      const double* right = fields.has_z_rows() ? z : times_lambda(fields, z, m_scaled);
-      spectral_dots<false, false>({&left, 1}, {&right, 1}, length, products.zz_rows() + moved, 1);
-      return;
-    }
-    dots_with_z(fields, z, products.zz_rows() + moved * (d + 1), 1);
-    for(std::size_t j = 0; j <= d; ++j)
-      products.zz_rows()[j * (d + 1) + moved] = products.zz_rows()[moved * (d + 1) + j];
-  }
+      products.g_rows()[j * d + moved] = gg[j];
 
-  // R_c . g_j, and R_c . z_c or R_c . z_j.
-  CGAL_SPECTRAL_INLINE void dots_with_residual(const Spectral_fields& fields, const Spectral_slot c,
-                                               const Spectral_row_list& g, Spectral_ring_products& products)
-  {
-    const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
-    const double* r = fields.r_row(c);
-    if(g.center != nullptr)
-      spectral_dots<false, true>({&r, 1}, g, length, products.rg_row(), d);
-    else
-      spectral_dots<false, false>({&r, 1}, g, length, products.rg_row(), d);
-    if(fields.theta != 0)
-      return dots_with_z(fields, r, products.rz_row(), 1);
-    const double* z = z_row(fields, d);
-    spectral_dots<false, false>({&r, 1}, {&z, 1}, length, products.rz_row(), 1);
+    const double* const right[3] = {against_z(fields, rows[0], next), against_z(fields, rows[1], next),
+                                    against_z(fields, rows[2], next)};
+    double* const zg = next;
+    if(fields.theta == 0) {
+      spectral_dots<false, false>({right, 1}, z, length, zg, d + 1);
+      spectral_dots<false, false>({right + 1, 2}, {z.rows + d, 1}, length,
+                                  Spectral_three_rows{{products.rz_row(), products.zz_rows() + moved}});
+    } else {
+      double* const zz = products.zz_rows() + moved * (d + 1);
+      spectral_dots<false, false>({right, 3}, z, length, Spectral_three_rows{{zg, products.rz_row(), zz}});
+      for(std::size_t j = 0; j <= d; ++j)
+        products.zz_rows()[j * (d + 1) + moved] = zz[j];
+    }
+    for(std::size_t j = 0; j <= d; ++j)
+      products.zg_rows()[j * d + moved] = zg[j];
   }
 
   // Rows of F, and of Z if stored: the neighbours, then c.
@@ -359,36 +387,47 @@ private:
     }
   }
 
-  // out[i * stride] = z_i . row over the ring and c. Where Z = F Lambda, z_i . row = f_i . (Lambda row): no row of Z
-  // is formed.
-  CGAL_SPECTRAL_INLINE void dots_with_z(const Spectral_fields& fields, const double* row, double* out,
-                                        const std::size_t stride)
+  double* scratch(const std::size_t size)
   {
-    const std::size_t n = m_f.size(), length = std::size_t(fields.F.cols());
-    const double* right = fields.has_z_rows() ? row : times_lambda(fields, row, m_scaled);
-    const double* const* left = fields.has_z_rows() ? m_z.data() : m_f.data();
-    spectral_dots<false, false>({left, n}, {&right, 1}, length, out, stride);
+    if(m_scratch.size() < size)
+      m_scratch.resize(size);
+    return m_scratch.data();
   }
 
-  // z of a member of the ring; valid until the next call.
-  CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_fields& fields, const std::size_t i)
+  // z_i . row is the product of left_of_z()[i] and against_z(row): where Z = F Lambda that of f_i and Lambda row, and no row
+  // of Z is formed. What is formed is put at `next`, which goes on behind it.
+  const double* const* left_of_z() const
   {
-    return fields.has_z_rows() ? m_z[i] : times_lambda(fields, m_f[i], m_scratch_z);
+    return m_z.empty() ? m_f.data() : m_z.data();
+  }
+
+  CGAL_SPECTRAL_INLINE static const double* against_z(const Spectral_fields& fields, const double* row,
+                                                      double*& next)
+  {
+    return fields.has_z_rows() ? row : times_lambda(fields, row, next);
+  }
+
+  // z of a member of the ring.
+  CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_fields& fields, const std::size_t i,
+                                           double*& next) const
+  {
+    return fields.has_z_rows() ? m_z[i] : times_lambda(fields, m_f[i], next);
   }
 
   CGAL_SPECTRAL_INLINE static const double* times_lambda(const Spectral_fields& fields, const double* row,
-                                                         std::vector<double>& result)
+                                                         double*& next)
   {
     const std::size_t length = std::size_t(fields.F.cols());
     const double* lambda = fields.lambda.data();
-    result.resize(length);
+    double* const result = next;
+    next += length;
     for(std::size_t k = 0; k < length; ++k)
       result[k] = lambda[k] * row[k];
-    return result.data();
+    return result;
   }
 
-  std::vector<double> m_scratch, m_scratch_z, m_scaled;
-  std::vector<const double*> m_f, m_z, m_g;
+  std::vector<double> m_scratch;
+  std::vector<const double*> m_f, m_z, m_g, m_right;
 };
 
 } // namespace internal

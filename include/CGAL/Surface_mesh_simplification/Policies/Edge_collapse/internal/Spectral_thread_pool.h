@@ -13,9 +13,11 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -59,6 +61,7 @@ public:
 
   ~Spectral_thread_pool()
   {
+    close();
     m_end = true;
     announce();
     for(std::thread& worker : m_workers)
@@ -74,23 +77,41 @@ public:
   template <class Body>
   void for_each(const std::size_t n, const std::size_t grain, const Body& body)
   {
+    finish();
     if(m_workers.empty() || n <= grain) {
       for(std::size_t i = 0; i < n; ++i)
         body(i, m_workspaces.front());
       return;
     }
-    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
-      for(std::size_t i = begin; i < end; ++i)
-        (*static_cast<const Body*>(b))(i, workspace);
-    };
-    m_body = &body;
-    m_size = n;
-    m_grain = grain;
-    m_next.store(0, std::memory_order_relaxed);
-    announce();
+    open(n, grain, body);
     take_part(m_workspaces.front());
-    m_gate.fetch_and(~open_bit);
-    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
+    close();
+  }
+
+  /// Lets the other threads begin with `body(i, workspace)` for each i in [0, n) and returns. The caller may go on with
+  /// something else; it takes part from finish() on. A copy of `body` is kept.
+  void start(const std::size_t n, std::function<void(std::size_t, Workspace&)> body)
+  {
+    finish();
+    m_started = std::move(body);
+    open(n, 1, m_started);
+  }
+
+  /// Takes part in what was started, if anything, and waits for its end.
+  void finish()
+  {
+    if(!m_started)
+      return;
+    take_part(m_workspaces.front());
+    close();
+    m_started = nullptr;
+  }
+
+  /// Waits for a call that another thread is in.
+  template <class Condition>
+  static void wait_for(const Condition& condition)
+  {
+    for(std::size_t spins = 0; !condition(); ++spins)
       relax(spins);
   }
 
@@ -112,6 +133,26 @@ private:
   static std::uint64_t loop_of(const std::uint64_t gate)
   {
     return gate / one_loop;
+  }
+
+  template <class Body>
+  void open(const std::size_t n, const std::size_t grain, const Body& body)
+  {
+    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
+      for(std::size_t i = begin; i < end; ++i)
+        (*static_cast<const Body*>(b))(i, workspace);
+    };
+    m_body = &body;
+    m_size = n;
+    m_grain = grain;
+    m_next.store(0, std::memory_order_relaxed);
+    announce();
+  }
+
+  void close()
+  {
+    m_gate.fetch_and(~open_bit);
+    wait_for([this] { return (m_gate.load(std::memory_order_acquire) & inside_mask) == 0; });
   }
 
   // Only the calling thread does this, while nobody is inside.
@@ -176,6 +217,8 @@ private:
 
   std::vector<Workspace> m_workspaces;
   std::vector<std::thread> m_workers;
+
+  std::function<void(std::size_t, Workspace&)> m_started;
 
   // The loop that is running.
   void (*m_run)(const void*, std::size_t, std::size_t, Workspace&) = nullptr;
