@@ -328,6 +328,18 @@ TEST_CASE("More copies of an eigenvalue than a block has vectors are found")
     CHECK(pairs.values(k) == Approx(k < 20 ? 0. : single.values(1)).epsilon(1e-8).margin(1e-9));
 }
 
+TEST_CASE("Copies are found where the last block of the first round was not full")
+{
+  // What was kept beyond the first K had not converged, and the second round lost its orthogonality to it.
+  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
+  for(const int K : {21, 26}) {
+    const Eigenpairs pairs = SG::eigenpairs(op, K, with_method(Method::block, 1e-3));
+    CHECK(pairs.complete);
+    const Eigen::MatrixXd gram = pairs.vectors.transpose() * op.B * pairs.vectors;
+    CHECK((gram - Eigen::MatrixXd::Identity(K, K)).cwiseAbs().maxCoeff() < 1e-10);
+  }
+}
+
 TEST_CASE("A kernel larger than K is returned as such")
 {
   const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));

@@ -118,7 +118,7 @@ private:
     m_after_restart = false;
     m_T.block<panel_width, panel_width>(row, row) = 0.5 * (A + A.transpose());
 
-    if(m_loss > 1e-11)
+    if(m_loss > 1e-11 || m_locked)
       reorthogonalise();
     orthonormalise();
     m_loss /= smallest_singular_value(m_link);
@@ -229,10 +229,12 @@ private:
 
   // --- Ritz pairs ---
 
-  // Starts again from the Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
-  // eight more copies.
+  // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
+  // eight more copies. T knows of no link to the Ritz vectors: they must have converged, which those beyond the first K
+  // have not, and what the tolerance leaves of a link is taken off in each step.
   bool find_missing()
   {
+    m_locked = true;
     for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
       m_problem.report(0.85);
       Index missing = 0;
@@ -240,7 +242,7 @@ private:
         return false;
       if(missing == 0)
         return true;
-      compress(rounded_up(m_K));
+      compress(m_K / panel_width * panel_width);
       add_random_panel();
       iterate(m_maximum_panels * panel_width);
     }
@@ -360,6 +362,7 @@ private:
   Eigen::MatrixXd m_Y; // its eigenpairs, descending
   double m_loss = 1.;  // estimated loss of orthogonality
   bool m_after_restart = false;
+  bool m_locked = false; // the basis begins with Ritz vectors whose link has been dropped
   std::mt19937_64 m_random;
 };
 
