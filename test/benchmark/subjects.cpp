@@ -4,12 +4,11 @@
 
 #include "subjects.h"
 
+#include "../../examples/io/mesh_io.h"
 #include "generated_shape.h"
 
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -17,17 +16,12 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
-#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
-#include <CGAL/boost/graph/helpers.h>
 
 #include <chrono>
-#include <stdexcept>
+#include <string>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 namespace {
 
@@ -39,13 +33,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
 Mesh load(const std::string& name)
 {
   const std::string prefix = "generated:";
+  if(name.compare(0, prefix.size(), prefix) != 0)
+    return read_mesh(name);
   Mesh mesh;
-  if(name.compare(0, prefix.size(), prefix) == 0)
-    shapes::make_mesh(mesh, generated_shape(std::stoul(name.substr(prefix.size()))));
-  else if(!CGAL::IO::read_polygon_mesh(name, mesh) || mesh.number_of_faces() == 0)
-    throw std::runtime_error("'" + name + "' cannot be read as a triangle mesh without branches.");
-  if(!CGAL::is_triangle_mesh(mesh))
-    throw std::runtime_error("'" + name + "' has faces that are no triangles.");
+  shapes::make_mesh(mesh, generated_shape(std::stoul(name.substr(prefix.size()))));
   return mesh;
 }
 
