@@ -32,7 +32,7 @@ template <int N>
 CGAL_SPECTRAL_INLINE void spectral_add_multiple(Spectral_lanes& s0, Spectral_lanes& s1, Spectral_lanes& s2,
                                                 Spectral_lanes& s3, const double* row, const double factor)
 {
-  Spectral_lanes x;
+  alignas(32) Spectral_lanes x;
   spectral_load(x, row);
   s0 += x * factor;
   spectral_load(x, row + 4);
@@ -45,7 +45,23 @@ CGAL_SPECTRAL_INLINE void spectral_add_multiple(Spectral_lanes& s0, Spectral_lan
   }
 }
 
-/// 4 N numbers of R from column k on; adds their squares.
+/// Four numbers of R: f + z, where z is first multiplied by lambda if that is given; adds their squares. By reference throughout: a vector by value is passed in
+/// other registers where the caller is compiled for AVX2 and this, not inlined, is not.
+CGAL_SPECTRAL_INLINE void spectral_put(const Spectral_lanes& f, Spectral_lanes& z, const double* lambda,
+                                       double* R, Spectral_lanes& squares)
+{
+  if(lambda != nullptr) {
+    alignas(32) Spectral_lanes factor;
+    spectral_load(factor, lambda);
+    z *= factor;
+  }
+  z += f;
+  squares += z * z;
+  spectral_store(R, z);
+}
+
+/// 4 N numbers of R from column k on; adds their squares. In a template clang forgets that the type asks for less than its
+/// natural alignment: the variables have that.
 template <int N>
 CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields,
                                                    const std::vector<Spectral_row_entry>& row,
@@ -54,7 +70,7 @@ CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields
   const double* const F = fields.F.data() + k;
   const double* const Z = fields.has_z_rows() ? fields.Z.data() + k : F;
   const std::size_t length = std::size_t(fields.F.cols());
-  Spectral_lanes f0 = {}, f1 = {}, f2 = {}, f3 = {}, z0 = {}, z1 = {}, z2 = {}, z3 = {};
+  alignas(32) Spectral_lanes f0 = {}, f1 = {}, f2 = {}, f3 = {}, z0 = {}, z1 = {}, z2 = {}, z3 = {};
   const Spectral_row_entry* const end = row.data() + row.size();
   for(const Spectral_row_entry* e = row.data(); e != end; ++e)
     spectral_add_multiple<N>(f0, f1, f2, f3, F + e->vertex * length, e->of_f);
@@ -62,21 +78,11 @@ CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields
     if(e->of_z != 0) // a lumped mass has an entry for the centre alone
       spectral_add_multiple<N>(z0, z1, z2, z3, Z + e->vertex * length, e->of_z);
   const bool scale = !fields.has_z_rows();
-  const auto put = [&](const Spectral_lanes& f, Spectral_lanes z, const std::size_t i) {
-    Spectral_lanes lambda;
-    if(scale) {
-      spectral_load(lambda, fields.lambda.data() + i);
-      z *= lambda;
-    }
-    z += f;
-    squares += z * z;
-    spectral_store(R + i, z);
-  };
-  put(f0, z0, k);
-  put(f1, z1, k + 4);
+  spectral_put(f0, z0, scale ? fields.lambda.data() + k : nullptr, R + k, squares);
+  spectral_put(f1, z1, scale ? fields.lambda.data() + k + 4 : nullptr, R + k + 4, squares);
   if(N > 2) {
-    put(f2, z2, k + 8);
-    put(f3, z3, k + 12);
+    spectral_put(f2, z2, scale ? fields.lambda.data() + k + 8 : nullptr, R + k + 8, squares);
+    spectral_put(f3, z3, scale ? fields.lambda.data() + k + 12 : nullptr, R + k + 12, squares);
   }
 }
 
@@ -84,7 +90,7 @@ CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fi
                                                        const std::vector<Spectral_row_entry>& row, double* R)
 {
   const std::size_t length = std::size_t(fields.F.cols()); // a multiple of 8
-  Spectral_lanes squares = {};
+  alignas(32) Spectral_lanes squares = {};
   std::size_t k = 0;
   for(; k + 16 <= length; k += 16)
     spectral_combine_columns<4>(fields, row, k, R, squares);
