@@ -48,7 +48,8 @@ struct Spectral_cost_parameters
  * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
  *
  * Order of calls: set_basis() once; set_geometry() at the start of each run; then, in any order,
- * candidate(), cost_at() and evaluate_batch(), which read, and commit(), which follows one collapse.
+ * candidate(), cost_at(), evaluate_around() or start_around(), which read, and commit(), which follows one collapse.
+ * What start_around() has left to other threads is finished by whatever changes the state.
  */
 class Spectral_collapse_core
 {
@@ -140,8 +141,9 @@ public:
   /// E, the sum of E_w over the current vertices (Eq. 2).
   double total() const { return m_total.value(); }
 
-  /// The best way to collapse the edge between two slots. Reads only; one kernel per thread. Where the three samples
-  /// of section 3.4 cost more than `bound` the best of them is taken, and the candidate is to be evaluated again when its turn comes.
+  /// The best way to collapse the edge between two slots. Reads only; one kernel per thread. Where all three samples of
+  /// section 3.4 cost more than `bound`, the best of them is taken and the candidate is marked as deferred: it is to be
+  /// evaluated again, with the minimiser, when its turn comes.
   Spectral_candidate evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
                               const double bound = std::numeric_limits<double>::infinity()) const
   {

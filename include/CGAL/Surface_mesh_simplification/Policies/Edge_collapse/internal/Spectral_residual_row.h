@@ -45,8 +45,8 @@ CGAL_SPECTRAL_INLINE void spectral_add_multiple(Spectral_lanes& s0, Spectral_lan
   }
 }
 
-/// Four numbers of R: f + z, where z is first multiplied by lambda if that is given; adds their squares. By reference throughout: a vector by value is passed in
-/// other registers where the caller is compiled for AVX2 and this, not inlined, is not.
+/// Four numbers of R: f + z, z times lambda first if that is given; adds their squares. By reference throughout: a vector
+/// by value is passed in other registers where the caller is compiled for AVX2 and this, not inlined, is not.
 CGAL_SPECTRAL_INLINE void spectral_put(const Spectral_lanes& f, Spectral_lanes& z, const double* lambda,
                                        double* R, Spectral_lanes& squares)
 {
