@@ -167,7 +167,7 @@ for level in 800 400 200; do
   cmp -s direct.txt fine-$level.txt || fail "the map of level $level is not that of a direct run"
 done
 cmp -s direct.off fine.off || fail "without a target the smallest level is not OUTPUT"
-"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.14 --eigenvectors 25 --json levels.json \
+"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.16 --eigenvectors 25 --json levels.json \
   >said 2>complained || fail "levels and an error: $(cat complained)"
 grep -q "error bound reached" levels.json || fail "the error bound did not end the run"
 grep -q "150 vertices was not reached" complained || fail "a level that was not reached is not warned of"

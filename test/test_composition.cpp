@@ -77,8 +77,17 @@ struct Shifted_placement
 struct Costed_points
 {
   std::map<std::pair<Mesh::Vertex_index, Mesh::Vertex_index>, Point> points;
+  const Policies* policies = nullptr;
   bool selecting = false;
-  std::size_t compared = 0, different = 0;
+  std::size_t compared = 0, different = 0, put_off = 0;
+
+  // A candidate that was put off is evaluated when it is selected. Vertices are numbered as slots are.
+  bool is_put_off(const std::pair<Mesh::Vertex_index, Mesh::Vertex_index>& edge) const
+  {
+    const auto* c =
+        policies->state().core().candidates().find(std::size_t(edge.first), std::size_t(edge.second));
+    return c != nullptr && c->deferred;
+  }
 };
 
 template <class Placement>
@@ -90,11 +99,13 @@ struct Recording_placement
   template <class Profile>
   auto operator()(const Profile& profile) const
   {
-    const auto point = base(profile);
     const std::pair<Mesh::Vertex_index, Mesh::Vertex_index> edge = std::minmax(profile.v0(), profile.v1());
+    const bool put_off = log->selecting && log->is_put_off(edge);
+    const auto point = base(profile);
     if(point && !log->selecting)
       log->points[edge] = *point;
-    if(point && log->selecting) {
+    log->put_off += put_off;
+    if(point && log->selecting && !put_off) {
       ++log->compared;
       log->different += log->points[edge] != *point;
     }
@@ -211,13 +222,14 @@ TEST_CASE("A wrapper may move the point anywhere: the cost is that of its point,
   CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options), off_the_edge) == "");
 }
 
-TEST_CASE("The placement that was costed is the one that is collapsed")
+TEST_CASE("The placement that was costed is the one that is collapsed, unless it was put off")
 {
   const bool batched = GENERATE(false, true);
   Mesh mesh = make_mesh(wavy_grid_matrices(24, 22));
   Policies policies(mesh, options_with(10));
   policies.state().set_batched(batched);
   Costed_points log;
+  log.policies = &policies;
   Selection_visitor visitor;
   visitor.log = &log;
   SMS::edge_collapse(
@@ -226,7 +238,8 @@ TEST_CASE("The placement that was costed is the one that is collapsed")
           .get_placement(Recording_placement<Policies::Get_placement>{policies.get_placement(), &log})
           .visitor(policies.visitor(visitor)));
   CHECK(count_vertices(mesh) == 100);
-  CHECK(log.compared >= 475);
+  CHECK(log.compared + log.put_off >= 475);
+  CHECK(log.compared >= 300);
   CHECK(log.different == 0);
 }
 
