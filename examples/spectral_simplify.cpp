@@ -79,11 +79,13 @@ std::vector<std::string> files_of_level(const Arguments& a, const std::size_t le
 // Makes room for every output, so that what cannot be written is known before the work.
 void announce(Output_files& files, const Arguments& a)
 {
-  for(const std::string& path :
-      {a.output, a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired}) {
+  files.add(a.output); // which may be INPUT itself
+  for(const std::string& path : {a.input, a.keep, a.signals})
+    if(!path.empty())
+      files.keep(path);
+  for(const std::string& path : {a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired})
     if(!path.empty())
       files.add(path);
-  }
   for(const std::size_t level : a.levels)
     for(const std::string& path : files_of_level(a, level))
       files.add(path);

@@ -6,13 +6,14 @@
 #define SPECTRAL_EXAMPLES_IO_MESH_IO_H
 
 #include "matrix_io.h"
-#include "triangle_strips.h"
+#include "ply_reader.h"
+#include "polygon_soup.h"
+#include "text_mesh_readers.h"
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
-#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/IO/STL.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
@@ -24,21 +25,15 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <stdexcept>
 #include <streambuf>
 #include <string>
-#include <vector>
+#include <system_error>
 
-using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 // Reading and writing of meshes with errors of one sentence that name the file and the first offender.
-
-struct Polygon_soup
-{
-  std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
-};
 
 // Returns the extension of a mesh file in lower case; throws when CGAL does not read and write it.
 inline std::string mesh_format(const std::string& path)
@@ -71,26 +66,44 @@ private:
   std::streambuf* m_buffer;
 };
 
+inline Polygon_soup read_stl(const std::string& path)
+{
+  Polygon_soup soup;
+  const Silence silence;
+  if(!CGAL::IO::read_STL(path, soup.points, soup.polygons) || soup.points.empty())
+    throw std::runtime_error("it is damaged or cut off");
+  return soup;
+}
+
 inline Polygon_soup read_polygon_soup(const std::string& path)
 {
   const std::string format = mesh_format(path);
-  if(std::filesystem::is_directory(path))
+  std::error_code error; // what it is about, opening the file says
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if(std::filesystem::is_directory(status))
     throw std::runtime_error("cannot read '" + path + "': it is a folder.");
-  if(!std::ifstream(path))
+  if(std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw std::runtime_error("cannot read '" + path + "': it is not an ordinary file.");
+  std::ifstream file(path, std::ios::binary);
+  if(!file)
     throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno) + ".");
+  if(file.get() == 0x1F && file.get() == 0x8B)
+    throw std::runtime_error("cannot read '" + path + "': it is compressed, unpack it first.");
 
   Polygon_soup soup;
-  bool good = false;
   try {
-    const Silence silence;
-    good = CGAL::IO::read_polygon_soup(path, soup.points, soup.polygons);
-  } catch(const std::exception&) { // a damaged header asks for any amount of memory
-    good = false;
+    soup = format == ".off"   ? read_off(path)
+           : format == ".obj" ? read_obj(path)
+           : format == ".ply" ? Ply_reader::read(path)
+                              : read_stl(path);
+    if(soup.points.empty())
+      throw std::runtime_error("it holds no points");
+  } catch(const std::bad_alloc&) {
+    throw;
+  } catch(const std::exception& fault) {
+    throw std::runtime_error("cannot read '" + path + "': it is not a valid " + format.substr(1) + " file; " +
+                             fault.what() + ".");
   }
-  if(!good || soup.points.empty())
-    throw std::runtime_error("cannot read '" + path + "': it is not a valid " + format.substr(1) + " file.");
-  if(soup.polygons.empty() && format == ".ply")
-    soup.polygons = Triangle_strips::read(path);
   if(soup.polygons.empty())
     throw std::runtime_error("'" + path + "' holds points but no faces.");
   return soup;

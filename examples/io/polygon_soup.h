@@ -1,0 +1,26 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
+#define SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
+
+#include <CGAL/Simple_cartesian.h>
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+// What a mesh file holds, before anybody has looked whether it is a mesh.
+struct Polygon_soup
+{
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+};
+
+// An index that no file can mean; the diagnosis names the face that uses it.
+constexpr std::size_t no_vertex = (std::numeric_limits<std::size_t>::max)();
+
+#endif // SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H

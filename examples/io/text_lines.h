@@ -1,0 +1,123 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
+#define SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
+
+#include <cctype>
+#include <cstddef>
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+// The lines of a text and the words in them. Comments after # are left out, a line that ends in a backslash goes on in the
+// next, and any white space separates, a carriage return as well.
+class Text_lines
+{
+public:
+  explicit Text_lines(const std::string& path)
+    : m_stream(path, std::ios::binary)
+  {}
+
+  // Goes to the next line with a word in it; false at the end of the file.
+  bool next()
+  {
+    while(read_line())
+      if(more())
+        return true;
+    return false;
+  }
+
+  // True if the line has another word.
+  bool more()
+  {
+    while(std::isspace(static_cast<unsigned char>(*m_at)))
+      ++m_at;
+    return *m_at != '\0';
+  }
+
+  // The first character of the next word.
+  char peek() { return more() ? *m_at : '\0'; }
+
+  // The next word, empty if there is none.
+  std::string word()
+  {
+    more();
+    char* begin = m_at;
+    while(*m_at != '\0' && !std::isspace(static_cast<unsigned char>(*m_at)))
+      ++m_at;
+    return std::string(begin, m_at);
+  }
+
+  // The next word as a number, which may be infinite or none: that is for the diagnosis to say.
+  double number()
+  {
+    char* end = m_at;
+    const double value = more() ? std::strtod(m_at, &end) : 0;
+    take(end, "a number");
+    return value;
+  }
+
+  // The next word as an integer; `end_mark` may end it, and what follows in the word is passed over.
+  long long integer(const char end_mark = ' ')
+  {
+    char* end = m_at;
+    const long long value = more() ? std::strtoll(m_at, &end, 10) : 0;
+    if(end != m_at && *end == end_mark)
+      while(*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))
+        ++end;
+    take(end, "an integer");
+    return value;
+  }
+
+  [[noreturn]] void refuse(const std::string& what) const
+  {
+    throw std::runtime_error("line " + std::to_string(m_number) + " " + what);
+  }
+
+private:
+  bool read_line()
+  {
+    m_line.clear();
+    m_at = m_line.data();
+    std::string part;
+    while(std::getline(m_stream, part)) {
+      ++m_number;
+      if(m_number == 1 && part.compare(0, 3, "\xEF\xBB\xBF") == 0) // written by editors under Windows
+        part.erase(0, 3);
+      while(!part.empty() && std::isspace(static_cast<unsigned char>(part.back())))
+        part.pop_back();
+      const std::size_t comment = part.find('#');
+      const bool goes_on = comment == std::string::npos && !part.empty() && part.back() == '\\';
+      if(comment != std::string::npos || goes_on)
+        part.erase(goes_on ? part.size() - 1 : comment);
+      m_line += part;
+      m_at = m_line.data();
+      if(!goes_on)
+        return true;
+      m_line += ' ';
+    }
+    m_at = m_line.data();
+    return !m_line.empty();
+  }
+
+  // The word from here to `end` was read as what it is to be.
+  void take(char* end, const char* what)
+  {
+    if(end == m_at || (*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))) {
+      const std::string wrong = word();
+      refuse(wrong.empty() ? std::string("ends where ") + what + " is expected"
+                           : "holds '" + wrong.substr(0, 40) + "' where " + what + " is expected");
+    }
+    m_at = end;
+  }
+
+  std::ifstream m_stream;
+  std::string m_line;
+  char* m_at = m_line.data();
+  std::size_t m_number = 0;
+};
+
+#endif // SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
