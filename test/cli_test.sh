@@ -308,7 +308,7 @@ printf '\037\213\010' | bad packed.off "compressed, unpack it first"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n' | bad zero.obj "line 4 has the index 0"
 printf 'v 0 0 0\nv 1 0 0\nv 0,5 1 0\nf 1 2 3\n' | bad comma.obj "line 3 holds '0,5'"
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\n%s\nend_header\n0\n2000000000 0 1 2\n' \
-  'property list int int vertex_indices' | bad billion.ply "cut off at face 0 of 1"
+  'property list int int vertex_indices' | bad billion.ply "cut off at .face. 0 of 1"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | bad points.off "no faces"
 refuses "strips that end early" "no faces\|not a valid ply file" cut-strips.ply out.off --vertices 3 --eigenvectors 2
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n3 1 2 4\n' |

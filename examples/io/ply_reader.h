@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_IO_PLY_READER_H
 
 #include "polygon_soup.h"
+#include "text_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -65,7 +66,7 @@ private:
                                                "float",  "float32", "double", "float64"};
     const auto known = std::find(names.begin(), names.end(), name);
     if(known == names.end())
-      refuse("its header has a property of the unknown type '" + name.substr(0, 40) + "'");
+      refuse("its header has a property of the unknown type " + quoted(name));
     return static_cast<Type>((known - names.begin()) / 2 + 1);
   }
 
@@ -85,7 +86,7 @@ private:
         m_text = word == "ascii";
         m_big_endian = word == "binary_big_endian";
         if(!m_text && !m_big_endian && word != "binary_little_endian")
-          refuse("its format is '" + word.substr(0, 40) + "'");
+          refuse("its format is " + quoted(word));
       } else if(word == "element") {
         m_elements.emplace_back();
         if(!(words >> m_elements.back().name >> m_elements.back().count))
@@ -122,7 +123,7 @@ private:
       std::array<double, 3> point = {0, 0, 0};
       for(const Property& property : element.properties)
         if(!(property.count_type == Type::none ? read_single(property, point) : read_list(property)))
-          refuse("it is damaged or cut off at " + element.name + " " + std::to_string(i) + " of " +
+          refuse("it is damaged or cut off at " + quoted(element.name) + " " + std::to_string(i) + " of " +
                  std::to_string(element.count) + " (counted from 0)");
         else if(property.count_type != Type::none && faces &&
                 (property.name == "vertex_indices" || property.name == "vertex_index"))

@@ -5,12 +5,23 @@
 #ifndef SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
 #define SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
 
+#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+
+// The beginning of a word of a file, in quotation marks and fit for a message: damaged files hold anything.
+inline std::string quoted(std::string word)
+{
+  word.resize((std::min)(word.size(), std::size_t(40)));
+  for(char& c : word)
+    if(c < ' ' || c > '~')
+      c = '?';
+  return "'" + word + "'";
+}
 
 // The lines of a text and the words in them. Comments after # are left out, a line that ends in a backslash goes on in the
 // next, and any white space separates, a carriage return as well.
@@ -109,7 +120,7 @@ private:
     if(end == m_at || (*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))) {
       const std::string wrong = word();
       refuse(wrong.empty() ? std::string("ends where ") + what + " is expected"
-                           : "holds '" + wrong.substr(0, 40) + "' where " + what + " is expected");
+                           : "holds " + quoted(wrong) + " where " + what + " is expected");
     }
     m_at = end;
   }
