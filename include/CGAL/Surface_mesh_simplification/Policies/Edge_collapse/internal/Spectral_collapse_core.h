@@ -593,7 +593,7 @@ private:
     const std::size_t n = m_batch.size();
     if(m_tasks.size() < n)
       m_tasks = std::vector<Task>(2 * n);
-    m_number_of_tasks = n;
+    m_number_of_tasks = m_last_task = n;
     m_number_of_evaluations += n;
     m_bound = minimiser_bound();
     for(std::size_t i = 0; i < n; ++i) {
@@ -622,7 +622,10 @@ private:
   {
     Task& task = m_tasks[i];
     run_task(i, m_pool->workspace());
-    Pool::wait_for([&task] { return task.stage.load(std::memory_order_acquire) == Task::done; });
+    const auto done = [&task] { return task.stage.load(std::memory_order_acquire) == Task::done; };
+    while(m_last_task > i && !done()) // rather than to wait: the others begin at the front
+      run_task(--m_last_task, m_pool->workspace());
+    Pool::wait_for(done);
     task.collected = true;
     return m_candidates.insert(m_batch[i].first, task.result);
   }
@@ -642,7 +645,7 @@ private:
   std::vector<Edge> m_batch;
   std::vector<Spectral_candidate> m_results;
   mutable std::vector<Task> m_tasks;
-  mutable std::size_t m_number_of_tasks = 0;
+  mutable std::size_t m_number_of_tasks = 0, m_last_task = 0;
   double m_bound = 0;
   Spectral_change m_change;
   std::size_t m_number_of_evaluations = 0;

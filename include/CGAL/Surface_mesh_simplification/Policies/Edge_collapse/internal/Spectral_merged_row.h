@@ -9,6 +9,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_link.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_ring_products.h>
 
 #include <cstddef>
@@ -39,18 +40,18 @@ class Spectral_merged_row
 {
 public:
   using Lanes = Spectral_lanes;
+  using Ring = Spectral_ring_products::View;
 
-  CGAL_SPECTRAL_INLINE void prepare(const Spectral_fields& fields, const Spectral_ring_products& of_u,
-                                    const Spectral_ring_products& of_v, const Spectral_slot u,
-                                    const Spectral_slot v, const std::size_t v_in_u, const std::size_t u_in_v)
+  CGAL_SPECTRAL_INLINE void prepare(const Spectral_fields& fields, const Spectral_link& link,
+                                    const Ring& of_u, const Ring& of_v)
   {
     m_full = fields.theta != 0;
-    m_v_in_u = v_in_u;
-    m_of_u = &of_u;
-    m_of_v = &of_v;
-    m_u_in_v = u_in_v;
-    classify(fields.rings[u], fields.rings[v]);
-    multiply_across(fields, u, v);
+    m_v_in_u = link.v_in_u();
+    m_u_in_v = link.u_in_v();
+    m_of_u = of_u;
+    m_of_v = of_v;
+    classify(link);
+    multiply_across(fields, link);
     fill_gram();
   }
 
@@ -59,8 +60,9 @@ public:
                                      const Lanes& weight, const double diagonal, const double off_diagonal,
                                      const double area_scale, Lanes& cost)
   {
-    const std::size_t nu = m_of_u->degree(), nv = m_far.size();
-    m_c.resize(m_n);
+    const std::size_t nu = m_of_u.d, nv = m_nv;
+    if(m_c.size() < m_n)
+      m_c.resize(m_n);
     Lanes sum_u = {}, sum_v = {};
     for(std::size_t i = 0, k = 0; i < nu; ++i)
       if(i != m_v_in_u) {
@@ -96,7 +98,7 @@ private:
     norm = Lanes{};
     std::size_t i = 0;
     for(; i + 1 < m_n; i += 2) {
-      const double *g = m_gram.data() + i * m_n, *h = g + m_n;
+      const double *g = m_gram.data() + i * m_width, *h = g + m_width;
       Lanes row_g = {}, row_h = {};
       for(std::size_t j = i + 2; j < m_n; ++j) {
         const Lanes& c = m_c[j].value;
@@ -109,65 +111,62 @@ private:
     }
     if(i < m_n) {
       const Lanes& c = m_c[i].value;
-      norm += c * c * m_gram[i * m_n + i];
+      norm += c * c * m_gram[i * m_width + i];
     }
   }
 
   // m_far: ring indices, at v, of the neighbours of v alone. m_at_v: for each index in the ring of u that at v (v
   // itself: the centre), or the row of the products across, counted down from -1.
-  void classify(const Spectral_ring& ring_u, const Spectral_ring& ring_v)
+  CGAL_SPECTRAL_INLINE void classify(const Spectral_link& link)
   {
-    m_far.clear();
-    m_only_u.clear();
-    m_at_v.assign(ring_u.size(), -1);
-    m_at_v[m_v_in_u] = int(ring_v.size());
-    // A vertex next to both makes a face with the edge, so it is next to v in the ring of u.
-    const std::size_t beside[2] = {Spectral_rings::next(ring_u, m_v_in_u),
-                                   Spectral_rings::prev(ring_u, m_v_in_u)};
-    for(std::size_t m = 0; m < ring_v.size(); ++m) {
-      const Spectral_slot s = ring_v[m].vertex;
-      if(m == m_u_in_v)
-        continue;
-      if(ring_u[beside[0]].vertex == s)
-        m_at_v[beside[0]] = int(m);
-      else if(ring_u[beside[1]].vertex == s)
-        m_at_v[beside[1]] = int(m);
-      else
-        m_far.push_back(m);
+    const std::size_t nu = m_of_u.d, n = link.size();
+    m_nv = n - (nu - 1);
+    if(m_at_v.size() < n + 1) {
+      m_at_v.resize(n + 1);
+      m_far.resize(n + 1);
+      m_a.resize(2 * n + 2);
+      m_b.resize(2 * n + 2);
     }
-    for(std::size_t i = 0; i < ring_u.size(); ++i)
-      if(m_at_v[i] == -1) {
-        m_only_u.push_back(i);
-        m_at_v[i] = -int(m_only_u.size());
-      }
+    m_na = 0;
+    for(std::size_t k = 0; k + 1 < nu; ++k) {
+      const Spectral_link_vertex& w = link[k];
+      m_at_v[w.in_u] = w.ends == next_to_u_and_v ? int(w.in_v) : -int(++m_na);
+    }
+    m_at_v[m_v_in_u] = int(m_of_v.d);
+    for(std::size_t m = 0; m < m_nv; ++m)
+      m_far[m] = link[nu - 1 + m].in_v;
   }
 
   // Products of f_i - f_u (and z_i) for i next to u alone with f_m - f_v (and z_m) for m next to v alone.
-  CGAL_SPECTRAL_INLINE void multiply_across(const Spectral_fields& fields, const Spectral_slot u,
-                                            const Spectral_slot v)
+  CGAL_SPECTRAL_INLINE void multiply_across(const Spectral_fields& fields, const Spectral_link& link)
   {
-    const std::size_t length = std::size_t(fields.F.cols()), na = m_only_u.size(), nb = m_far.size();
+    const std::size_t length = std::size_t(fields.F.cols()), nu = m_of_u.d, na = m_na, nb = m_nv;
     const std::size_t stride = m_full ? 2 * nb : nb;
     m_stride = stride;
     if(na == 0 || nb == 0)
       return; // no products, and the pointers into empty vectors would be null
-    m_a.resize(m_full ? 2 * na : na);
-    m_b.resize(stride);
-    for(std::size_t i = 0; i < na; ++i)
-      m_a[i] = fields.f_row(fields.rings[u][m_only_u[i]].vertex);
+    for(std::size_t k = 0, i = 0; i < na; ++k)
+      if(link[k].ends == next_to_u)
+        m_a[i++] = fields.f_row(link[k].slot);
     for(std::size_t m = 0; m < nb; ++m)
-      m_b[m] = fields.f_row(fields.rings[v][m_far[m]].vertex);
-    m_across.resize((m_full ? 2 : 1) * na * stride);
-    const Spectral_row_list a{m_a.data(), na, fields.f_row(u)}, b{m_b.data(), nb, fields.f_row(v)};
+      m_b[m] = fields.f_row(link[nu - 1 + m].slot);
+    const std::size_t size = (m_full ? 2 : 1) * na * stride;
+    if(m_across.size() < size)
+      m_across.resize(size);
+    const Spectral_row_list a{m_a.data(), na, fields.f_row(link.u())},
+        b{m_b.data(), nb, fields.f_row(link.v())};
     spectral_dots<true, true>(a, b, length, m_across.data(), stride);
     if(!m_full)
       return;
     m_scratch.resize((na + nb) * length);
     double* const scratch = m_scratch.data();
-    for(std::size_t i = 0; i < na; ++i)
-      m_a[na + i] = fields.z_row(fields.rings[u][m_only_u[i]].vertex, scratch + i * length);
+    for(std::size_t k = 0, i = 0; i < na; ++k)
+      if(link[k].ends == next_to_u) {
+        m_a[na + i] = fields.z_row(link[k].slot, scratch + i * length);
+        ++i;
+      }
     for(std::size_t m = 0; m < nb; ++m)
-      m_b[nb + m] = fields.z_row(fields.rings[v][m_far[m]].vertex, scratch + (na + m) * length);
+      m_b[nb + m] = fields.z_row(link[nu - 1 + m].slot, scratch + (na + m) * length);
     const Spectral_row_list za{m_a.data() + na, na}, zb{m_b.data() + nb, nb};
     spectral_dots<true, false>(a, zb, length, m_across.data() + nb, stride);
     spectral_dots<false, true>(za, b, length, m_across.data() + na * stride, stride);
@@ -176,82 +175,95 @@ private:
 
   double across(const int row, const std::size_t m, const bool z_of_u, const bool z_of_v) const
   {
-    const std::size_t i = std::size_t(-row - 1) + (z_of_u ? m_only_u.size() : 0);
-    return m_across[i * m_stride + m + (z_of_v ? m_far.size() : 0)];
+    const std::size_t i = std::size_t(-row - 1) + (z_of_u ? m_na : 0);
+    return m_across[i * m_stride + m + (z_of_v ? m_nv : 0)];
   }
 
   // Order: the ring of u (v at its place), the neighbours of v alone, z_u, z_v, then z of the link. Upper triangle.
   CGAL_SPECTRAL_INLINE void fill_gram()
   {
-    const Spectral_ring_products &p = *m_of_u, &q = *m_of_v;
-    const std::size_t nu = p.degree(), nv = m_far.size(), zu = nu + nv, zv = zu + 1;
+    const Ring &p = m_of_u, &q = m_of_v;
+    const std::size_t nu = p.d, nv = m_nv, zu = nu + nv, zv = zu + 1;
     m_n = zv + 1 + (m_full ? nu - 1 + nv : 0);
-    m_gram.resize(m_n * m_n);
+    m_width = m_n + 4;
+    if(m_gram.size() < m_n * m_width)
+      m_gram.resize(m_n * m_width);
+    const double *const z_u = p.z_g(nu), *const z_v = p.z_g(m_v_in_u), *const from_u = q.g(m_u_in_v);
     for(std::size_t i = 0; i < nu; ++i) {
-      for(std::size_t j = i; j < nu; ++j)
-        at(i, j) = p.gg(i, j);
-      for(std::size_t m = 0; m < nv; ++m)
-        at(i, nu + m) = gg_across(i, m);
-      at(i, zu) = p.zg(nu, i);
-      at(i, zv) = p.zg(m_v_in_u, i);
+      double* const row = m_gram.data() + i * m_width;
+      const double* const g = p.g(i);
+      // What is copied beyond the row of g is overwritten, or in the room at the end.
+      for(std::size_t j = i; j < nu; j += 4) {
+        Spectral_lanes four;
+        spectral_load(four, g + j);
+        spectral_store(row + j, four);
+      }
+      double* const across = row + nu;
+      if(i == m_v_in_u)
+        for(std::size_t m = 0; m < nv; ++m)
+          across[m] = -from_u[m_far[m]];
+      else if(m_at_v[i] < 0) {
+        const double* const products = m_across.data() + std::size_t(-m_at_v[i] - 1) * m_stride;
+        for(std::size_t m = 0; m < nv; ++m)
+          across[m] = products[m];
+      } else {
+        const double* const both = q.g(std::size_t(m_at_v[i]));
+        for(std::size_t m = 0; m < nv; ++m)
+          across[m] = both[m_far[m]] - from_u[m_far[m]];
+      }
+      row[zu] = z_u[i];
+      row[zv] = z_v[i];
     }
+    const double *const z_at_u = q.z_g(m_u_in_v), *const z_at_v = q.z_g(q.d);
     for(std::size_t m = 0; m < nv; ++m) {
+      double* const row = m_gram.data() + (nu + m) * m_width;
+      const double* const g = q.g(m_far[m]);
       for(std::size_t l = m; l < nv; ++l)
-        at(nu + m, nu + l) = q.gg(m_far[m], m_far[l]);
-      at(nu + m, zu) = q.zg(m_u_in_v, m_far[m]);
-      at(nu + m, zv) = q.zg(q.degree(), m_far[m]);
+        row[nu + l] = g[m_far[l]];
+      row[zu] = z_at_u[m_far[m]];
+      row[zv] = z_at_v[m_far[m]];
     }
-    at(zu, zu) = p.zz(nu, nu);
-    at(zu, zv) = p.zz(nu, m_v_in_u);
-    at(zv, zv) = q.zz(q.degree(), q.degree());
+    at(zu, zu) = p.z(nu)[nu];
+    at(zu, zv) = p.z(nu)[m_v_in_u];
+    at(zv, zv) = q.z(q.d)[q.d];
     if(m_full)
       fill_gram_of_z(zu, zv);
   }
 
   CGAL_SPECTRAL_INLINE void fill_gram_of_z(const std::size_t zu, const std::size_t zv)
   {
-    const Spectral_ring_products &p = *m_of_u, &q = *m_of_v;
-    const std::size_t nu = p.degree(), nv = m_far.size(), first_far = zv + nu; // of z_m, m next to v alone
+    const Ring &p = m_of_u, &q = m_of_v;
+    const std::size_t nu = p.d, nv = m_nv, first_far = zv + nu; // of z_m, m next to v alone
     const auto column = [&](const std::size_t i) { return zv + 1 + i - (i > m_v_in_u ? 1 : 0); };
     for(std::size_t i = 0; i < nu; ++i) {
       if(i == m_v_in_u)
         continue;
       const std::size_t zi = column(i);
       for(std::size_t j = 0; j < nu; ++j)
-        at(j, zi) = p.zg(i, j);
+        at(j, zi) = p.z_g(i)[j];
       for(std::size_t m = 0; m < nv; ++m) {
         at(nu + m, zi) =
-            m_at_v[i] >= 0 ? q.zg(std::size_t(m_at_v[i]), m_far[m]) : across(m_at_v[i], m, true, false);
+            m_at_v[i] >= 0 ? q.z_g(std::size_t(m_at_v[i]))[m_far[m]] : across(m_at_v[i], m, true, false);
         at(zi, first_far + m) =
-            m_at_v[i] >= 0 ? q.zz(std::size_t(m_at_v[i]), m_far[m]) : across(m_at_v[i], m, true, true);
+            m_at_v[i] >= 0 ? q.z(std::size_t(m_at_v[i]))[m_far[m]] : across(m_at_v[i], m, true, true);
       }
-      at(zu, zi) = p.zz(nu, i);
-      at(zv, zi) = p.zz(m_v_in_u, i);
+      at(zu, zi) = p.z(nu)[i];
+      at(zv, zi) = p.z(m_v_in_u)[i];
       for(std::size_t j = i; j < nu; ++j)
         if(j != m_v_in_u)
-          at(zi, column(j)) = p.zz(i, j);
+          at(zi, column(j)) = p.z(i)[j];
     }
     for(std::size_t m = 0; m < nv; ++m) {
       const std::size_t zm = first_far + m;
       for(std::size_t j = 0; j < nu; ++j)
         at(j, zm) = gz_across(j, m);
       for(std::size_t l = 0; l < nv; ++l)
-        at(nu + l, zm) = q.zg(m_far[m], m_far[l]);
-      at(zu, zm) = q.zz(m_u_in_v, m_far[m]);
-      at(zv, zm) = q.zz(q.degree(), m_far[m]);
+        at(nu + l, zm) = q.z_g(m_far[m])[m_far[l]];
+      at(zu, zm) = q.z(m_u_in_v)[m_far[m]];
+      at(zv, zm) = q.z(q.d)[m_far[m]];
       for(std::size_t l = m; l < nv; ++l)
-        at(zm, first_far + l) = q.zz(m_far[m], m_far[l]);
+        at(zm, first_far + l) = q.z(m_far[m])[m_far[l]];
     }
-  }
-
-  // (f_i - f_u) . (f_m - f_v): with f_i - f_u = (f_i - f_v) - (f_u - f_v) where i is next to v as well.
-  double gg_across(const std::size_t i, const std::size_t m) const
-  {
-    const int j = m_at_v[i];
-    if(j < 0)
-      return across(j, m, false, false);
-    const double to_u = m_of_v->gg(m_u_in_v, m_far[m]);
-    return i == m_v_in_u ? -to_u : m_of_v->gg(std::size_t(j), m_far[m]) - to_u;
   }
 
   // (f_i - f_u) . z_m
@@ -260,20 +272,22 @@ private:
     const int j = m_at_v[i];
     if(j < 0)
       return across(j, m, false, true);
-    const double to_u = m_of_v->zg(m_far[m], m_u_in_v);
-    return i == m_v_in_u ? -to_u : m_of_v->zg(m_far[m], std::size_t(j)) - to_u;
+    const double* const z = m_of_v.z_g(m_far[m]);
+    return i == m_v_in_u ? -z[m_u_in_v] : z[std::size_t(j)] - z[m_u_in_v];
   }
 
-  double& at(const std::size_t i, const std::size_t j) { return m_gram[i * m_n + j]; }
+  double& at(const std::size_t i, const std::size_t j) { return m_gram[i * m_width + j]; }
 
-  const Spectral_ring_products *m_of_u = nullptr, *m_of_v = nullptr;
+  Ring m_of_u{}, m_of_v{};
   std::size_t m_v_in_u = 0, m_u_in_v = 0;
+  std::size_t m_na = 0, m_nv = 0; // vertices next to u alone, to v alone
   bool m_full = false;
-  std::vector<std::size_t> m_far, m_only_u;
+  // Scratch memory that only grows.
+  std::vector<std::size_t> m_far;
   std::vector<int> m_at_v;
   std::vector<double> m_scratch, m_across, m_gram;
   std::vector<const double*> m_a, m_b;
-  std::size_t m_n = 0, m_stride = 0;
+  std::size_t m_n = 0, m_width = 0, m_stride = 0;
   std::vector<Coefficient> m_c;
 };
 

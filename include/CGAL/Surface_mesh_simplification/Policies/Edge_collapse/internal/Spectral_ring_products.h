@@ -155,6 +155,59 @@ CGAL_SPECTRAL_INLINE void spectral_dots(const Spectral_row_list& a, const Spectr
   spectral_dots<CenterA, CenterB>(a, b, length, Spectral_strided_rows{out, stride});
 }
 
+// out[i] = rows[i] . y for M rows.
+template <int M>
+CGAL_SPECTRAL_INLINE void spectral_dot_block_with(const double* const* rows, const double* y,
+                                                  const std::size_t length, double* out)
+{
+  const double *a0 = rows[0], *a1 = rows[M > 1 ? 1 : 0], *a2 = rows[M > 2 ? 2 : 0], *a3 = rows[M > 3 ? 3 : 0];
+  Spectral_lanes s0 = {}, s1 = {}, s2 = {}, s3 = {};
+  const auto step = [&](const std::size_t k) {
+    Spectral_lanes c, x;
+    spectral_load(c, y + k);
+    spectral_load(x, a0 + k);
+    s0 += x * c;
+    if(M > 1) {
+      spectral_load(x, a1 + k);
+      s1 += x * c;
+    }
+    if(M > 2) {
+      spectral_load(x, a2 + k);
+      s2 += x * c;
+    }
+    if(M > 3) {
+      spectral_load(x, a3 + k);
+      s3 += x * c;
+    }
+  };
+  for(std::size_t k = 0; k < length; k += 8) {
+    step(k);
+    step(k + 4);
+  }
+  out[0] = spectral_sum(s0);
+  if(M > 1)
+    out[1] = spectral_sum(s1);
+  if(M > 2)
+    out[2] = spectral_sum(s2);
+  if(M > 3)
+    out[3] = spectral_sum(s3);
+}
+
+/// out[i] = rows[i] . y, four rows at a time.
+CGAL_SPECTRAL_INLINE void spectral_dots_with(const double* const* rows, const std::size_t n, const double* y,
+                                             const std::size_t length, double* out)
+{
+  std::size_t i = 0;
+  for(; i + 4 <= n; i += 4)
+    spectral_dot_block_with<4>(rows + i, y, length, out + i);
+  if(n - i == 3)
+    spectral_dot_block_with<3>(rows + i, y, length, out + i);
+  else if(n - i == 2)
+    spectral_dot_block_with<2>(rows + i, y, length, out + i);
+  else if(n - i == 1)
+    spectral_dot_block_with<1>(rows + i, y, length, out + i);
+}
+
 /*!
  * Inner products in the ring of a vertex c with neighbours n_0 .. n_(d-1): of the differences g_j = f_j - f_c, and of
  * the rows of Z of the neighbours and, at index d, of c itself, and of R_c.
