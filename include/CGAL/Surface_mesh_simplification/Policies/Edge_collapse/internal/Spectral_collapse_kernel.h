@@ -271,8 +271,7 @@ private:
         m_rows[count++] = fields.r_row(m_link[i].slot);
       }
     const double *const f_u = fields.f_row(m_link.u()), *const f_v = fields.f_row(m_link.v());
-    for(std::size_t k = 0; k < length; ++k)
-      m_scratch[k] = f_v[k] - f_u[k];
+    spectral_subtract_rows(f_v, f_u, length, m_scratch.data());
     spectral_dots_with(m_rows.data(), count, m_scratch.data(), length, m_far.data());
     std::size_t next = 0;
     for(std::size_t i = 0; i < n; ++i)

@@ -56,9 +56,7 @@ struct Spectral_fields
   {
     if(has_z_rows())
       return z_row(s);
-    const double* f = f_row(s);
-    for(std::size_t k = 0; k < std::size_t(F.cols()); ++k)
-      result[k] = lambda.data()[k] * f[k];
+    spectral_multiply_rows(lambda.data(), f_row(s), std::size_t(F.cols()), result);
     return result;
   }
   const double* r_row(const Spectral_slot s) const

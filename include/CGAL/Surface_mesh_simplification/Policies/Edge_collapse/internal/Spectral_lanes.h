@@ -110,6 +110,40 @@ CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
+/// result = a - b for rows of a padded length.
+CGAL_SPECTRAL_INLINE void spectral_subtract_rows(const double* a, const double* b, const std::size_t length,
+                                                 double* result)
+{
+  Spectral_lanes x, y;
+  for(std::size_t k = 0; k < length; k += 8) {
+    spectral_load(x, a + k);
+    spectral_load(y, b + k);
+    x -= y;
+    spectral_store(result + k, x);
+    spectral_load(x, a + k + 4);
+    spectral_load(y, b + k + 4);
+    x -= y;
+    spectral_store(result + k + 4, x);
+  }
+}
+
+/// result = a times b, number by number.
+CGAL_SPECTRAL_INLINE void spectral_multiply_rows(const double* a, const double* b, const std::size_t length,
+                                                 double* result)
+{
+  Spectral_lanes x, y;
+  for(std::size_t k = 0; k < length; k += 8) {
+    spectral_load(x, a + k);
+    spectral_load(y, b + k);
+    x *= y;
+    spectral_store(result + k, x);
+    spectral_load(x, a + k + 4);
+    spectral_load(y, b + k + 4);
+    x *= y;
+    spectral_store(result + k + 4, x);
+  }
+}
+
 /// result = 1 / sqrt(x) where x > bound, else 0; adds 1 to `failed` where the result is 0.
 CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Spectral_lanes& x,
                                                 const Spectral_lanes& bound, Spectral_lanes& failed)

@@ -65,7 +65,8 @@ CGAL_SPECTRAL_INLINE void spectral_put(const Spectral_lanes& f, Spectral_lanes& 
 template <int N>
 CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields,
                                                    const std::vector<Spectral_row_entry>& row,
-                                                   const std::size_t k, double* R, Spectral_lanes& squares)
+                                                   const Spectral_row_entry* first_of_z, const std::size_t k,
+                                                   double* R, Spectral_lanes& squares)
 {
   const double* const F = fields.F.data() + k;
   const double* const Z = fields.has_z_rows() ? fields.Z.data() + k : F;
@@ -74,9 +75,8 @@ CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields
   const Spectral_row_entry* const end = row.data() + row.size();
   for(const Spectral_row_entry* e = row.data(); e != end; ++e)
     spectral_add_multiple<N>(f0, f1, f2, f3, F + e->vertex * length, e->of_f);
-  for(const Spectral_row_entry* e = row.data(); e != end; ++e)
-    if(e->of_z != 0) // a lumped mass has an entry for the centre alone
-      spectral_add_multiple<N>(z0, z1, z2, z3, Z + e->vertex * length, e->of_z);
+  for(const Spectral_row_entry* e = first_of_z; e != end; ++e)
+    spectral_add_multiple<N>(z0, z1, z2, z3, Z + e->vertex * length, e->of_z);
   const bool scale = !fields.has_z_rows();
   spectral_put(f0, z0, scale ? fields.lambda.data() + k : nullptr, R + k, squares);
   spectral_put(f1, z1, scale ? fields.lambda.data() + k + 4 : nullptr, R + k + 4, squares);
@@ -91,11 +91,15 @@ CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fi
 {
   const std::size_t length = std::size_t(fields.F.cols()); // a multiple of 8
   alignas(32) Spectral_lanes squares = {};
+  const Spectral_row_entry *first_of_z = row.data(), *const end = first_of_z + row.size();
+  while(first_of_z != end &&
+        first_of_z->of_z == 0) // a lumped mass has an entry for the centre alone, the last
+    ++first_of_z;
   std::size_t k = 0;
   for(; k + 16 <= length; k += 16)
-    spectral_combine_columns<4>(fields, row, k, R, squares);
+    spectral_combine_columns<4>(fields, row, first_of_z, k, R, squares);
   if(k < length)
-    spectral_combine_columns<2>(fields, row, k, R, squares);
+    spectral_combine_columns<2>(fields, row, first_of_z, k, R, squares);
   return spectral_sum(squares);
 }
 

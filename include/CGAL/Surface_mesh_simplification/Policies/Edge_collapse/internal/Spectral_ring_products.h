@@ -360,8 +360,7 @@ private:
     for(std::size_t j = 0; j < d; ++j) {
       double* g = next;
       next += length;
-      for(std::size_t k = 0; k < length; ++k)
-        g[k] = m_f[j][k] - fc[k];
+      spectral_subtract_rows(m_f[j], fc, length, g);
       m_g[j] = g;
       m_right[j] = against_z(fields, g, next);
     }
@@ -399,8 +398,7 @@ private:
     double *next = scratch(5 * length + d + 1), *gx = next;
     next += length;
     const Spectral_row_list g{m_f.data(), d, fields.f_row(c)}, z{left_of_z(), d + 1};
-    for(std::size_t k = 0; k < length; ++k)
-      gx[k] = m_f[moved][k] - g.center[k];
+    spectral_subtract_rows(m_f[moved], g.center, length, gx);
     const double* const rows[3] = {gx, fields.r_row(c), z_row(fields, moved, next)};
     double* const gg = products.g_rows() + moved * d;
     spectral_dots<false, true>({rows, 3}, g, length,
@@ -471,11 +469,9 @@ private:
                                                          double*& next)
   {
     const std::size_t length = std::size_t(fields.F.cols());
-    const double* lambda = fields.lambda.data();
     double* const result = next;
     next += length;
-    for(std::size_t k = 0; k < length; ++k)
-      result[k] = lambda[k] * row[k];
+    spectral_multiply_rows(fields.lambda.data(), row, length, result);
     return result;
   }
 
