@@ -277,15 +277,10 @@ public:
     m_total.add(-m_fields.E[removed]);
     m_fields.E[removed] = m_fields.mass[removed] = 0;
     m_fields.points[kept] = point;
-    m_fields.rings.merge(removed, kept, std::move(ring),
-                         [this](const Spectral_slot w, const std::size_t i) { m_products[w].erase(i); });
-    m_candidates.merge(removed);
-
+    m_fields.rings.merge(removed, kept, std::move(ring));
     m_fields.rings.update_triangles(kept, position());
-    for(const Spectral_ring_entry& e : m_fields.rings[kept]) {
-      m_fields.rings.update_triangles_at(e.vertex, e.back, position());
-      m_candidates.forget(e.vertex, removed);
-    }
+    m_candidates.merge(removed);
+    follow_around(removed, kept);
     refresh_around(removed, kept);
     m_recent_cost = (std::max)(total() - before, m_recent_cost * recent_cost_decay);
   }
@@ -379,6 +374,21 @@ private:
     m_fields.E[w] = area > 0 ? square / m_fields.mass[w] : 0;
   }
 
+  // The rings of the neighbours of `kept`, and the products in those that have lost an entry.
+  void follow_around(const Spectral_slot removed, const Spectral_slot kept)
+  {
+    Spectral_rings& rings = m_fields.rings;
+    for(std::size_t i = 0; i < rings[kept].size(); ++i) {
+      const Spectral_slot w = rings[kept][i].vertex;
+      const std::size_t lost = rings.follow(removed, kept, i);
+      if(lost != Spectral_rings::none) {
+        m_products[w].erase(lost);
+        rings.link_back(w);
+      }
+      m_candidates.forget(w, removed);
+    }
+  }
+
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift. f changed at `kept` alone: the products in its ring are computed afresh, in those of
   // its neighbours what f of `kept` or R of the centre is in. The rings around them hold neither.
@@ -396,7 +406,7 @@ private:
       if(i == 0 || rings[c].size() != m_products[c].degree())
         workspace.builder.compute(m_fields, c, m_products[c]);
       else
-        workspace.builder.update(m_fields, c, m_products[c], rings.find(c, kept));
+        workspace.builder.update(m_fields, c, m_products[c], rings[kept][i - 1].back);
     });
     for(std::size_t i = 0; i < n; ++i)
       m_total.add(m_fields.E[center(i)]);

@@ -133,31 +133,34 @@ public:
       update_triangle(c, i, position);
   }
 
-  /// The same for the two triangles next to the neighbour at index i.
-  template <class Position>
-  void update_triangles_at(const Spectral_slot c, const std::size_t i, const Position& position)
-  {
-    update_triangle(c, i, position);
-    update_triangle(c, prev(m_rings[c], i), position);
-  }
-
-  /// Replaces `removed` by `kept` in the rings of the neighbours and forgets the ring of `removed`.
-  /// `ring` is the ring of the kept vertex after the collapse, as the mesh has it. Calls `erased(w, i)` where a
-  /// neighbour w had both and has lost the entry at index i.
-  template <class Erased>
-  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring, const Erased& erased)
+  /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it, as the mesh has it.
+  /// Its triangles follow from update_triangles(), those around it from follow().
+  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
   {
     Spectral_ring().swap(m_rings[removed]);
     m_rings[kept] = std::move(ring);
-    for(const Spectral_ring_entry& e : m_rings[kept]) {
-      const std::size_t i = replace_in_ring(e.vertex, removed, kept);
-      if(i <= m_rings[e.vertex].size()) {
-        erased(e.vertex, i);
-        link_back(e.vertex);
-      }
-    }
-    link_back(kept);
   }
+
+  /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place of `removed` in the ring
+  /// of w, and takes the two triangles that they share. Returns the index of the entry that w has lost, or none: where it has
+  /// lost one, link_back(w) must follow.
+  std::size_t follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
+  {
+    Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
+    const std::size_t gone = replace_in_ring(ring, removed, kept), j = find(around[i].vertex, kept);
+    CGAL_assertion(j < ring.size());
+    around[i].back = std::uint32_t(j);
+    ring[j].back = std::uint32_t(i);
+    // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
+    const Spectral_triangle &to_next = around[i].triangle, &to_previous = around[prev(around, i)].triangle;
+    ring[prev(ring, j)].triangle =
+        Spectral_triangle{to_next.cot_first, to_next.cot_second, to_next.cot_center, to_next.area};
+    ring[j].triangle = Spectral_triangle{to_previous.cot_second, to_previous.cot_center,
+                                         to_previous.cot_first, to_previous.area};
+    return gone;
+  }
+
+  static constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
 
   /// Sets `back` on both sides of every entry of the ring of c.
   void link_back(const Spectral_slot c)
@@ -183,12 +186,13 @@ private:
 
   // Where removed and kept were consecutive, the triangle between them vanished and the later of the
   // two entries takes the place of both: an entry carries the face that follows it.
-  // Returns the index that was erased, or a large number.
-  std::size_t replace_in_ring(const Spectral_slot w, const Spectral_slot removed, const Spectral_slot kept)
+  // Returns the index that was erased, or none.
+  static std::size_t replace_in_ring(Spectral_ring& ring, const Spectral_slot removed,
+                                     const Spectral_slot kept)
   {
-    Spectral_ring& ring = m_rings[w];
-    constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
-    const std::size_t i = find(w, removed);
+    std::size_t i = 0;
+    while(i < ring.size() && ring[i].vertex != removed)
+      ++i;
     if(i == ring.size())
       return none;
     ring[i].vertex = kept;
