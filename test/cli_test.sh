@@ -465,7 +465,7 @@ while [ -z "$ended" ] && [ "$attempts" -lt 60 ]; do
   kill -INT "$process" 2>/dev/null
   wait "$process"
   status=$?
-  if [ "$status" -eq 0 ]; then
+  if [ "$status" -eq 0 ] || [ -e stopped/pairs ]; then # it had ended, or was writing all that there is
     high=$delay
   elif grep -q "nothing was written" complained; then
     low=$delay

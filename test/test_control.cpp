@@ -452,6 +452,32 @@ TEST_CASE("In two stages, what the first has done is returned when the run is ca
   CHECK(fault(mesh, result.restriction, result.vertex_map, input) == "");
 }
 
+TEST_CASE("The first stage does not feel how far from the origin the mesh lies, and leaves no vertex a "
+          "rounding away")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  input.V = (input.V * 65536).array().round() / 65536; // so that moving it is exact
+  Spectral_options options = options_with(20);
+  options.pre_simplify = 200;
+  options.kept_vertices = every(20, input.V.rows());
+  Eigen::MatrixXd expected;
+  for(const double offset : {16., 16777216., 1073741824.}) { // above 8 lengths from the first
+    shapes::Matrices moved = input;
+    moved.V.array() += offset;
+    Mesh mesh = make_mesh(moved), replayed = mesh;
+    const Result result = SMS::spectral_edge_collapse(mesh, 200, options);
+    CAPTURE(offset);
+    CHECK(survivors(options.kept_vertices, moved, mesh, result.restriction, result.vertex_map) ==
+          options.kept_vertices.size());
+    SMS::Collapse_replay<Mesh>(replayed, result.log).collapse_to(200);
+    CHECK(positions(replayed) == positions(mesh));
+    if(expected.size() == 0)
+      expected = positions(mesh).array() - offset;
+    else
+      CHECK((positions(mesh).array() - offset - expected.array()).abs().maxCoeff() < 1e-6);
+  }
+}
+
 TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the policies go on afterwards")
 {
   const shapes::Matrices input = wavy_grid_matrices(20, 18);

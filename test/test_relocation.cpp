@@ -278,7 +278,7 @@ TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, 
       return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 30).values.tail(10).array());
     };
     const double change = (values(W) / values(V)).mean() - 1;
-    CHECK(guard.change(W) == Approx(change).margin(1e-4));
+    CHECK(guard.change(W) == Catch::Approx(change).margin(1e-4));
     CHECK(before > change); // eigenvectors of another mesh
     REQUIRE(change < 0.0015); // the penalty begins at 0.002
     struct Penalty
@@ -334,7 +334,7 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   for(Eigen::Index i = 0; i < direction.size(); ++i)
     direction.data()[i] = std::sin(5. * double(i) + 1);
   const double slope = (value(V + 1e-6 * direction) - value(V - 1e-6 * direction)) / 2e-6;
-  CHECK(slope == Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
+  CHECK(slope == Catch::Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
 }
 
 TEST_CASE("relocation lowers the commutativity with either restriction and keeps every guard")

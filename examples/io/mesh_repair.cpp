@@ -72,14 +72,37 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
   return result;
 }
 
+// Takes repetitions out of polygons, and what is no polygon then; true if no vertex is left twice in any of them.
+bool without_repetitions(Exact_soup& soup, Repair_log& log)
+{
+  bool simple = true;
+  const std::size_t before = soup.polygons.size();
+  for(std::vector<std::size_t>& polygon : soup.polygons) {
+    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+    while(polygon.size() > 1 && polygon.front() == polygon.back())
+      polygon.pop_back();
+    std::vector<std::size_t> sorted = polygon;
+    std::sort(sorted.begin(), sorted.end());
+    simple = simple && std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  }
+  soup.polygons.erase(
+      std::remove_if(soup.polygons.begin(), soup.polygons.end(),
+                     [](const std::vector<std::size_t>& polygon) { return polygon.size() < 3; }),
+      soup.polygons.end());
+  log.add("face removed that used a vertex twice", "faces removed that used a vertex twice",
+          before - soup.polygons.size());
+  return simple;
+}
+
 void clean(Exact_soup& soup, Repair_log& log)
 {
   log.add("isolated vertex removed", "isolated vertices removed",
           PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons));
   log.add("vertex merged that had the position of another", "vertices merged that had the same position",
           PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons));
-  log.add("copy of a face removed", "copies of faces removed",
-          PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
+  if(without_repetitions(soup, log)) // a precondition of CGAL's
+    log.add("copy of a face removed", "copies of faces removed",
+            PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
   const std::size_t before = soup.polygons.size();
   PMP::repair_polygon_soup(soup.points, soup.polygons);
   if(soup.polygons.size() < before)
@@ -155,6 +178,7 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
 
 Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log)
 {
+  const Silence silence; // what CGAL warns of, the diagnosis says better
   Exact_soup soup = usable_part(input, log);
   clean(soup, log);
   orient(soup, log);

@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Shifted_point_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -32,6 +33,7 @@
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -107,10 +109,10 @@ inline void check_pre_simplification(const Spectral_options& options, const std:
 }
 
 /// The same for what is wrong with the mesh and stays so in the first stage. Needles and faces without area need not.
-template <class TriangleMesh, class NamedParameters>
-void check_mesh_to_pre_simplify(const TriangleMesh& mesh, const NamedParameters& np)
+template <class TriangleMesh>
+void check_mesh_to_pre_simplify(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
 {
-  check_extent(Spectral_geometry::mesh_matrices(mesh, np).V);
+  check_extent(V);
   Eigen::Index i = 0;
   for(const auto v : vertices(mesh)) {
     if(halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
@@ -118,6 +120,15 @@ void check_mesh_to_pre_simplify(const TriangleMesh& mesh, const NamedParameters&
                                   " is isolated, no face uses it; remove it.");
     ++i;
   }
+}
+
+/// The log of what was done to points minus `offset`.
+inline Collapse_log shifted(const Collapse_log& log, const Eigen::Vector3d& offset)
+{
+  std::vector<Eigen::Vector3d> points = log.points();
+  for(Eigen::Vector3d& point : points)
+    point += offset;
+  return Collapse_log(log.forest(), std::move(points));
 }
 
 /// The first stage of `Spectral_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices.
@@ -131,12 +142,17 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
   check_pre_simplification(options, n, target);
-  check_mesh_to_pre_simplify(mesh, np);
+  const Eigen::MatrixXd V = Spectral_geometry::mesh_matrices(mesh, np).V;
+  check_mesh_to_pre_simplify(mesh, V);
   if(!report_progress(options, Spectral_phase::pre_simplification, 0., n))
     throw Spectral_geometry::Cancelled();
 
-  const auto vpm =
+  const Eigen::Vector3d offset = offset_of(V);
+  const auto points =
       choose_parameter(get_parameter(np, internal_np::vertex_point), get_property_map(vertex_point, mesh));
+  using Vector = typename GeomTraits::Vector_3;
+  const Shifted_point_map<std::decay_t<decltype(points)>, Vector> vpm(
+      points, Vector(offset[0], offset[1], offset[2]));
   using Tracker = Restriction_tracker<TriangleMesh>;
   const auto tracker = std::make_shared<Tracker>(mesh, kept_vertex_flags(mesh, options.kept_vertices, np));
   using vertex_descriptor = typename Tracker::vertex_descriptor;
@@ -167,7 +183,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
                       tracker, shared, policies.get_placement())));
   result.done = true;
   result.cancelled = stop.cancelled();
-  result.log = tracker->log();
+  result.log = shifted(tracker->log(), offset);
   result.slots = tracker->slots().current();
   result.kept_vertices = tracker->kept_indices();
   return result;
