@@ -37,7 +37,15 @@ namespace Surface_mesh_simplification {
 namespace internal {
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-typedef double Spectral_lanes __attribute__((vector_size(32), aligned(8), may_alias));
+/// Four doubles anywhere in memory, to load from and to store to.
+typedef double Spectral_lanes_in_memory __attribute__((vector_size(32), aligned(8), may_alias));
+#ifdef __clang__
+// In templates Clang forgets that a type asks for less than its natural alignment: its variables have that.
+typedef double Spectral_lanes __attribute__((vector_size(32), aligned(32), may_alias));
+#else
+// Without -mavx the natural alignment is 16 for GCC, but 32 in functions marked CGAL_SPECTRAL_AVX2: neither is asked for.
+typedef Spectral_lanes_in_memory Spectral_lanes;
+#endif
 #else
 /// Four doubles, lane by lane.
 struct Spectral_lanes
@@ -90,7 +98,7 @@ constexpr std::size_t spectral_padding = 8;
 CGAL_SPECTRAL_INLINE void spectral_load(Spectral_lanes& x, const double* p)
 {
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-  x = *reinterpret_cast<const Spectral_lanes*>(p);
+  x = *reinterpret_cast<const Spectral_lanes_in_memory*>(p);
 #else
   std::memcpy(&x, p, sizeof(x));
 #endif
@@ -99,7 +107,7 @@ CGAL_SPECTRAL_INLINE void spectral_load(Spectral_lanes& x, const double* p)
 CGAL_SPECTRAL_INLINE void spectral_store(double* p, const Spectral_lanes& x)
 {
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-  *reinterpret_cast<Spectral_lanes*>(p) = x;
+  *reinterpret_cast<Spectral_lanes_in_memory*>(p) = x;
 #else
   std::memcpy(p, &x, sizeof(x));
 #endif

@@ -32,7 +32,7 @@ template <int N>
 CGAL_SPECTRAL_INLINE void spectral_add_multiple(Spectral_lanes& s0, Spectral_lanes& s1, Spectral_lanes& s2,
                                                 Spectral_lanes& s3, const double* row, const double factor)
 {
-  alignas(32) Spectral_lanes x;
+  Spectral_lanes x;
   spectral_load(x, row);
   s0 += x * factor;
   spectral_load(x, row + 4);
@@ -51,7 +51,7 @@ CGAL_SPECTRAL_INLINE void spectral_put(const Spectral_lanes& f, Spectral_lanes& 
                                        double* R, Spectral_lanes& squares)
 {
   if(lambda != nullptr) {
-    alignas(32) Spectral_lanes factor;
+    Spectral_lanes factor;
     spectral_load(factor, lambda);
     z *= factor;
   }
@@ -60,8 +60,7 @@ CGAL_SPECTRAL_INLINE void spectral_put(const Spectral_lanes& f, Spectral_lanes& 
   spectral_store(R, z);
 }
 
-/// 4 N numbers of R from column k on; adds their squares. In a template clang forgets that the type asks for less than its
-/// natural alignment: the variables have that.
+/// 4 N numbers of R from column k on; adds their squares.
 template <int N>
 CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields,
                                                    const std::vector<Spectral_row_entry>& row,
@@ -71,7 +70,7 @@ CGAL_SPECTRAL_INLINE void spectral_combine_columns(const Spectral_fields& fields
   const double* const F = fields.F.data() + k;
   const double* const Z = fields.has_z_rows() ? fields.Z.data() + k : F;
   const std::size_t length = std::size_t(fields.F.cols());
-  alignas(32) Spectral_lanes f0 = {}, f1 = {}, f2 = {}, f3 = {}, z0 = {}, z1 = {}, z2 = {}, z3 = {};
+  Spectral_lanes f0 = {}, f1 = {}, f2 = {}, f3 = {}, z0 = {}, z1 = {}, z2 = {}, z3 = {};
   const Spectral_row_entry* const end = row.data() + row.size();
   for(const Spectral_row_entry* e = row.data(); e != end; ++e)
     spectral_add_multiple<N>(f0, f1, f2, f3, F + e->vertex * length, e->of_f);
@@ -90,7 +89,7 @@ CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fi
                                                        const std::vector<Spectral_row_entry>& row, double* R)
 {
   const std::size_t length = std::size_t(fields.F.cols()); // a multiple of 8
-  alignas(32) Spectral_lanes squares = {};
+  Spectral_lanes squares = {};
   const Spectral_row_entry *first_of_z = row.data(), *const end = first_of_z + row.size();
   while(first_of_z != end &&
         first_of_z->of_z == 0) // a lumped mass has an entry for the centre alone, the last
