@@ -9,6 +9,8 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 
+#include <CGAL/assertions.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -64,30 +66,53 @@ public:
     return nullptr;
   }
 
-  /// Keeps a candidate that costs more than `bound` as it is, and says whether there is one.
-  bool defer(Spectral_slot u, Spectral_slot v, const double bound)
+  /// The place of the candidate of an edge among those of u, its smaller slot. Where there is none yet an empty one is put
+  /// in, to be evaluated when somebody asks for it. A place holds until a candidate of u is forgotten.
+  std::size_t place(const Spectral_slot u, const Spectral_slot other)
   {
-    if(v < u)
-      std::swap(u, v);
-    for(Spectral_candidate& c : m_lists[u])
-      if(c.other == v && c.collapsible && c.cost > bound) {
-        c.version = m_version;
-        return c.deferred = true;
-      }
-    return false;
+    CGAL_precondition(u < other);
+    auto& list = m_lists[u];
+    std::size_t i = 0;
+    while(i < list.size() && list[i].other != other)
+      ++i;
+    if(i == list.size()) {
+      list.emplace_back();
+      list.back().other = other;
+      list.back().version = m_version - 1;
+      list.back().deferred = true;
+    }
+    return i;
+  }
+
+  /// Keeps the candidate at a place as it is if it costs more than `bound`, and says whether it does.
+  bool defer(const Spectral_slot u, const std::size_t place, const double bound)
+  {
+    Spectral_candidate& c = m_lists[u][place];
+    if(!c.collapsible || !(c.cost > bound))
+      return false;
+    c.version = m_version;
+    return c.deferred = true;
+  }
+
+  /// Replaces the candidate at a place.
+  const Spectral_candidate& put(const Spectral_slot u, const std::size_t place,
+                                const Spectral_candidate& candidate)
+  {
+    Spectral_candidate& c = m_lists[u][place];
+    CGAL_precondition(c.other == candidate.other);
+    c = candidate;
+    c.version = m_version;
+    return c;
   }
 
   /// Puts in or replaces the candidate of the edge (u, candidate.other), u being the smaller slot.
-  const Spectral_candidate& insert(const Spectral_slot u, Spectral_candidate candidate)
+  const Spectral_candidate& insert(const Spectral_slot u, const Spectral_candidate& candidate)
   {
-    CGAL_precondition(u < candidate.other);
-    candidate.version = m_version;
-    for(Spectral_candidate& c : m_lists[u])
-      if(c.other == candidate.other)
-        return c = candidate;
-    m_lists[u].push_back(candidate);
-    return m_lists[u].back();
+    return put(u, place(u, candidate.other), candidate);
   }
+
+  /// Room for n candidates of u.
+  void reserve(const Spectral_slot u, const std::size_t n) { m_lists[u].reserve(n); }
 
   void forget(const Spectral_slot u, const Spectral_slot v)
   {

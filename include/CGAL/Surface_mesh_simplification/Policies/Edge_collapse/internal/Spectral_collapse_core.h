@@ -8,12 +8,12 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_search.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_tasks.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
@@ -21,7 +21,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -32,16 +31,6 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
-
-/// The part of `Spectral_options` that the cost of a candidate depends on.
-struct Spectral_cost_parameters
-{
-  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
-  bool binary = false;
-  bool preserve_border = false;
-  bool single_precision_points = false; ///< the mesh stores its points as float
-  int threads = 1;
-};
 
 /*!
  * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
@@ -100,25 +89,24 @@ public:
     m_fields.R.resize(n, m_fields.F.cols());
     m_fields.mass = Eigen::VectorXd::Zero(n);
     m_fields.E = Eigen::VectorXd::Zero(n);
-    for(Spectral_slot w = 0; w < Spectral_slot(n); ++w) {
-      m_fields.rings.link_back(w);
-      m_fields.rings.update_triangles(w, position());
-    }
     m_products.resize(std::size_t(n));
-    m_pool->for_each(std::size_t(n), 1024, [this](const std::size_t w, Workspace& workspace) {
+    m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
+      m_fields.rings.find_back(Spectral_slot(w));
+      m_fields.rings.update_triangles(Spectral_slot(w), position());
       update_row(Spectral_slot(w), workspace.row);
       workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
     });
     m_total = Sum();
     m_total.add(m_fields.E.sum());
     m_recent_cost = 0;
+    m_gathered = null_spectral_slot;
     m_candidates.clear();
   }
 
   /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
   void set_kept(std::vector<char> kept) { m_kept = std::move(kept); }
 
-  bool is_kept(const Spectral_slot s) const { return !m_kept.empty() && m_kept[s] != 0; }
+  bool is_kept(const Spectral_slot s) const { return search().is_kept(s); }
 
   /// Whether a collapse to `point` would move a vertex that is to be kept, or merge two of them.
   bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
@@ -153,7 +141,7 @@ public:
     result.other = v;
     if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return result;
-    const Spectral_sample best = best_sample(u, v, kernel, bound);
+    const Spectral_sample best = search().best(u, v, kernel, bound);
     if(!std::isfinite(best.cost))
       return result;
     result.collapsible = true;
@@ -170,7 +158,7 @@ public:
   {
     const Spectral_candidate* found = m_candidates.find(u, v);
     if(found != nullptr && found->task != 0)
-      found = &collect(found->task - 1);
+      found = &take(found->task - 1);
     if(found != nullptr && (any_version ? !found->deferred : found->version == m_candidates.version()))
       return *found;
     ++m_number_of_evaluations;
@@ -201,11 +189,10 @@ public:
     return m_change(m_fields, u, v, weight, point);
   }
 
-  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
-  /// an edge without length; all of it on an end that is to be kept.
+  /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
   double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
   {
-    return rounded(u, v, projected_edge_weight(m_fields.points[u], m_fields.points[v], point));
+    return search().projected_weight(u, v, point);
   }
 
   /// Evaluates every edge of the mesh. `progress(fraction)` returning false stops early.
@@ -213,17 +200,16 @@ public:
   bool evaluate_all(const Progress& progress)
   {
     finish();
-    m_batch.clear();
-    for(Spectral_slot u = 0; u < Spectral_slot(m_fields.points.size()); ++u)
-      for(const Spectral_ring_entry& e : m_fields.rings[u])
-        if(u < e.vertex)
-          m_batch.emplace_back(u, e.vertex);
-    const std::size_t chunk = 4096;
-    const std::vector<Edge> all = m_batch;
-    for(std::size_t i = 0; i < all.size(); i += chunk) {
-      m_batch.assign(all.begin() + i, all.begin() + (std::min)(all.size(), i + chunk));
-      evaluate_batch();
-      if(!progress(double((std::min)(all.size(), i + chunk)) / double(all.size())))
+    const double bound = minimiser_bound();
+    const std::size_t n = m_fields.points.size(), chunk = 1024;
+    for(std::size_t first = 0; first < n; first += chunk) {
+      const std::size_t size = (std::min)(chunk, n - first);
+      m_pool->for_each(size, 16, [&](const std::size_t i, Workspace& workspace) {
+        evaluate_edges_of(Spectral_slot(first + i), bound, workspace.kernel);
+      });
+      for(std::size_t u = first; u < first + size; ++u)
+        m_number_of_evaluations += m_fields.rings.number_above(Spectral_slot(u));
+      if(!progress(double(first + size) / double(n)))
         return false;
     }
     return true;
@@ -233,7 +219,7 @@ public:
   /// the neighbours of `kept`.
   void evaluate_around(const Spectral_slot kept)
   {
-    collect_around(kept);
+    choose_around(kept);
     evaluate_batch();
   }
 
@@ -241,7 +227,7 @@ public:
   /// for, or evaluated by who asks.
   void start_around(const Spectral_slot kept)
   {
-    collect_around(kept);
+    choose_around(kept);
     if(m_pool->number_of_threads() == 1)
       evaluate_batch();
     else
@@ -251,15 +237,13 @@ public:
   /// Waits for what was started. Whatever changes the state does so first.
   void finish() const
   {
-    m_pool->finish();
-    for(std::size_t i = 0; i < m_number_of_tasks; ++i)
-      if(!m_tasks[i].collected)
-        collect(i);
-    m_number_of_tasks = 0;
+    m_tasks.finish([this](const std::size_t i, const Spectral_candidate& c) {
+      m_candidates.put(m_batch[i].u, m_batch[i].place, c);
+    });
   }
 
   /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for.
-  void defer_around(const Spectral_slot kept) { collect_around(kept); }
+  void defer_around(const Spectral_slot kept) { choose_around(kept); }
 
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
@@ -288,6 +272,7 @@ public:
   /// Forgets the candidates of the edges whose H met the last commit.
   void drop_candidates_around(const Spectral_slot kept)
   {
+    m_gathered = null_spectral_slot;
     for(const Spectral_ring_entry& e : m_fields.rings[kept])
       for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
         m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
@@ -311,15 +296,13 @@ private:
     std::vector<Spectral_row_entry> row;
   };
   using Pool = Spectral_thread_pool<Workspace>;
-  using Edge = std::pair<Spectral_slot, Spectral_slot>;
 
-  // The evaluation of one edge of m_batch, in memory of its own: two threads look at it.
-  struct alignas(64) Task
+  // An edge and the place of its candidate among those of u; u < v.
+  struct Edge
   {
-    enum Stage { waiting, begun, done };
-    std::atomic<int> stage{waiting};
-    bool collected = false; // into m_candidates
-    Spectral_candidate result;
+    Spectral_slot u, v;
+    std::size_t place;
+    double factor; // it is put off where it costs so many times more than the collapses of late
   };
 
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
@@ -345,6 +328,11 @@ private:
     const Eigen::Vector3d& operator()(const Spectral_slot s) const { return points[s]; }
   };
   Position position() const { return Position{m_fields.points}; }
+
+  Spectral_placement_search search() const
+  {
+    return Spectral_placement_search(m_fields, m_parameters, m_kept);
+  }
 
   static void merge_rows(Rows& rows, const Spectral_slot removed, const Spectral_slot kept,
                          const double weight)
@@ -392,24 +380,32 @@ private:
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift. f changed at `kept` alone: the products in its ring are computed afresh, in those of
   // its neighbours what f of `kept` or R of the centre is in. The rings around them hold neither.
+  //
+  // Meanwhile the edges are gathered that CGAL is to cost again.
   void refresh_around(const Spectral_slot removed, const Spectral_slot kept)
   {
-    const Spectral_rings& rings = m_fields.rings;
-    const std::size_t n = rings[kept].size() + 1;
-    const auto center = [&](const std::size_t i) { return i == 0 ? kept : rings[kept][i - 1].vertex; };
+    const std::size_t n = m_fields.rings[kept].size() + 1;
     for(std::size_t i = 0; i < n; ++i)
-      m_total.add(-m_fields.E[center(i)]);
+      m_total.add(-m_fields.E[kept_or_neighbor(kept, i)]);
     m_products[kept].take_memory(m_products[removed]);
-    m_pool->for_each(n, 1, [&](const std::size_t i, Workspace& workspace) {
-      const Spectral_slot c = center(i);
+    m_pool->start(n, [this, kept](const std::size_t i, Workspace& workspace) {
+      const Spectral_slot c = kept_or_neighbor(kept, i);
+      const Spectral_rings& rings = m_fields.rings;
       update_row(c, workspace.row);
       if(i == 0 || rings[c].size() != m_products[c].degree())
         workspace.builder.compute(m_fields, c, m_products[c]);
       else
         workspace.builder.update(m_fields, c, m_products[c], rings[kept][i - 1].back);
     });
+    gather_around(kept);
+    m_pool->finish();
     for(std::size_t i = 0; i < n; ++i)
-      m_total.add(m_fields.E[center(i)]);
+      m_total.add(m_fields.E[kept_or_neighbor(kept, i)]);
+  }
+
+  Spectral_slot kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const
+  {
+    return i == 0 ? kept : m_fields.rings[kept][i - 1].vertex;
   }
 
   // A candidate that costs more than the collapses of late gets the minimiser of section 3.4 when its turn comes, and the
@@ -422,153 +418,18 @@ private:
                : std::numeric_limits<double>::infinity();
   }
 
-  double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  void evaluate_edges_of(const Spectral_slot u, const double bound, Spectral_collapse_kernel& kernel)
   {
-    if(is_kept(u) || is_kept(v))
-      return is_kept(u) ? 0. : 1.;
-    if(!m_parameters.binary)
-      return alpha;
-    if(alpha != 0.5)
-      return alpha < 0.5 ? 0. : 1.;
-    if(m_fields.mass[u] != m_fields.mass[v])
-      return m_fields.mass[u] > m_fields.mass[v] ? 0. : 1.;
-    return u < v ? 0. : 1.;
+    m_candidates.reserve(u, m_fields.rings.number_above(u));
+    for(const Spectral_ring_entry& e : m_fields.rings[u])
+      if(u < e.vertex)
+        m_candidates.insert(u, evaluate(u, e.vertex, kernel, bound));
   }
 
-  Spectral_sample sample_at(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  // The edges incident to the neighbours of `kept`, into m_around.
+  void gather_around(const Spectral_slot kept)
   {
-    Spectral_sample s;
-    const Eigen::Vector3d &pu = m_fields.points[u], &pv = m_fields.points[v];
-    s.point = alpha == 0 ? pu : alpha == 1 ? pv : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
-    if(m_parameters.single_precision_points)
-      s.point = s.point.cast<float>().cast<double>();
-    s.weight = rounded(u, v, alpha);
-    return s;
-  }
-
-  // The sum of the normals around both ends, weighted by area.
-  Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
-  {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for(const Spectral_slot c : {u, v}) {
-      const Spectral_ring& ring = m_fields.rings[c];
-      for(std::size_t i = 0; i < ring.size(); ++i)
-        if(ring[i].face)
-          normal +=
-              (m_fields.points[ring[i].vertex] - m_fields.points[c])
-                  .cross(m_fields.points[ring[Spectral_rings::next(ring, i)].vertex] - m_fields.points[c]);
-    }
-    return normal;
-  }
-
-  Spectral_sample sample_off_edge(const Spectral_slot u, const Spectral_slot v, Eigen::Vector3d point) const
-  {
-    Spectral_sample s;
-    if(m_parameters.single_precision_points)
-      point = point.cast<float>().cast<double>();
-    s.point = point;
-    s.weight = projected_weight(u, v, point);
-    return s;
-  }
-
-  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
-  // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
-  Spectral_sample best_free_sample(const Spectral_slot u, const Spectral_slot v,
-                                   const Spectral_sample* on_edge, Spectral_sample best,
-                                   Spectral_collapse_kernel& kernel) const
-  {
-    using Quadric = Spectral_placement_quadric;
-    Quadric quadric;
-    if(!quadric.set_frame(m_fields.points[u], m_fields.points[v], normal_at_edge(u, v)))
-      return best;
-    constexpr int n = Quadric::number_of_samples, first = Quadric::number_on_edge;
-    Spectral_sample samples[n];
-    double costs[n];
-    std::copy(on_edge, on_edge + first, samples);
-    for(int i = first; i < n; ++i)
-      samples[i] = sample_off_edge(u, v, quadric.point(i));
-    for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
-      kernel.evaluate(samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
-    for(int i = 0; i < n; ++i) {
-      costs[i] = samples[i].cost;
-      if(costs[i] < best.cost)
-        best = samples[i];
-    }
-    if(!quadric.fit(costs))
-      return best;
-    Spectral_sample minimiser = sample_off_edge(u, v, quadric.minimiser());
-    kernel.evaluate(&minimiser, 1);
-    return minimiser.cost < best.cost ? minimiser : best;
-  }
-
-  struct Fixed_ends
-  {
-    bool u, v;
-    bool on_border; // the whole edge is the border, which is to be preserved
-  };
-
-  // The ends that the merged vertex must lie on.
-  Fixed_ends fixed_ends(const Spectral_slot u, const Spectral_slot v) const
-  {
-    Fixed_ends fixed{is_kept(u), is_kept(v), false};
-    if(m_parameters.preserve_border) {
-      const bool border_u = m_fields.rings.is_border(u), border_v = m_fields.rings.is_border(v);
-      fixed.on_border = border_u && border_v;
-      fixed.u = fixed.u || (border_u && !border_v);
-      fixed.v = fixed.v || (border_v && !border_u);
-    }
-    return fixed;
-  }
-
-  // Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
-  // there.
-  Spectral_sample best_sample(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                              const double bound) const
-  {
-    Spectral_sample samples[3];
-    const Fixed_ends fixed = fixed_ends(u, v);
-    if(fixed.u && fixed.v)
-      return Spectral_sample(); // of infinite cost
-    if(fixed.u || fixed.v) {
-      samples[0] = sample_at(u, v, fixed.v ? 1. : 0.);
-      kernel.evaluate(samples, 1);
-      return samples[0];
-    }
-    if(m_parameters.placement == Spectral_placement_strategy::midpoint) {
-      samples[0] = sample_at(u, v, 0.5);
-      kernel.evaluate(samples, 1);
-      return samples[0];
-    }
-    for(int s = 0; s < 3; ++s)
-      samples[s] = sample_at(u, v, s / 2.);
-    kernel.evaluate(samples, 3);
-    Spectral_sample best = samples[0];
-    for(int s = 1; s < 3; ++s)
-      if(samples[s].cost < best.cost)
-        best = samples[s];
-    if(best.cost > bound)
-      return best;
-
-    // p(alpha) = c0 + b alpha + a alpha^2
-    const double a = 2 * (samples[0].cost - 2 * samples[1].cost + samples[2].cost);
-    const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
-    const double alpha = -b / (2 * a);
-    if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
-      Spectral_sample minimiser = sample_at(u, v, alpha);
-      kernel.evaluate(&minimiser, 1);
-      if(minimiser.cost < best.cost)
-        best = minimiser;
-    }
-    if(m_parameters.placement == Spectral_placement_strategy::free && !fixed.on_border)
-      return best_free_sample(u, v, samples, best, kernel);
-    return best;
-  }
-
-  // The edges incident to the neighbours of `kept`, into m_batch, without those that are put off.
-  void collect_around(const Spectral_slot kept)
-  {
-    finish();
-    m_batch.clear();
+    m_around.clear();
     m_marks.resize(m_fields.points.size(), 0);
     ++m_mark;
     for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
@@ -579,11 +440,28 @@ private:
         const bool inner = m_marks[e.vertex] == m_mark;
         if(inner && e.vertex < neighbor.vertex)
           continue;
-        const double factor = inner ? inner_deferral_factor : outer_deferral_factor;
-        if(e.vertex != kept && m_candidates.defer(neighbor.vertex, e.vertex, factor * m_recent_cost))
-          continue;
-        m_batch.push_back(std::minmax(Spectral_slot(neighbor.vertex), Spectral_slot(e.vertex)));
+        const Spectral_slot u = (std::min)(neighbor.vertex, e.vertex),
+                            v = (std::max)(neighbor.vertex, e.vertex);
+        m_around.push_back(Edge{u, v, m_candidates.place(u, v),
+                                e.vertex == kept ? std::numeric_limits<double>::infinity()
+                                : inner          ? inner_deferral_factor
+                                                 : outer_deferral_factor});
       }
+    m_gathered = kept;
+  }
+
+  // What commit() has gathered, into m_batch, without the edges that are put off.
+  void choose_around(const Spectral_slot kept)
+  {
+    finish();
+    if(m_gathered != kept)
+      gather_around(kept);
+    m_gathered = null_spectral_slot;
+    m_batch.clear();
+    for(const Edge& e : m_around)
+      if(!(e.factor < std::numeric_limits<double>::infinity()) ||
+         !m_candidates.defer(e.u, e.place, e.factor * m_recent_cost))
+        m_batch.push_back(e);
   }
 
   void evaluate_batch()
@@ -592,52 +470,30 @@ private:
     m_results.resize(m_batch.size());
     const double bound = minimiser_bound();
     m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-      m_results[i] = evaluate(m_batch[i].first, m_batch[i].second, workspace.kernel, bound);
+      m_results[i] = evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
     });
     for(std::size_t i = 0; i < m_batch.size(); ++i)
-      m_candidates.insert(m_batch[i].first, m_results[i]);
+      m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
   }
 
   void start_batch()
   {
-    const std::size_t n = m_batch.size();
-    if(m_tasks.size() < n)
-      m_tasks = std::vector<Task>(2 * n);
-    m_number_of_tasks = m_last_task = n;
-    m_number_of_evaluations += n;
+    m_number_of_evaluations += m_batch.size();
     m_bound = minimiser_bound();
-    for(std::size_t i = 0; i < n; ++i) {
-      m_tasks[i].stage.store(Task::waiting, std::memory_order_relaxed);
-      m_tasks[i].collected = false;
-      Spectral_candidate in_work;
-      in_work.other = m_batch[i].second;
+    Spectral_candidate in_work;
+    for(std::size_t i = 0; i < m_batch.size(); ++i) {
+      in_work.other = m_batch[i].v;
       in_work.task = std::uint32_t(i + 1);
-      m_candidates.insert(m_batch[i].first, in_work);
+      m_candidates.put(m_batch[i].u, m_batch[i].place, in_work);
     }
-    m_pool->start(n, [this](const std::size_t i, Workspace& workspace) { run_task(i, workspace); });
+    m_tasks.start(*m_pool, m_batch.size(), [this](const std::size_t i, Workspace& workspace) {
+      return evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, m_bound);
+    });
   }
 
-  // Unless somebody has begun with it.
-  void run_task(const std::size_t i, Workspace& workspace) const
+  const Spectral_candidate& take(const std::size_t i) const
   {
-    Task& task = m_tasks[i];
-    int stage = Task::waiting;
-    if(!task.stage.compare_exchange_strong(stage, Task::begun))
-      return;
-    task.result = evaluate(m_batch[i].first, m_batch[i].second, workspace.kernel, m_bound);
-    task.stage.store(Task::done, std::memory_order_release);
-  }
-
-  const Spectral_candidate& collect(const std::size_t i) const
-  {
-    Task& task = m_tasks[i];
-    run_task(i, m_pool->workspace());
-    const auto done = [&task] { return task.stage.load(std::memory_order_acquire) == Task::done; };
-    while(m_last_task > i && !done()) // rather than to wait: the others begin at the front
-      run_task(--m_last_task, m_pool->workspace());
-    Pool::wait_for(done);
-    task.collected = true;
-    return m_candidates.insert(m_batch[i].first, task.result);
+    return m_candidates.put(m_batch[i].u, m_batch[i].place, m_tasks.take(i));
   }
 
   Spectral_fields m_fields;
@@ -652,10 +508,10 @@ private:
   std::vector<Spectral_ring_products> m_products;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;
-  std::vector<Edge> m_batch;
+  std::vector<Edge> m_around, m_batch;
+  Spectral_slot m_gathered = null_spectral_slot; // whose edges m_around has
   std::vector<Spectral_candidate> m_results;
-  mutable std::vector<Task> m_tasks;
-  mutable std::size_t m_number_of_tasks = 0, m_last_task = 0;
+  mutable Spectral_tasks<Spectral_candidate, Workspace> m_tasks;
   double m_bound = 0;
   Spectral_change m_change;
   std::size_t m_number_of_evaluations = 0;

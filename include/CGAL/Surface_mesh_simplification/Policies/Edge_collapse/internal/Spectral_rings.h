@@ -162,6 +162,22 @@ public:
 
   static constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
 
+  /// Sets `back` in the ring of c, which alone it changes.
+  void find_back(const Spectral_slot c)
+  {
+    for(Spectral_ring_entry& e : m_rings[c]) {
+      e.back = std::uint32_t(find(e.vertex, c));
+      CGAL_assertion(e.back < m_rings[e.vertex].size());
+    }
+  }
+
+  /// The number of neighbours of c with a larger slot.
+  std::size_t number_above(const Spectral_slot c) const
+  {
+    return std::size_t(std::count_if(m_rings[c].begin(), m_rings[c].end(),
+                                     [c](const Spectral_ring_entry& e) { return c < e.vertex; }));
+  }
+
   /// Sets `back` on both sides of every entry of the ring of c.
   void link_back(const Spectral_slot c)
   {

@@ -1,0 +1,213 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_PLACEMENT_SEARCH_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_PLACEMENT_SEARCH_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_quadric.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The part of `Spectral_options` that the cost of a candidate depends on.
+struct Spectral_cost_parameters
+{
+  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+  bool binary = false;
+  bool preserve_border = false;
+  bool single_precision_points = false; ///< the mesh stores its points as float
+  int threads = 1;
+};
+
+/*!
+ * The placement of a candidate (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
+ * the state and changes nothing; the kernel has been prepared for the edge.
+ */
+class Spectral_placement_search
+{
+public:
+  /// `kept`: one flag for each slot of the vertices that survive with their position and their row of P, or nothing.
+  Spectral_placement_search(const Spectral_fields& fields, const Spectral_cost_parameters& parameters,
+                            const std::vector<char>& kept)
+    : m_fields(&fields)
+    , m_parameters(&parameters)
+    , m_kept(&kept)
+  {}
+
+  bool is_kept(const Spectral_slot s) const { return !m_kept->empty() && (*m_kept)[s] != 0; }
+
+  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
+  /// an edge without length; all of it on an end that is to be kept.
+  double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  {
+    return rounded(u, v, projected_edge_weight(m_fields->points[u], m_fields->points[v], point));
+  }
+
+  /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
+  /// there. Where all three samples cost more than `bound`, the best of them.
+  Spectral_sample best(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
+                       const double bound) const
+  {
+    Spectral_sample samples[3];
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(fixed.u && fixed.v)
+      return Spectral_sample(); // of infinite cost
+    if(fixed.u || fixed.v) {
+      samples[0] = sample_at(u, v, fixed.v ? 1. : 0.);
+      kernel.evaluate(samples, 1);
+      return samples[0];
+    }
+    if(m_parameters->placement == Spectral_placement_strategy::midpoint) {
+      samples[0] = sample_at(u, v, 0.5);
+      kernel.evaluate(samples, 1);
+      return samples[0];
+    }
+    for(int s = 0; s < 3; ++s)
+      samples[s] = sample_at(u, v, s / 2.);
+    kernel.evaluate(samples, 3);
+    Spectral_sample best = samples[0];
+    for(int s = 1; s < 3; ++s)
+      if(samples[s].cost < best.cost)
+        best = samples[s];
+    if(best.cost > bound)
+      return best;
+
+    // p(alpha) = c0 + b alpha + a alpha^2
+    const double a = 2 * (samples[0].cost - 2 * samples[1].cost + samples[2].cost);
+    const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
+    const double alpha = -b / (2 * a);
+    if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
+      Spectral_sample minimiser = sample_at(u, v, alpha);
+      kernel.evaluate(&minimiser, 1);
+      if(minimiser.cost < best.cost)
+        best = minimiser;
+    }
+    if(m_parameters->placement == Spectral_placement_strategy::free && !fixed.on_border)
+      return best_free_sample(u, v, samples, best, kernel);
+    return best;
+  }
+
+private:
+  double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    if(is_kept(u) || is_kept(v))
+      return is_kept(u) ? 0. : 1.;
+    if(!m_parameters->binary)
+      return alpha;
+    if(alpha != 0.5)
+      return alpha < 0.5 ? 0. : 1.;
+    if(m_fields->mass[u] != m_fields->mass[v])
+      return m_fields->mass[u] > m_fields->mass[v] ? 0. : 1.;
+    return u < v ? 0. : 1.;
+  }
+
+  Spectral_sample sample_at(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    Spectral_sample s;
+    const Eigen::Vector3d &pu = m_fields->points[u], &pv = m_fields->points[v];
+    s.point = alpha == 0 ? pu : alpha == 1 ? pv : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
+    if(m_parameters->single_precision_points)
+      s.point = s.point.cast<float>().cast<double>();
+    s.weight = rounded(u, v, alpha);
+    return s;
+  }
+
+  // The sum of the normals around both ends, weighted by area.
+  Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for(const Spectral_slot c : {u, v}) {
+      const Spectral_ring& ring = m_fields->rings[c];
+      for(std::size_t i = 0; i < ring.size(); ++i)
+        if(ring[i].face)
+          normal +=
+              (m_fields->points[ring[i].vertex] - m_fields->points[c])
+                  .cross(m_fields->points[ring[Spectral_rings::next(ring, i)].vertex] - m_fields->points[c]);
+    }
+    return normal;
+  }
+
+  Spectral_sample sample_off_edge(const Spectral_slot u, const Spectral_slot v, Eigen::Vector3d point) const
+  {
+    Spectral_sample s;
+    if(m_parameters->single_precision_points)
+      point = point.cast<float>().cast<double>();
+    s.point = point;
+    s.weight = projected_weight(u, v, point);
+    return s;
+  }
+
+  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
+  // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
+  Spectral_sample best_free_sample(const Spectral_slot u, const Spectral_slot v,
+                                   const Spectral_sample* on_edge, Spectral_sample best,
+                                   Spectral_collapse_kernel& kernel) const
+  {
+    using Quadric = Spectral_placement_quadric;
+    Quadric quadric;
+    if(!quadric.set_frame(m_fields->points[u], m_fields->points[v], normal_at_edge(u, v)))
+      return best;
+    constexpr int n = Quadric::number_of_samples, first = Quadric::number_on_edge;
+    Spectral_sample samples[n];
+    double costs[n];
+    std::copy(on_edge, on_edge + first, samples);
+    for(int i = first; i < n; ++i)
+      samples[i] = sample_off_edge(u, v, quadric.point(i));
+    for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
+      kernel.evaluate(samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
+    for(int i = 0; i < n; ++i) {
+      costs[i] = samples[i].cost;
+      if(costs[i] < best.cost)
+        best = samples[i];
+    }
+    if(!quadric.fit(costs))
+      return best;
+    Spectral_sample minimiser = sample_off_edge(u, v, quadric.minimiser());
+    kernel.evaluate(&minimiser, 1);
+    return minimiser.cost < best.cost ? minimiser : best;
+  }
+
+  struct Fixed_ends
+  {
+    bool u, v;
+    bool on_border; // the whole edge is the border, which is to be preserved
+  };
+
+  // The ends that the merged vertex must lie on.
+  Fixed_ends fixed_ends(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Fixed_ends fixed{is_kept(u), is_kept(v), false};
+    if(m_parameters->preserve_border) {
+      const bool border_u = m_fields->rings.is_border(u), border_v = m_fields->rings.is_border(v);
+      fixed.on_border = border_u && border_v;
+      fixed.u = fixed.u || (border_u && !border_v);
+      fixed.v = fixed.v || (border_v && !border_u);
+    }
+    return fixed;
+  }
+
+  const Spectral_fields* m_fields;
+  const Spectral_cost_parameters* m_parameters;
+  const std::vector<char>* m_kept;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_PLACEMENT_SEARCH_H
