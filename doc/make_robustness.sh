@@ -58,6 +58,13 @@ small()
   made "$1" "$2" --ratio 0.5 --eigenvectors 2 --no-evaluation
 }
 
+# other FORMAT NAME EXPECTED: the same in a file that is not OFF, or not called so.
+other()
+{
+  cat >"$folder/$2.$1"
+  row "$2" "$3" "$folder/$2.$1" --ratio 0.5 --eigenvectors 2 --no-evaluation
+}
+
 # tori OPEN N M [N M]...: N x M vertices each, beside each other; tubes where OPEN is 1.
 tori()
 {
@@ -106,12 +113,61 @@ loose()
   }'
 }
 
+# band N M TURNED: a strip of N x M vertices, its ends joined with one of them turned round. With TURNED 2, its sides as well.
+band()
+{
+  awk -v n="$1" -v m="$2" -v closed="$(($3 - 1))" 'BEGIN {
+    pi = atan2(0, -1); rows = m - 1 + closed
+    print "OFF"; print n * m, 2 * n * rows, 0
+    for(i = 0; i < n; ++i)
+      for(j = 0; j < m; ++j) {
+        a = 2 * pi * i / n; t = closed ? 0 : 0.15 * (j - (m - 1) / 2); v = 2 * pi * j / m
+        if(closed) r = 2 + cos(a / 2) * sin(v) - sin(a / 2) * sin(2 * v); else r = 1 + t * cos(a / 2)
+        z = closed ? sin(a / 2) * sin(v) + cos(a / 2) * sin(2 * v) : t * sin(a / 2)
+        printf "%.17g %.17g %.17g\n", r * cos(a), r * sin(a), z
+      }
+    for(i = 0; i < n; ++i)
+      for(j = 0; j < rows; ++j) {
+        k = (j + 1) % m
+        a = i * m + j; d = i * m + k
+        b = i + 1 < n ? a + m : closed ? (m - j) % m : m - 1 - j
+        c = i + 1 < n ? d + m : closed ? (m - k) % m : m - 1 - k
+        print 3, a, b, c
+        print 3, a, c, d
+      }
+  }'
+}
+
+# tetrahedra N: N beside each other. pages N: N triangles around one edge.
+tetrahedra()
+{
+  awk -v n="$1" 'BEGIN {
+    print "OFF"; print 4 * n, 4 * n, 0
+    for(t = 0; t < n; ++t) { x = 2 * t; print x, 0, 0; print x + 1, 0, 0; print x, 1, 0; print x, 0, 1 }
+    for(t = 0; t < n; ++t) {
+      a = 4 * t
+      print 3, a, a + 2, a + 1; print 3, a, a + 1, a + 3; print 3, a, a + 3, a + 2; print 3, a + 1, a + 2, a + 3
+    }
+  }'
+}
+pages()
+{
+  awk -v n="$1" 'BEGIN {
+    print "OFF"; print n + 2, n, 0; print 0, 0, 0; print 0, 0, 1
+    for(p = 0; p < n; ++p) print cos(p), sin(p), 0.5
+    for(p = 0; p < n; ++p) print 3, 0, 1, p + 2
+  }'
+}
+
 # A wavy sheet of 21 x 21 vertices; `where` changes x, y, z of vertex v.
 sheet()
 {
   awk -v what="$1" 'BEGIN {
     n = 21
-    print "OFF"; print n * n, 2 * (n - 1) * (n - 1), 0
+    faces = 0
+    for(j = 0; j < n - 1; ++j)
+      for(i = 0; i < n - 1; ++i) faces += what != "chequered" || (i + j) % 2 == 0 ? 2 : 0
+    print "OFF"; print n * n, what == "double" ? 2 * faces : faces, 0
     for(v = 0; v < n * n; ++v) {
       w = v
       if(what == "zero-length" && v % 50 == 7) w = v + 1
@@ -120,14 +176,19 @@ sheet()
       if(what == "cap" && v == 200) { x += 0.5 - 1e-9; y += 0.5 - 1e-9 }
       z = what == "flat" ? 0 : sin(x / 3) * cos(y / 4)
       if(what == "far") { x += 1e7; y += 1e7; z += 1e7 }
+      if(what == "stretched") x *= 1e12
       s = what == "tiny" ? 1e-6 : what == "huge" ? 1e6 : what == "absurd" ? 1e70 : 1
       printf "%.17g %.17g %.17g\n", s * x, s * y, s * z
     }
     for(j = 0; j < n - 1; ++j)
       for(i = 0; i < n - 1; ++i) {
         a = j * n + i
+        if(what == "chequered" && (i + j) % 2 == 1) continue
         print 3, a, a + 1, a + n + 1
         print 3, a, a + n + 1, a + n
+        if(what != "double") continue
+        print 3, a, a + n + 1, a + 1
+        print 3, a, a + n, a + n + 1
       }
   }'
 }
@@ -150,6 +211,11 @@ large tiny "as the plain one"
 large huge "as the plain one"
 large far "as the plain one, but for the rounding of the coordinates"
 large absurd "refused"
+large stretched "slivers of aspect 1e12: says why not"
+large double "every face again, turned round: refused; repaired"
+large chequered "refused; repaired, falls apart"
+sheet far >"$folder/far-pre.off"
+row "far sheet, --pre-simplify" "as the plain one" "$folder/far-pre.off" --vertices 120 --eigenvectors 20 --pre-simplify 200
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' | small "one triangle" "says why it cannot be reduced"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "two triangles" "reduced to one"
 printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n' |
@@ -164,6 +230,10 @@ tori 0 30 15 | made "a torus, K above the target" "refused: cannot be judged" --
 tori 0 30 15 6 4 20 10 | made "three tori, K above the smallest" "simplified, each kept" --vertices 120 --eigenvectors 30
 tori 0 30 15 6 4 20 10 | made "three tori, to fewer vertices than they need" "says why it stops" --vertices 10 --eigenvectors 3
 tori 1 30 15 | made "a tube" "simplified, open at both ends" --vertices 120 --eigenvectors 20
+band 40 5 1 | made "a Moebius strip" "refused; repaired by a cut" --vertices 80 --eigenvectors 20
+band 30 14 2 | made "a Klein bottle" "refused; repaired by a cut" --vertices 120 --eigenvectors 20
+tetrahedra 500 | made "500 tetrahedra" "says why they cannot be reduced" --vertices 1000 --eigenvectors 20
+pages 20 | small "an edge of 20 faces" "refused; repaired, falls apart"
 strip 18 | made "a strip without inner vertices" "simplified" --vertices 8 --eigenvectors 2
 loose 30 | made "triangles that do not touch" "says why they cannot be reduced" --vertices 40 --eigenvectors 40
 printf '' | small "empty file" "refused"
@@ -177,12 +247,30 @@ printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 3 2\n' | small "a f
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 2 0 1\n3 0 2 3\n' | small "a face twice" "refused; repaired"
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 2\n3 0 2 3\n' |
   small "a face with a vertex twice" "refused; repaired"
-printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | small "an index out of range" "refused"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 9\n' | small "an index out of range" "refused; repaired"
 printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | small "an isolated vertex" "refused; repaired"
-printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "a coordinate that is no number" "refused"
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "a coordinate that is no number" "refused: no face is left"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | small "points on a line" "refused"
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' |
   small "a seam" "kept open; stitched by the repair"
+printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n2 0 1\n3 0 2 3\n' | small "a face of two vertices" "refused; repaired"
+printf 'OFF\n5 1 0\n1 0 0\n-0.8 0.6 0\n0.3 -0.9 0\n0.3 0.9 0\n-0.8 -0.6 0\n5 0 1 2 3 4\n' |
+  small "a pentagram" "refused: its sides cross"
+printf 'OFF\n4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "OFF without the number of edges" "reduced to one"
+printf 'OFF BINARY\n' | small "binary OFF" "refused"
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n999999999 0 1 2\n' | small "a face of a billion vertices" "refused at once"
+printf 'v 0 0 0\nv\t1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\nf 1/1/1 2/1 3//1\nf -4 \\\n-2 -1 # last\n' |
+  other obj "OBJ with lines, tabs, a continued line" "reduced to one"
+printf 'v 0,5 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n' | other obj "OBJ with decimal commas" "refused"
+printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n' | other obj "OBJ that counts from 0" "refused"
+printf 'v -nan 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 2 3 4\n' | other obj "OBJ with -nan" "refused; repaired"
+printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty int x\nproperty int y\nproperty int z\nelement face 2\n%s\nend_header\n%s' \
+  'property list uchar uchar vertex_indices' "$(printf '0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n')" |
+  other ply "PLY of integers and bytes" "reduced to one"
+printf 'ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n' |
+  other ply "PLY that promises two billion vertices" "refused at once"
+printf 'solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n' | other stl "STL that is cut off" "refused"
+printf '\037\213\010' | small "a compressed file" "refused"
 for mesh in "$@"; do
   row "$(basename "$mesh")" "a good result or a sentence" "$mesh" --vertices 1200 --eigenvectors 100
 done

@@ -363,6 +363,13 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
     return;
   }
   report.seconds_evaluation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
+  const double area = report.evaluation->area_ratio;
+  if(area < 0.25)
+    report.result.warnings.push_back(
+        "Only " + arguments_internal::shown(100 * area) +
+        " % of the area is left, and the relative error does not see what is "
+        "gone: ask for more vertices, or remesh so that faces differ less in size.");
 }
 
 void say(const Arguments& a, const Simplification_report& report)

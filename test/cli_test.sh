@@ -365,6 +365,12 @@ refuses "a repaired mesh without repair" "add --repair" shape.off out.off --vert
 grep -q 'needs* at least 8 vertices' complained || fail "no warning of the target: $(cat complained)"
 grep -q 'constant on each of the 2 components' complained || fail "no warning of K: $(cat complained)"
 
+awk 'BEGIN { print "OFF"; print 225, 392, 0
+  for(j = 0; j < 15; ++j) for(i = 0; i < 15; ++i) { s = 2 ^ (-2.5 * i); print s, j * s, 0 }
+  for(j = 0; j < 14; ++j) for(i = 0; i < 14; ++i) { a = j * 15 + i; print 3, a, a + 1, a + 16; print 3, a, a + 16, a + 15 } }' >graded.off
+"$program" graded.off out.off --vertices 90 --eigenvectors 10 >said 2>complained || fail "a graded mesh: $(cat complained)"
+grep -q '% of the area is left' complained || fail "no warning of lost area: $(cat complained)"
+
 # --- outputs that cannot be written -----------------------------------------------------------------------------------
 
 echo "precious" >precious.off
