@@ -267,6 +267,7 @@ void measure_scaling(const Arguments& a)
     setting.target = size.vertices / 100;
     setting.averaged = a.averaged;
     setting.pre_simplify = a.pre_simplify;
+    setting.all_in_metric = true; // the series is to show what K costs
     for(const long K : numbers(a.scaling_eigenvectors)) {
       setting.eigenvectors = K;
       const double needed = estimated_memory(size.vertices, setting), available = available_memory();

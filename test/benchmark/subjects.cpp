@@ -52,6 +52,8 @@ SMS::Spectral_options spectral_options(const Setting& setting, int threads)
   options.mass = mass(setting);
   options.pre_simplify = setting.pre_simplify;
   options.threads = threads;
+  if(setting.all_in_metric)
+    options.metric_eigenvectors = setting.eigenvectors;
   return options;
 }
 

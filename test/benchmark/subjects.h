@@ -17,6 +17,7 @@ struct Setting
   long eigenvectors = 100;
   std::size_t pre_simplify = 0;
   bool averaged = false;
+  bool all_in_metric = false; // all eigenvectors, however few vertices remain
 };
 
 struct Mesh_size
