@@ -35,7 +35,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 // Reading and writing of meshes with errors of one sentence that name the file and the first offender.
 
-// Returns the extension of a mesh file in lower case; throws when CGAL does not read and write it.
+// Returns the extension of a mesh file in lower case; throws when the programs do not read and write it.
 inline std::string mesh_format(const std::string& path)
 {
   std::string extension = std::filesystem::path(path).extension().string();

@@ -34,7 +34,7 @@ struct Spectral_new_entries
  * The matrix of the quadratic form comes from the products in the rings of u and v. Only pairs of a neighbour of u
  * alone and one of v alone are in neither: they are the work over K that is left in an evaluation.
  *
- * Vertices of the link are numbered as the kernel does: the ring of u without v, then those of v alone.
+ * Vertices of the link are numbered as in `Spectral_link`: the ring of u without v, then those of v alone.
  */
 class Spectral_merged_row
 {

@@ -27,7 +27,7 @@ namespace internal {
 /*!
  * Runs short loops on several threads, each with a workspace of its own.
  *
- * There are two loops of some thirty microseconds in each collapse. A task scheduler spends as much on waking its
+ * There are two loops of some microseconds in each collapse. A task scheduler spends as much on waking its
  * workers (measured with TBB: two threads as slow as one), so the workers here wait for the next loop with
  * their eyes open, and go to sleep when none comes for a while. The caller waits only for workers that have
  * entered a loop: one that the system has taken off its processor misses it and costs nothing.
