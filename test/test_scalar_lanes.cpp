@@ -2,13 +2,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The fallback for compilers without vectors as a language extension.
+// The fallback for compilers without vectors as a language extension, and the memory that vectors are loaded from.
 
 #define CGAL_SPECTRAL_NO_VECTOR_EXTENSION
 
 #include "catch.h"
 #include "core_helpers.h"
 
+#include <cstdint>
 #include <random>
 #include <type_traits>
 
@@ -38,4 +39,25 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
     CHECK(relative_difference(core.total() + basis.Z.squaredNorm(), mesh.energy() + basis.Z.squaredNorm()) <
           1e-9);
   }
+}
+
+TEST_CASE("Rows begin with a cache line and are padded with zeros")
+{
+  using SMS::internal::spectral_cache_line;
+  const Eigen::Index length = GENERATE(1, 8, 13);
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(5, length);
+  SMS::internal::Spectral_rows rows;
+  CHECK(rows.empty());
+  rows.assign(7, 30); // what was there before must not shine through
+  rows.row(0).setOnes();
+  rows.assign(matrix);
+  REQUIRE(rows.cols() >= length);
+  CHECK(rows.cols() * sizeof(double) % spectral_cache_line == 0);
+  for(std::size_t i = 0; i < 5; ++i) {
+    CHECK(reinterpret_cast<std::uintptr_t>(rows[i]) % spectral_cache_line == 0);
+    CHECK(rows.row(i).head(length) == matrix.row(Eigen::Index(i)));
+    CHECK(rows.row(i).tail(rows.cols() - length).isZero(0));
+  }
+  rows.assign(0, length);
+  CHECK(rows.empty());
 }

@@ -139,6 +139,7 @@ public:
     read_geometry();
     m_positions_checked = false;
     m_selecting = m_selection_open = m_pending.open = false;
+    m_answer = Answer();
     const bool go_on = !m_batched || m_core.evaluate_all([this](const double fraction) {
       return report(Spectral_phase::first_costs, fraction);
     });
@@ -163,6 +164,7 @@ public:
   {
     close_selection();
     m_selecting = m_selection_open = true;
+    m_answer = Answer();
     m_placement_asked = m_placement_found = false;
   }
 
@@ -206,6 +208,7 @@ public:
     } else
       capture_zero_length_merge(kept, ring);
     m_pending.open = m_selecting = false;
+    m_answer = Answer();
     --m_number_of_vertices;
     m_log_points.push_back(to_vector(get(m_vpm, kept_vertex)));
     m_core.commit(m_pending.removed, kept, m_pending.weight, m_log_points.back(), std::move(ring));
@@ -224,16 +227,16 @@ public:
   {
     using Optional_point = internal::Spectral_optional<Point>;
     check_ready(profile);
-    const internal::Spectral_candidate& c =
-        m_core.candidate(slot(profile.v0()), slot(profile.v1()), m_selecting);
+    const Slot u = slot(profile.v0()), v = slot(profile.v1());
+    const internal::Spectral_candidate& c = answer(u, v);
     m_placement_asked = true;
     m_placement_found = c.collapsible;
     if(!c.collapsible)
       return Optional_point();
     // An end stays what it is, whatever its number type.
-    if(c.point == m_core.fields().points[slot(profile.v0())])
+    if(c.point == m_core.fields().points[u])
       return Optional_point(Point(profile.p0()));
-    if(c.point == m_core.fields().points[slot(profile.v1())])
+    if(c.point == m_core.fields().points[v])
       return Optional_point(Point(profile.p1()));
     return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
   }
@@ -251,7 +254,7 @@ public:
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
-    const internal::Spectral_candidate& c = m_core.candidate(u, v, m_selecting);
+    const internal::Spectral_candidate& c = answer(u, v);
     const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
     if(!(value < double(std::numeric_limits<float>::max())))
       return Optional_cost(largest_cost());
@@ -364,6 +367,13 @@ public:
   void set_batched(const bool batched) { m_batched = batched; }
 
 private:
+  // The last one that was asked for; it holds until something is evaluated or committed.
+  struct Answer
+  {
+    Slot u = 0, v = 0;
+    const internal::Spectral_candidate* candidate = nullptr;
+  };
+
   struct Pending
   {
     bool open = false;
@@ -389,6 +399,14 @@ private:
   }
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
+
+  // The candidate that CGAL asks about. It asks for the placement and then for the cost of it.
+  const internal::Spectral_candidate& answer(const Slot u, const Slot v)
+  {
+    if(m_answer.candidate == nullptr || m_answer.u != u || m_answer.v != v)
+      m_answer = {u, v, &m_core.candidate(u, v, m_selecting)};
+    return *m_answer.candidate;
+  }
 
   // Of `removed`, where it is merged into `kept` at `point`: the one that was costed with that point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
@@ -510,6 +528,7 @@ private:
   std::size_t m_number_of_vertices = 0;
 
   std::weak_ptr<void> m_run;
+  Answer m_answer;
   Pending m_pending;
   bool m_positions_checked = false;
   bool m_batched = true;

@@ -43,24 +43,19 @@ namespace internal {
 class Spectral_collapse_core
 {
 public:
-  using Rows = Spectral_fields::Rows;
-
   Spectral_collapse_core() = default;
 
   /// `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.
   void set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& Z,
                  const double theta, const double area_scale, const Spectral_cost_parameters& parameters)
   {
-    const Eigen::Index K = F.cols();
-    const Eigen::Index padded = (K + Eigen::Index(spectral_padding) - 1) / Eigen::Index(spectral_padding) *
-                                Eigen::Index(spectral_padding);
-    m_number_of_signals = K;
-    m_fields.F = Rows::Zero(F.rows(), padded);
-    m_fields.F.leftCols(K) = F;
-    m_fields.Z.resize(0, 0);
-    m_fields.lambda = Eigen::VectorXd::Zero(padded);
+    m_number_of_signals = F.cols();
+    m_fields.F.assign(F);
+    m_fields.R.assign(0, 0);
+    m_fields.Z.assign(0, 0);
+    m_fields.lambda.assign(0, 0);
     if(lambda.size() != 0)
-      m_fields.lambda.head(K) = lambda;
+      m_fields.lambda.assign(lambda.transpose());
     else
       set_Z(Z);
     m_fields.theta = theta;
@@ -72,11 +67,7 @@ public:
   }
 
   /// Replaces Z = F Lambda by rows of its own. set_geometry() must follow.
-  void set_Z(const Eigen::MatrixXd& Z)
-  {
-    m_fields.Z = Rows::Zero(m_fields.F.rows(), m_fields.F.cols());
-    m_fields.Z.leftCols(Z.cols()) = Z;
-  }
+  void set_Z(const Eigen::MatrixXd& Z) { m_fields.Z.assign(Z); }
 
   /// Takes positions and rings (entries without triangles) of the mesh as it is and computes R, M, E.
   /// Slots that are gone have an empty ring.
@@ -85,8 +76,9 @@ public:
     finish();
     m_fields.points = std::move(points);
     m_fields.rings = std::move(rings);
-    const Eigen::Index n = m_fields.F.rows();
-    m_fields.R.resize(n, m_fields.F.cols());
+    const Eigen::Index n = Eigen::Index(m_fields.points.size());
+    if(m_fields.R.empty())
+      m_fields.R.assign(n, m_number_of_signals);
     m_fields.mass = Eigen::VectorXd::Zero(n);
     m_fields.E = Eigen::VectorXd::Zero(n);
     m_products.resize(std::size_t(n));
@@ -256,7 +248,7 @@ public:
     if(is_kept(removed))
       m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
     merge_rows(m_fields.F, removed, kept, weight);
-    if(m_fields.Z.size() != 0)
+    if(m_fields.has_z_rows())
       merge_rows(m_fields.Z, removed, kept, weight);
     m_total.add(-m_fields.E[removed]);
     m_fields.E[removed] = m_fields.mass[removed] = 0;
@@ -289,7 +281,7 @@ private:
   static constexpr double recent_cost_decay = 0.998;
 
   // The scratch memory of one thread.
-  struct Workspace
+  struct alignas(spectral_cache_line) Workspace
   {
     Spectral_collapse_kernel kernel;
     Spectral_ring_product_builder builder;
@@ -334,7 +326,7 @@ private:
     return Spectral_placement_search(m_fields, m_parameters, m_kept);
   }
 
-  static void merge_rows(Rows& rows, const Spectral_slot removed, const Spectral_slot kept,
+  static void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
                          const double weight)
   {
     rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
@@ -357,22 +349,21 @@ private:
       area += after.area * m_fields.area_scale;
     }
     row.push_back(Spectral_row_entry{w, to_self, area * m_fields.diagonal_share()});
-    const double square = spectral_combine_rows(m_fields, row, m_fields.R.row(w).data());
+    const double square = spectral_combine_rows(m_fields, row, m_fields.R[w]);
     m_fields.mass[w] = area / 3;
     m_fields.E[w] = area > 0 ? square / m_fields.mass[w] : 0;
   }
 
-  // The rings of the neighbours of `kept`, and the products in those that have lost an entry.
+  // The rings of the neighbours of `kept`.
   void follow_around(const Spectral_slot removed, const Spectral_slot kept)
   {
     Spectral_rings& rings = m_fields.rings;
+    m_lost.resize(rings[kept].size());
     for(std::size_t i = 0; i < rings[kept].size(); ++i) {
       const Spectral_slot w = rings[kept][i].vertex;
-      const std::size_t lost = rings.follow(removed, kept, i);
-      if(lost != Spectral_rings::none) {
-        m_products[w].erase(lost);
+      m_lost[i] = rings.follow(removed, kept, i);
+      if(m_lost[i] != Spectral_rings::none)
         rings.link_back(w);
-      }
       m_candidates.forget(w, removed);
     }
   }
@@ -392,6 +383,8 @@ private:
       const Spectral_slot c = kept_or_neighbor(kept, i);
       const Spectral_rings& rings = m_fields.rings;
       update_row(c, workspace.row);
+      if(i != 0 && m_lost[i - 1] != Spectral_rings::none)
+        m_products[c].erase(m_lost[i - 1]);
       if(i == 0 || rings[c].size() != m_products[c].degree())
         workspace.builder.compute(m_fields, c, m_products[c]);
       else
@@ -496,25 +489,29 @@ private:
     return m_candidates.put(m_batch[i].u, m_batch[i].place, m_tasks.take(i));
   }
 
+  // What all threads read while one of them writes what follows has cache lines of its own.
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
   Eigen::Index m_number_of_signals = 0;
-  Sum m_total;
+  std::vector<Spectral_ring_products> m_products;
+  std::vector<std::size_t> m_lost; // by the neighbours of the last kept vertex, see Spectral_rings::follow()
+  std::vector<Edge> m_batch;
+  double m_bound = 0;
+
+  alignas(spectral_cache_line) Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses
   Spectral_geometry::Merge_forest m_forest;
   mutable Spectral_candidates m_candidates; // mutable: what is in work is put in when it is asked for
-
-  std::vector<Spectral_ring_products> m_products;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;
-  std::vector<Edge> m_around, m_batch;
+  std::vector<Edge> m_around;
   Spectral_slot m_gathered = null_spectral_slot; // whose edges m_around has
   std::vector<Spectral_candidate> m_results;
-  mutable Spectral_tasks<Spectral_candidate, Workspace> m_tasks;
-  double m_bound = 0;
   Spectral_change m_change;
   std::size_t m_number_of_evaluations = 0;
+
+  alignas(spectral_cache_line) mutable Spectral_tasks<Spectral_candidate, Workspace> m_tasks;
   std::unique_ptr<Pool> m_pool; // last: its threads look at the rest
 };
 

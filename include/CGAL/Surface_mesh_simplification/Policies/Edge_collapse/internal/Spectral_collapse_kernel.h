@@ -263,7 +263,7 @@ private:
       m_rows.resize(n);
       m_far.resize(n);
     }
-    m_scratch.resize(length);
+    double* const scratch = m_scratch.at_least(length);
     std::size_t count = 0, of_u = 0; // those next to u come first
     for(std::size_t i = 0; i < n; ++i)
       if(m_link[i].ends != next_to_u_and_v) {
@@ -271,8 +271,8 @@ private:
         m_rows[count++] = fields.r_row(m_link[i].slot);
       }
     const double *const f_u = fields.f_row(m_link.u()), *const f_v = fields.f_row(m_link.v());
-    spectral_subtract_rows(f_v, f_u, length, m_scratch.data());
-    spectral_dots_with(m_rows.data(), count, m_scratch.data(), length, m_far.data());
+    spectral_subtract_rows(f_v, f_u, length, scratch);
+    spectral_dots_with(m_rows.data(), count, scratch, length, m_far.data());
     std::size_t next = 0;
     for(std::size_t i = 0; i < n; ++i)
       if(m_link[i].ends != next_to_u_and_v) {
@@ -281,8 +281,8 @@ private:
       }
     if(fields.theta == 0)
       return;
-    spectral_dots_with(m_rows.data(), of_u, fields.z_row(m_link.v(), m_scratch.data()), length, m_far.data());
-    spectral_dots_with(m_rows.data() + of_u, count - of_u, fields.z_row(m_link.u(), m_scratch.data()), length,
+    spectral_dots_with(m_rows.data(), of_u, fields.z_row(m_link.v(), scratch), length, m_far.data());
+    spectral_dots_with(m_rows.data() + of_u, count - of_u, fields.z_row(m_link.u(), scratch), length,
                        m_far.data() + of_u);
     next = 0;
     for(std::size_t i = 0; i < n; ++i)
@@ -417,7 +417,8 @@ private:
   std::vector<Gram> m_gram;
   std::vector<Spectral_new_entries> m_new;
   std::vector<const double*> m_rows;
-  std::vector<double> m_far, m_scratch;
+  std::vector<double> m_far;
+  Spectral_buffer m_scratch;
   Spectral_merged_row m_merged;
   Spectral_change m_change;
 };

@@ -9,6 +9,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rows.h>
 
 #include <Eigen/Core>
 
@@ -25,14 +26,12 @@ namespace internal {
  */
 struct Spectral_fields
 {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  Rows F;                 ///< n x padded K
-  Rows Z;                 ///< the same, or empty where Z = F Lambda
-  Eigen::VectorXd lambda; ///< padded K, read where Z is empty
-  Rows R;                 ///< n x padded K
-  Eigen::VectorXd mass;   ///< lumped barycentric M_w
-  Eigen::VectorXd E;      ///< E_w
+  Spectral_rows F;      ///< n x padded K
+  Spectral_rows Z;      ///< the same, or empty where Z = F Lambda
+  Spectral_rows lambda; ///< 1 x padded K, read where Z is empty
+  Spectral_rows R;      ///< n x padded K
+  Eigen::VectorXd mass; ///< lumped barycentric M_w
+  Eigen::VectorXd E;    ///< E_w
   std::vector<Eigen::Vector3d> points;
   Spectral_rings rings;
   double theta = 0;      ///< B = (1 - theta) M_lumped + theta M_consistent
@@ -42,15 +41,9 @@ struct Spectral_fields
   double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
   double off_diagonal_share() const { return theta / 12; }
 
-  bool has_z_rows() const { return Z.size() != 0; }
-  const double* f_row(const Spectral_slot s) const
-  {
-    return F.data() + std::size_t(s) * std::size_t(F.cols());
-  }
-  const double* z_row(const Spectral_slot s) const
-  {
-    return Z.data() + std::size_t(s) * std::size_t(Z.cols());
-  }
+  bool has_z_rows() const { return !Z.empty(); }
+  const double* f_row(const Spectral_slot s) const { return F[s]; }
+  const double* z_row(const Spectral_slot s) const { return Z[s]; }
   /// The same where Z = F Lambda: then it is put into `result`, with room for a row.
   CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_slot s, double* result) const
   {
@@ -59,10 +52,7 @@ struct Spectral_fields
     spectral_multiply_rows(lambda.data(), f_row(s), std::size_t(F.cols()), result);
     return result;
   }
-  const double* r_row(const Spectral_slot s) const
-  {
-    return R.data() + std::size_t(s) * std::size_t(R.cols());
-  }
+  const double* r_row(const Spectral_slot s) const { return R[s]; }
 };
 
 } // namespace internal

@@ -88,9 +88,6 @@ struct Spectral_lanes
 };
 #endif
 
-/// Rows of F, Z and R are padded with zeros to a multiple of this.
-constexpr std::size_t spectral_padding = 8;
-
 // Lanes are never returned or passed by value: that ABI would depend on -m flags.
 
 // Not by memcpy: GCC splits that into the halves of the baseline before the AVX2 variant of the caller comes to see it.

@@ -158,8 +158,7 @@ private:
     spectral_dots<true, true>(a, b, length, m_across.data(), stride);
     if(!m_full)
       return;
-    m_scratch.resize((na + nb) * length);
-    double* const scratch = m_scratch.data();
+    double* const scratch = m_scratch.at_least((na + nb) * length);
     for(std::size_t k = 0, i = 0; i < na; ++k)
       if(link[k].ends == next_to_u) {
         m_a[na + i] = fields.z_row(link[k].slot, scratch + i * length);
@@ -285,7 +284,8 @@ private:
   // Scratch memory that only grows.
   std::vector<std::size_t> m_far;
   std::vector<int> m_at_v;
-  std::vector<double> m_scratch, m_across, m_gram;
+  Spectral_buffer m_scratch;
+  std::vector<double> m_across, m_gram;
   std::vector<const double*> m_a, m_b;
   std::size_t m_n = 0, m_width = 0, m_stride = 0;
   std::vector<Coefficient> m_c;

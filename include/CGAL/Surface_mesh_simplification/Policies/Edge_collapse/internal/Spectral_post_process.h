@@ -66,7 +66,7 @@ public:
       return;
     const double theta = mass_blend(m_options.mass);
     Eigen::MatrixXd F, Z;
-    signals(theta, result.eigenpairs.get(), policies.state().core().fields().Z.size() != 0, F, Z);
+    signals(theta, result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
     const Eigen::SparseMatrix<double> P = policies.restriction();
     const char* where = "as the collapses left them";
     try {

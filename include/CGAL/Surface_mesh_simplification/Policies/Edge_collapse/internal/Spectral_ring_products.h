@@ -354,7 +354,7 @@ private:
       return;
     set_rows(fields, c);
     const double *fc = fields.f_row(c), *r = fields.r_row(c);
-    double* next = scratch((4 * d + 4) * length);
+    double* next = m_scratch.at_least((4 * d + 4) * length);
     m_g.resize(d);
     m_right.resize(d);
     for(std::size_t j = 0; j < d; ++j) {
@@ -395,7 +395,7 @@ private:
   {
     const std::size_t d = products.degree(), length = std::size_t(fields.F.cols());
     set_rows(fields, c);
-    double *next = scratch(5 * length + d + 1), *gx = next;
+    double *next = m_scratch.at_least(5 * length + d + 1), *gx = next;
     next += length;
     const Spectral_row_list g{m_f.data(), d, fields.f_row(c)}, z{left_of_z(), d + 1};
     spectral_subtract_rows(m_f[moved], g.center, length, gx);
@@ -438,13 +438,6 @@ private:
     }
   }
 
-  double* scratch(const std::size_t size)
-  {
-    if(m_scratch.size() < size)
-      m_scratch.resize(size);
-    return m_scratch.data();
-  }
-
   // z_i . row is the product of left_of_z()[i] and against_z(row): where Z = F Lambda that of f_i and Lambda row, and no row
   // of Z is formed. What is formed is put at `next`, which goes on behind it.
   const double* const* left_of_z() const
@@ -475,7 +468,7 @@ private:
     return result;
   }
 
-  std::vector<double> m_scratch;
+  Spectral_buffer m_scratch;
   std::vector<const double*> m_f, m_z, m_g, m_right;
 };
 

@@ -73,7 +73,7 @@ public:
 
 private:
   // In memory of its own: two threads look at it.
-  struct alignas(64) Task
+  struct alignas(spectral_cache_line) Task
   {
     enum Stage { waiting, begun, done };
     std::atomic<int> stage{waiting};

@@ -8,6 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rows.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -225,8 +226,10 @@ private:
   const void* m_body = nullptr;
   std::size_t m_size = 0, m_grain = 1;
 
-  std::atomic<std::uint64_t> m_gate{0};
-  std::atomic<std::size_t> m_next{0}, m_asleep{0};
+  // Each in a cache line of its own: who waits reads the first of them all the time.
+  alignas(spectral_cache_line) std::atomic<std::uint64_t> m_gate{0};
+  alignas(spectral_cache_line) std::atomic<std::size_t> m_next{0};
+  alignas(spectral_cache_line) std::atomic<std::size_t> m_asleep{0};
   std::atomic<bool> m_end{false};
   std::mutex m_mutex;
   std::condition_variable m_wake;

@@ -1,0 +1,95 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_ROWS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_ROWS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The size of a cache line. What one thread writes while another reads something else is kept that far apart.
+constexpr std::size_t spectral_cache_line = 64;
+
+/// Numbers that begin with a cache line. A vector register that is loaded across the end of one costs two loads.
+class Spectral_buffer
+{
+public:
+  double* data() { return m_lines.empty() ? nullptr : m_lines.front().numbers; }
+  const double* data() const { return m_lines.empty() ? nullptr : m_lines.front().numbers; }
+
+  /// n numbers, all zero.
+  void assign(const std::size_t n) { m_lines.assign(lines(n), Line()); }
+
+  /// Room for n numbers, for scratch memory: it only grows, and what was in it is lost then.
+  double* at_least(const std::size_t n)
+  {
+    if(m_lines.size() < lines(n))
+      assign(n);
+    return data();
+  }
+
+private:
+  static constexpr std::size_t line_size = spectral_cache_line / sizeof(double);
+  struct alignas(spectral_cache_line) Line
+  {
+    double numbers[line_size] = {};
+  };
+  static std::size_t lines(const std::size_t n) { return (n + line_size - 1) / line_size; }
+
+  std::vector<Line> m_lines;
+};
+
+/// The rows of F, Z and R are padded with zeros to a multiple of this.
+constexpr std::size_t spectral_padding = spectral_cache_line / sizeof(double);
+
+/// A matrix whose rows begin with a cache line each.
+class Spectral_rows
+{
+public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  /// All zero; `length` before padding.
+  void assign(const Eigen::Index rows, const Eigen::Index length)
+  {
+    constexpr Eigen::Index multiple = spectral_padding;
+    m_rows = rows;
+    m_cols = (length + multiple - 1) / multiple * multiple;
+    m_numbers.assign(std::size_t(m_rows * m_cols));
+  }
+
+  void assign(const Eigen::MatrixXd& matrix)
+  {
+    assign(matrix.rows(), matrix.cols());
+    Eigen::Map<Matrix>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
+  }
+
+  bool empty() const { return m_rows == 0 || m_cols == 0; }
+  Eigen::Index cols() const { return m_cols; }
+  const double* data() const { return m_numbers.data(); }
+
+  const double* operator[](const std::size_t i) const { return data() + i * std::size_t(m_cols); }
+  double* operator[](const std::size_t i) { return data() + i * std::size_t(m_cols); }
+  Eigen::Map<const Eigen::RowVectorXd> row(const std::size_t i) const { return {(*this)[i], m_cols}; }
+  Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
+
+private:
+  double* data() { return m_numbers.data(); }
+
+  Spectral_buffer m_numbers;
+  Eigen::Index m_rows = 0, m_cols = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_ROWS_H
