@@ -55,8 +55,6 @@ constexpr std::size_t spectral_padding = spectral_cache_line / sizeof(double);
 class Spectral_rows
 {
 public:
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
   /// All zero; `length` before padding.
   void assign(const Eigen::Index rows, const Eigen::Index length)
   {
@@ -69,12 +67,14 @@ public:
   void assign(const Eigen::MatrixXd& matrix)
   {
     assign(matrix.rows(), matrix.cols());
-    Eigen::Map<Matrix>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<Rows>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
   }
 
   bool empty() const { return m_rows == 0 || m_cols == 0; }
   Eigen::Index cols() const { return m_cols; }
   const double* data() const { return m_numbers.data(); }
+  double* data() { return m_numbers.data(); }
 
   const double* operator[](const std::size_t i) const { return data() + i * std::size_t(m_cols); }
   double* operator[](const std::size_t i) { return data() + i * std::size_t(m_cols); }
@@ -82,8 +82,6 @@ public:
   Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
 
 private:
-  double* data() { return m_numbers.data(); }
-
   Spectral_buffer m_numbers;
   Eigen::Index m_rows = 0, m_cols = 0;
 };
