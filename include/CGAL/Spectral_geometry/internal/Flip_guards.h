@@ -6,9 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIP_GUARDS_H
 
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
-#include <CGAL/Spectral_geometry/internal/Face_grid.h>
+#include <CGAL/Spectral_geometry/internal/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/Flip_connectivity.h>
 #include <CGAL/Spectral_geometry/internal/Flip_energy.h>
+#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -19,7 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <memory>
+#include <vector>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -49,8 +50,12 @@ public:
                   6;
     }
     m_closed = !mesh.has_boundary();
-    if(options.keep_free_of_self_intersections)
-      m_grid = std::make_unique<Face_grid>(V, T);
+    if(!options.keep_free_of_self_intersections)
+      return;
+    std::vector<Box_tree::Box> boxes;
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      boxes.push_back(box_of(corners_of_face(V, T.row(f))));
+    m_tree.build(boxes);
   }
 
   /// Angles and normals.
@@ -82,27 +87,29 @@ public:
            (!m_closed || std::abs(m_volume_change + volume_change(q)) <= m_tolerance * std::abs(m_volume));
   }
 
-  bool stays_free(const Quad& q, const std::array<Triangle, 2>& after)
+  bool stays_free(const Quad& q, const std::array<Triangle, 2>& after) const
   {
-    if(!m_grid)
+    if(m_tree.is_empty())
       return true;
-    for(const Triangle& t : after)
-      for(const int f : m_grid->near(box(t)))
-        if(f != q.f && f != q.g) {
-          const auto corners = m_mesh.triangles().row(f);
-          if(triangles_intersect(m_V, t.corners, {corners(0), corners(1), corners(2)}))
-            return false;
-        }
-    return !triangles_intersect(m_V, after[0].corners, after[1].corners);
+    const Corners both[2] = {corners_of_face(m_V, after[0].corners), corners_of_face(m_V, after[1].corners)};
+    for(const Corners& t : both) {
+      const auto meets = [&](const std::size_t f) {
+        return f != std::size_t(q.f) && f != std::size_t(q.g) &&
+               triangles_intersect(t, corners_of_face(m_V, m_mesh.triangles().row(Eigen::Index(f))));
+      };
+      if(m_tree.any(box_of(t), meets))
+        return false;
+    }
+    return !triangles_intersect(both[0], both[1]);
   }
 
   void update(const Quad& q, const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after)
   {
     m_area_change += area_change(before, after);
     m_volume_change += volume_change(q);
-    if(m_grid) {
-      m_grid->replace(q.f, box(after[0]));
-      m_grid->replace(q.g, box(after[1]));
+    if(!m_tree.is_empty()) {
+      m_tree.update(std::size_t(q.f), box_of(corners_of_face(m_V, after[0].corners)));
+      m_tree.update(std::size_t(q.g), box_of(corners_of_face(m_V, after[1].corners)));
     }
   }
 
@@ -130,20 +137,12 @@ private:
     return (i - c).cross(d - c).dot(j - c) / -6;
   }
 
-  Face_grid::Box box(const Triangle& t) const
-  {
-    Face_grid::Box result;
-    for(const int v : t.corners)
-      result.extend(Eigen::Vector3d(m_V.row(v)));
-    return result;
-  }
-
   const Eigen::MatrixXd& m_V;
   const Flip_connectivity& m_mesh;
   double m_angle_ratio, m_cosine, m_tolerance;
   double m_area = 0, m_volume = 0, m_area_change = 0, m_volume_change = 0;
   bool m_closed;
-  std::unique_ptr<Face_grid> m_grid;
+  Box_tree m_tree; // of the faces; empty: nobody asks
 };
 
 } // namespace internal

@@ -5,16 +5,13 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SELF_INTERSECTING_FACES_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SELF_INTERSECTING_FACES_H
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
-#include <CGAL/Surface_mesh.h>
+#include <CGAL/Spectral_geometry/internal/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -29,22 +26,21 @@ using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 template <class Positions>
 Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
 {
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel; // the predicates have to be right
-  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-  Mesh mesh;
-  for(Eigen::Index v = 0; v < V.rows(); ++v)
-    mesh.add_vertex(Kernel::Point_3(V(v, 0), V(v, 1), V(v, 2)));
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    if(mesh.add_face(Mesh::Vertex_index(Mesh::size_type(T(f, 0))),
-                     Mesh::Vertex_index(Mesh::size_type(T(f, 1))),
-                     Mesh::Vertex_index(Mesh::size_type(T(f, 2)))) == Mesh::null_face())
-      throw std::invalid_argument("relocation: triangle " + std::to_string(f) +
-                                  " does not continue an oriented 2-manifold; repair the mesh.");
-  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> found;
-  CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(found));
+  std::vector<Corners> faces;
+  std::vector<Box_tree::Box> boxes;
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    faces.push_back(corners_of_face(V, T.row(f)));
+    boxes.push_back(box_of(faces.back()));
+  }
+  Box_tree tree;
+  tree.build(boxes);
   Face_pairs pairs;
-  for(const auto& [f, g] : found)
-    pairs.emplace_back(Eigen::Index((std::min)(f, g)), Eigen::Index((std::max)(f, g)));
+  for(std::size_t f = 0; f < faces.size(); ++f)
+    tree.any(boxes[f], [&](const std::size_t g) {
+      if(f < g && triangles_intersect(faces[f], faces[g]))
+        pairs.emplace_back(Eigen::Index(f), Eigen::Index(g));
+      return false;
+    });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
