@@ -43,9 +43,6 @@ struct Relocation_options
   /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies in modes that the norms
   /// do not see: a large weight costs them their gain, with none E may rise to a multiple.
   double plain = 0.03;
-  /// The spectrum is compared at unit area on both sides, as the norms of the paper are, unless this is set. The area
-  /// is kept in either case.
-  bool input_scale = false;
 
   /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident edge. Positive.
   double trust_radius = 0.5;
@@ -53,10 +50,14 @@ struct Relocation_options
   double smallest_angle_ratio = 0.5;
   /// No triangle turns its normal further than this from where it was, radians. In ]0, pi/2].
   double largest_turn = CGAL_PI / 3;
-  /// Total area, and the volume of a closed mesh, change by at most this part. Positive.
-  double size_tolerance = 0.01;
+  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine mesh, give or take this
+  /// part. Positive. The spectra are compared at the scale of the meshes as they are, which brings the area near that of the fine
+  /// mesh by itself.
+  double size_tolerance = 0.03;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
+  /// The same where a vertex of the fine mesh would be further from the coarse one than any was at the start: tips stay.
+  bool keep_hausdorff_distance = true;
   /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
   bool fix_boundary = false;
   /// So many of the coarse modes beyond the number of signals K, in parts of K, keep their eigenvalues in the mean, at unit
@@ -82,20 +83,50 @@ struct Relocation_options
 /// What `relocate_positions()` did.
 struct Relocation_result
 {
-  /// E (Eq. 2) with the carried signals before and after, in the scale in which the spectra are compared. It may
+  /// Why the descent ended.
+  enum class Stop_reason {
+    converged,  ///< ten steps lowered the objective by less than `Relocation_options::relative_decrease`
+    no_descent, ///< no step that the guards allow lowers it
+    steps,      ///< `Relocation_options::maximum_steps`
+    seconds     ///< `Relocation_options::maximum_seconds`
+  };
+
+  /// Vertices that a guard stopped short in one step at least, by guard.
+  struct Held
+  {
+    std::size_t fixed = 0;     ///< never moved: kept by the caller, or boundary vertices that have to stay
+    std::size_t trust = 0;     ///< by `Relocation_options::trust_radius`
+    std::size_t boundary = 0;  ///< by the end of the boundary that they slide along
+    std::size_t sheet = 0;     ///< because their closest point would have leapt to another sheet of the fine surface
+    std::size_t distance = 0;  ///< by `Relocation_options::largest_distance`
+    std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
+  };
+
+  /// E (Eq. 2) with the carried signals before and after, in the scale of the meshes. It may
   /// rise while the norms fall: the norms do not see most of it.
   double E_before = 0;
   double E_after = 0;             ///< see `E_before`
   double objective_before = 0;    ///< what was minimised, at the start
   double objective_after = 0;     ///< and at the end
   int steps = 0;                  ///< of the descent
+  Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
+  Held held;                                         ///< by which guard
   std::size_t moved_vertices = 0; ///< vertices that are elsewhere now
-  /// vertices that went back, in part or wholly, because of a self-intersection
+  /// vertices that went back, in part or wholly, because of a self-intersection or the distance
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds
   bool resampled = false; ///< whether `restriction` is a new one
   /// for `Signals::sampled` the restriction of the new positions, otherwise that which was passed
   Eigen::SparseMatrix<double> restriction;
+
+  /// `stop_reason` in words
+  const char* stop_reason_name() const
+  {
+    return stop_reason == Stop_reason::converged    ? "converged"
+           : stop_reason == Stop_reason::no_descent ? "no step descends"
+           : stop_reason == Stop_reason::steps      ? "number of steps"
+                                                    : "time";
+  }
 };
 
 /// @}

@@ -75,6 +75,40 @@ inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
   return result;
 }
 
+/// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
+/// Legs lie close to the body and some faces intersect; one vertex whose signals leap would end the descent for all.
+class Sheet_guard
+{
+public:
+  explicit Sheet_guard(const Closest_point_query& closest)
+    : m_closest(&closest)
+  {}
+
+  bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  {
+    if(m_starts.size() <= std::size_t(v))
+      m_starts.resize(std::size_t(v) + 1);
+    Start& start = m_starts[std::size_t(v)];
+    if(start.position != from) {
+      start.closest = start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from);
+      start.position = from;
+      start.known = true;
+    }
+    return ((*m_closest)(to, start.closest).point - start.closest.point).norm() > 3 * (to - from).norm();
+  }
+
+private:
+  struct Start
+  {
+    bool known = false;
+    Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    Closest_point_query::Answer closest;
+  };
+
+  const Closest_point_query* m_closest;
+  std::vector<Start> m_starts; // by vertex
+};
+
 /// One relocation from the set-up of its objective to the repair at its end.
 class Relocation
 {
@@ -90,7 +124,7 @@ public:
     , m_fine(fine)
     , m_begin(std::chrono::steady_clock::now())
     , m_guards(m_start, T, Positions(P * fine.V), limits())
-    , m_size(T, m_start, options.size_tolerance)
+    , m_size(T, m_start, fine, options.size_tolerance)
   {
     if(needs_surface())
       m_closest = std::make_unique<Closest_point_query>(fine);
@@ -113,20 +147,30 @@ public:
     descent.start(V);
     result.objective_before = descent.value();
     double last = descent.value();
-    for(result.steps = 0; result.steps < m_options.maximum_steps && seconds() < m_options.maximum_seconds;) {
+    using Reason = Relocation_result::Stop_reason;
+    for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
       if(m_options.progress && !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
         throw Cancelled();
-      if(!descent.step())
+      if(!(seconds() < m_options.maximum_seconds)) {
+        result.stop_reason = Reason::seconds;
         break;
+      }
+      if(!descent.step()) {
+        result.stop_reason = Reason::no_descent;
+        break;
+      }
       if(++result.steps % 10 == 0) {
-        if(descent.value() > (1 - m_options.relative_decrease) * last)
+        if(descent.value() > (1 - m_options.relative_decrease) * last) {
+          result.stop_reason = Reason::converged;
           break;
+        }
         if(result.steps < m_options.maximum_steps && m_objective->refresh(descent.positions()))
           descent.refresh();
         last = descent.value();
       }
     }
     result.objective_after = descent.value();
+    result.held = m_guards.held();
     V = repaired(descent.positions(), result.reverted_vertices);
     result.E_after = m_objective->E(V);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
@@ -168,6 +212,8 @@ private:
         m_guards.fix(Eigen::Index(v));
       else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
         m_guards.keep_on(Eigen::Index(v), boundary);
+    if(m_options.signals != Relocation_options::Signals::carried)
+      m_guards.set_leaps(Sheet_guard(*m_closest));
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Vector3d& p) {
         return ((*m_closest)(p).point - p).norm() <= m_options.largest_distance;
@@ -177,21 +223,14 @@ private:
   void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                      const double theta)
   {
-    double fine_area = 0;
-    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
-      fine_area += triangle_cotangents(m_fine.V.row(m_fine.T(f, 0)), m_fine.V.row(m_fine.T(f, 1)),
-                                       m_fine.V.row(m_fine.T(f, 2)))
-                       .area;
-    // At unit area on both sides eigenvalues are multiplied by A: those of the fine mesh by A / A~ more.
-    const double scale = m_options.input_scale ? 1. : fine_area / m_size.area();
-    const Eigen::MatrixXd carried_F = P * F, carried_Z = scale * (P * Z);
+    const Eigen::MatrixXd carried_F = P * F, carried_Z = P * Z;
     const double largest =
-        scale * std::sqrt((Z.colwise().squaredNorm().array() /
-                           F.colwise().squaredNorm().array().max(std::numeric_limits<double>::min()))
-                              .maxCoeff());
+        std::sqrt((Z.colwise().squaredNorm().array() /
+                   F.colwise().squaredNorm().array().max(std::numeric_limits<double>::min()))
+                      .maxCoeff());
     if(m_options.signals != Relocation_options::Signals::carried) {
       m_fine_F = F;
-      m_fine_Z = scale * Z;
+      m_fine_Z = Z;
       m_sampled = std::make_unique<Surface_signals>(*m_closest, m_fine.T, m_fine_F, m_fine_Z);
     }
     m_objective = std::make_unique<Relocation_objective>(
@@ -201,24 +240,26 @@ private:
     m_objective->set_threads(m_options.threads);
   }
 
-  // Goes back where triangles that were apart meet, and everywhere while the size is out of its bounds.
+  // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
+  // out of its bounds.
   Positions repaired(Positions V, std::size_t& reverted) const
   {
-    std::vector<char> has_reverted(std::size_t(V.rows()), 0);
     const Face_pairs before =
         m_options.keep_free_of_self_intersections ? self_intersecting_faces(m_start, m_T) : Face_pairs();
+    const double furthest = m_options.keep_hausdorff_distance ? furthest_of_fine(m_start, nullptr, 0) : 0.;
+    std::vector<char> has_reverted(std::size_t(V.rows()), 0);
     for(int round = 0;; ++round) {
       std::vector<char> back(std::size_t(V.rows()), 0);
-      bool any = false;
       if(m_options.keep_free_of_self_intersections)
         for(const auto& pair : self_intersecting_faces(V, m_T))
           if(!std::binary_search(before.begin(), before.end(), pair))
             for(const Eigen::Index f : {pair.first, pair.second})
-              for(int k = 0; k < 3; ++k) {
-                any = true;
-                back[std::size_t(m_T(f, k))] = has_reverted[std::size_t(m_T(f, k))] = 1;
-              }
-      const bool too_large = !m_size.within(V);
+              mark_face(f, back);
+      if(m_options.keep_hausdorff_distance)
+        furthest_of_fine(V, &back, furthest);
+      for(std::size_t v = 0; v < back.size(); ++v)
+        has_reverted[v] |= back[v];
+      const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
       if(!any && !too_large)
         break;
       const double kept = round < 12 ? 0.6 : 0.;
@@ -228,9 +269,34 @@ private:
         if(too_large || back[std::size_t(v)])
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
       m_guards.admit_without_projection(m_start, V);
+      if(round >= 24)
+        break;
     }
     reverted = std::size_t(std::count(has_reverted.begin(), has_reverted.end(), 1));
     return V;
+  }
+
+  void mark_face(const Eigen::Index f, std::vector<char>& marks) const
+  {
+    for(int k = 0; k < 3; ++k)
+      marks[std::size_t(m_T(f, k))] = 1;
+  }
+
+  // The largest distance of a fine vertex from the coarse mesh at V; marks the corners of the faces that vertices further than
+  // `limit` are closest to.
+  double furthest_of_fine(const Positions& V, std::vector<char>* marks, const double limit) const
+  {
+    const Closest_point_query closest(Mesh_matrices{V, m_T});
+    double furthest = 0;
+    for(Eigen::Index i = 0; i < m_fine.V.rows(); ++i) {
+      const Eigen::Vector3d point = m_fine.V.row(i);
+      const Closest_point_query::Answer answer = closest(point);
+      const double distance = (answer.point - point).norm();
+      furthest = (std::max)(furthest, distance);
+      if(marks != nullptr && distance > limit * (1 + 1e-9))
+        mark_face(answer.face, *marks);
+    }
+    return furthest;
   }
 
   Relocation_options m_options;

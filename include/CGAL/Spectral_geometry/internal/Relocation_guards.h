@@ -5,6 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDS_H
 
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -54,6 +56,7 @@ public:
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
     , m_boundary(std::size_t(V.rows()))
+    , m_held_by(std::size_t(V.rows()), 0)
   {
     measure_vertices(V);
     measure_triangles(V);
@@ -74,8 +77,27 @@ public:
       fix(v);
   }
 
-  /// A further condition on the position of any vertex, for instance a distance to a surface.
+  /// A further condition on the position of any vertex: a distance to a surface.
   void set_bound(std::function<bool(const Eigen::Vector3d&)> allowed) { m_allowed = std::move(allowed); }
+
+  /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
+  using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
+  void set_leaps(Leaps leaps) { m_leaps = std::move(leaps); }
+
+  /// How many vertices each guard has held since the start.
+  Relocation_result::Held held() const
+  {
+    Relocation_result::Held held;
+    held.fixed = std::size_t(std::count(m_fixed.begin(), m_fixed.end(), true));
+    for(const unsigned char by : m_held_by) {
+      held.trust += (by & by_trust) != 0;
+      held.boundary += (by & by_boundary) != 0;
+      held.sheet += (by & by_sheet) != 0;
+      held.distance += (by & by_distance) != 0;
+      held.triangles += (by & by_triangles) != 0;
+    }
+    return held;
+  }
 
   void tangential(const Positions& at, Positions& direction) const
   {
@@ -91,8 +113,11 @@ public:
 
   void admit(const Positions& from, Positions& to) const
   {
-    for(Eigen::Index v = 0; v < to.rows(); ++v)
+    for(Eigen::Index v = 0; v < to.rows(); ++v) {
       to.row(v) = nearest_allowed(v, from.row(v), to.row(v)).transpose();
+      if(m_leaps && to.row(v) != from.row(v))
+        stay_on_sheet(v, from, to);
+    }
     admit_without_projection(from, to);
   }
 
@@ -104,6 +129,7 @@ public:
       for(Eigen::Index v = 0; v < to.rows(); ++v)
         if(offends[std::size_t(v)]) {
           offends[std::size_t(v)] = 0;
+          m_held_by[std::size_t(v)] |= by_triangles;
           step_back(v, from, to, round);
         }
   }
@@ -118,6 +144,27 @@ public:
   }
 
 private:
+  enum Guard : unsigned char {
+    by_trust = 1,
+    by_boundary = 2,
+    by_sheet = 4,
+    by_distance = 8,
+    by_triangles = 16
+  };
+
+  // A step that leaps is taken in part, or not at all.
+  void stay_on_sheet(const Eigen::Index v, const Positions& from, Positions& to) const
+  {
+    for(int cut = 0; m_leaps(v, from.row(v), to.row(v)); ++cut) {
+      m_held_by[std::size_t(v)] |= by_sheet;
+      if(cut == 3) {
+        to.row(v) = from.row(v);
+        return;
+      }
+      to.row(v) = (0.6 * from.row(v) + 0.4 * to.row(v)).eval();
+    }
+  }
+
   void measure_vertices(const Positions& V)
   {
     Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = Eigen::VectorXd::Zero(V.rows());
@@ -181,15 +228,22 @@ private:
       return from;
     const Eigen::Vector3d anchor = m_anchors.row(v);
     const double distance = (to - anchor).norm();
-    if(distance > m_radius(v))
+    unsigned char& held = m_held_by[std::size_t(v)];
+    if(distance > m_radius(v)) {
+      held |= by_trust;
       to = anchor + m_radius(v) / distance * (to - anchor);
+    }
     if(!m_boundary[std::size_t(v)].empty()) {
       to = closest_segment(v, to).closest(to);
-      if((to - anchor).norm() > 1.01 * m_radius(v))
+      if((to - anchor).norm() > 1.01 * m_radius(v)) {
+        held |= by_boundary;
         return from;
+      }
     }
-    if(m_allowed && !m_allowed(to))
+    if(m_allowed && !m_allowed(to)) {
+      held |= by_distance;
       return from;
+    }
     return to;
   }
 
@@ -219,6 +273,8 @@ private:
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
   std::function<bool(const Eigen::Vector3d&)> m_allowed;
+  Leaps m_leaps;
+  mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
   Eigen::VectorXd m_radius, m_smallest_angle;
   std::vector<Eigen::Vector3d> m_normal;
 };

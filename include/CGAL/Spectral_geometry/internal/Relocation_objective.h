@@ -20,38 +20,46 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-/// Keeps area and volume: a penalty that begins at half of the tolerance, steep enough to end before its whole.
+/// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a tolerance: a penalty that begins at
+/// half of it, steep enough to end before its whole.
 class Size_bounds
 {
 public:
   using Positions = Operator_geometry::Positions;
 
-  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const double tolerance)
+  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine, const double tolerance)
     : m_T(T)
     , m_tolerance(tolerance)
-    , m_closed(is_closed(T, V.rows()))
+    , m_closed(is_closed(T, V.rows()) && is_closed(fine.T, fine.V.rows()))
   {
-    measure(V, m_area, m_volume);
+    double fine_area, fine_volume;
+    measure(m_T, V, m_area.from, m_volume.from);
+    measure(fine.T, fine.V, fine_area, fine_volume);
+    // Those of a mesh far from the fine one (a few vertices, or an offset) are not to be reached at any price.
+    m_area.set_other(fine_area);
+    m_volume.set_other(fine_volume);
     // A mesh without volume to speak of (two sheets, say) cannot keep a part of it.
-    m_closed = m_closed && std::abs(m_volume) > 1e-3 * m_area * std::sqrt(m_area) / 10.6;
+    m_closed = m_closed && std::abs(m_volume.from) > 1e-3 * m_area.from * std::sqrt(m_area.from) / 10.6;
   }
 
-  double area() const { return m_area; }
+  /// Of the coarse mesh.
+  double area() const { return m_area.from; }
 
   bool within(const Positions& V) const
   {
     double area, volume;
-    measure(V, area, volume);
-    return std::abs(area / m_area - 1) <= m_tolerance &&
-           (!m_closed || std::abs(volume / m_volume - 1) <= m_tolerance);
+    measure(m_T, V, area, volume);
+    return std::abs(m_area.beyond(area)) <= m_tolerance &&
+           (!m_closed || std::abs(m_volume.beyond(volume)) <= m_tolerance);
   }
 
   /// In parts of the objective at the start.
   double penalty(const Positions& V, const double weight, Positions& gradient) const
   {
     double area, volume;
-    measure(V, area, volume);
-    const double by_area = slope(area / m_area - 1), by_volume = m_closed ? slope(volume / m_volume - 1) : 0;
+    measure(m_T, V, area, volume);
+    const double by_area = slope(m_area.beyond(area)),
+                 by_volume = m_closed ? slope(m_volume.beyond(volume)) : 0;
     if(by_area == 0 && by_volume == 0)
       return 0;
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
@@ -61,8 +69,8 @@ public:
       const Eigen::Vector3d unit = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
       for(int k = 0; k < 3; ++k) {
         const Eigen::Vector3d &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
-        const Eigen::Vector3d g = by_area / m_area / 2 * unit.cross(r - q) +
-                                  by_volume / (m_closed ? m_volume : 1.) / 6 * q.cross(r);
+        const Eigen::Vector3d g = by_area / m_area.from / 2 * unit.cross(r - q) +
+                                  by_volume / (m_closed ? m_volume.from : 1.) / 6 * q.cross(r);
         gradient.row(m_T(f, k)) += weight * g.transpose();
       }
     }
@@ -88,14 +96,32 @@ private:
     return true;
   }
 
-  void measure(const Positions& V, double& area, double& volume) const
+  // What the coarse mesh has at the start, and how far the fine one lies from it, in parts of that.
+  struct Range
+  {
+    double from = 0, low = 0, high = 0;
+
+    void set_other(const double fine)
+    {
+      const double change = std::clamp(fine / from - 1, -0.1, 0.1);
+      low = (std::min)(change, 0.);
+      high = (std::max)(change, 0.);
+    }
+    double beyond(const double value) const
+    {
+      const double change = value / from - 1;
+      return change > high ? change - high : change < low ? change - low : 0.;
+    }
+  };
+
+  template <class Points>
+  static void measure(const Eigen::MatrixXi& T, const Points& V, double& area, double& volume)
   {
     area = volume = 0;
     const Eigen::Vector3d origin = V.row(0);
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      const Eigen::Vector3d p = V.row(m_T(f, 0)).transpose() - origin,
-                            q = V.row(m_T(f, 1)).transpose() - origin,
-                            r = V.row(m_T(f, 2)).transpose() - origin;
+    for(Eigen::Index f = 0; f < T.rows(); ++f) {
+      const Eigen::Vector3d p = V.row(T(f, 0)).transpose() - origin, q = V.row(T(f, 1)).transpose() - origin,
+                            r = V.row(T(f, 2)).transpose() - origin;
       area += (q - p).cross(r - p).norm() / 2;
       volume += p.dot(q.cross(r)) / 6;
     }
@@ -104,16 +130,16 @@ private:
   // At nine tenths of the tolerance it costs as much as all there was at the start.
   double steepness() const { return 1 / (0.16 * m_tolerance * m_tolerance); }
 
-  double slope(const double change) const
+  double slope(const double beyond) const
   {
-    const double beyond = std::abs(change) - m_tolerance / 2;
-    return beyond <= 0 ? 0 : 2 * steepness() * (change > 0 ? beyond : -beyond);
+    const double excess = std::abs(beyond) - m_tolerance / 2;
+    return excess <= 0 ? 0 : 2 * steepness() * (beyond > 0 ? excess : -excess);
   }
 
   Eigen::MatrixXi m_T;
   double m_tolerance;
   bool m_closed;
-  double m_area = 0, m_volume = 0;
+  Range m_area, m_volume;
 };
 
 /// What the descent sees: the smoothed energy, or E alone, and the penalties on the size and on the spectrum.
