@@ -90,6 +90,15 @@ struct Spectral_options
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
 
+  /// The shape term: a candidate costs the change of E plus `shape` S n times that of a probabilistic plane quadric, where
+  /// S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing left and n the number of vertices now. Without unit: one value
+  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone.
+  double shape = 0;
+
+  /// Collapses put no face through another, unless one that they replace went through it already. Where the placement found would, the
+  /// ends and the middle of the edge are tried, and then the edge stays. Placements of a wrapper are not looked at.
+  bool keep_free_of_self_intersections = false;
+
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
   /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::lumped;

@@ -114,6 +114,9 @@ public:
     parameters.binary = m_options.binary;
     parameters.preserve_border = m_options.preserve_border;
     parameters.single_precision_points = std::is_same<FT, float>::value;
+    parameters.shape = m_options.shape;
+    parameters.keep_free_of_self_intersections = m_options.keep_free_of_self_intersections;
+    parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
     m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,
                      1 / basis.area, parameters);

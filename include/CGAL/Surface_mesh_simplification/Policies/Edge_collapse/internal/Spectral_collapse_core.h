@@ -11,8 +11,10 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_search.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_shape_term.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_tasks.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
 
@@ -61,6 +63,7 @@ public:
     m_fields.theta = theta;
     m_fields.area_scale = area_scale;
     m_parameters = parameters;
+    m_shape = Spectral_shape_term();
     m_pool = std::make_unique<Pool>(parameters.threads);
     m_forest = Spectral_geometry::Merge_forest(F.rows());
     m_candidates.resize(std::size_t(F.rows()));
@@ -88,6 +91,13 @@ public:
       update_row(Spectral_slot(w), workspace.row);
       workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
     });
+    m_number_of_vertices = 0;
+    for(std::size_t w = 0; w < std::size_t(n); ++w)
+      m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
+    if(m_parameters.shape > 0)
+      m_shape.set_geometry(m_fields.points, m_fields.rings, m_fields.area_scale);
+    if(m_parameters.keep_free_of_self_intersections)
+      m_crossing.set_geometry(m_fields.points, m_fields.rings);
     m_total = Sum();
     m_total.add(m_fields.E.sum());
     m_recent_cost = 0;
@@ -151,13 +161,18 @@ public:
     const Spectral_candidate* found = m_candidates.find(u, v);
     if(found != nullptr && found->task != 0)
       found = &take(found->task - 1);
-    if(found != nullptr && (any_version ? !found->deferred : found->version == m_candidates.version()))
-      return *found;
-    ++m_number_of_evaluations;
-    return m_candidates.insert(
-        (std::min)(u, v),
-        evaluate(u, v, m_pool->workspace().kernel,
-                 any_version ? std::numeric_limits<double>::infinity() : minimiser_bound()));
+    if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
+      ++m_number_of_evaluations;
+      found = &m_candidates.insert(
+          (std::min)(u, v),
+          evaluate(u, v, m_pool->workspace().kernel,
+                   any_version ? std::numeric_limits<double>::infinity() : minimiser_bound()));
+    }
+    if(any_version && found->collapsible && crosses(u, v, found->point)) {
+      ++m_number_of_evaluations;
+      found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v));
+    }
+    return *found;
   }
 
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
@@ -170,7 +185,7 @@ public:
     Spectral_sample sample;
     sample.point = point;
     sample.weight = projected_weight(u, v, point);
-    kernel.evaluate(&sample, 1);
+    search().evaluate(u, v, kernel, &sample, 1);
     return sample.cost;
   }
 
@@ -244,6 +259,11 @@ public:
   {
     finish();
     const double before = total();
+    const Spectral_weighted_shape shape = weighted_shape();
+    const double shape_cost =
+        shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
+    m_shape.merge(removed, kept);
+    --m_number_of_vertices;
     m_forest.merge(removed, kept, weight);
     if(is_kept(removed))
       m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
@@ -257,8 +277,10 @@ public:
     m_fields.rings.update_triangles(kept, position());
     m_candidates.merge(removed);
     follow_around(removed, kept);
+    if(m_crossing.is_active())
+      m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
     refresh_around(removed, kept);
-    m_recent_cost = (std::max)(total() - before, m_recent_cost * recent_cost_decay);
+    m_recent_cost = (std::max)(total() - before + shape_cost, m_recent_cost * recent_cost_decay);
   }
 
   /// Forgets the candidates of the edges whose H met the last commit.
@@ -323,7 +345,48 @@ private:
 
   Spectral_placement_search search() const
   {
-    return Spectral_placement_search(m_fields, m_parameters, m_kept);
+    return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
+  }
+
+  bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+  {
+    return m_crossing.is_active() && m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
+  }
+
+  // What is left for an edge whose best placement would cross another sheet: the cheapest of its ends and its middle that
+  // does not.
+  Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v)
+  {
+    if(v < u)
+      std::swap(u, v);
+    Spectral_candidate result;
+    result.other = v;
+    Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
+    if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+      return result;
+    const Spectral_sample best = search().best_on_edge(
+        u, v, kernel, [&](const Eigen::Vector3d& point) { return !crosses(u, v, point); });
+    if(!std::isfinite(best.cost))
+      return result;
+    result.collapsible = true;
+    result.cost = best.cost;
+    result.weight = best.weight;
+    result.point = best.point;
+    return result;
+  }
+
+  // What makes `Spectral_options::shape` a number without unit: both terms of the cost grow with the scale of E, and the shape
+  // term, a squared distance times an area, is compared with 1 / n, the area that a vertex stands for.
+  Spectral_weighted_shape weighted_shape() const
+  {
+    Spectral_weighted_shape shape;
+    if(!m_shape.is_empty()) {
+      const double scale = m_parameters.sum_of_squares > 0 ? m_parameters.sum_of_squares : 1.;
+      shape.term = &m_shape;
+      shape.weight = m_parameters.shape * scale * double(m_number_of_vertices);
+      shape.largest_loss = 10 * scale;
+    }
+    return shape;
   }
 
   static void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
@@ -493,6 +556,9 @@ private:
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
+  Spectral_shape_term m_shape;
+  Spectral_crossing_guard m_crossing;
+  std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;
   std::vector<Spectral_ring_products> m_products;
   std::vector<std::size_t> m_lost; // by the neighbours of the last kept vertex, see Spectral_rings::follow()
