@@ -47,7 +47,7 @@ def name(row):
     if row["metric_mass"] != "none":
         parts.append(row["metric_mass"] + " metric")
     if row["relocation"] != "none":
-        parts.append("relocated, P anew" if row["relocation"] == "sampled" else "relocated")
+        parts.append("relocated by " + row["relocation"])
     return ", ".join(parts)
 
 
@@ -69,6 +69,7 @@ COLUMNS = [
     ("C_L, closest P", lambda r: r["closest_point_P"]["norm_L"], 1, 1, True),
     ("C_D, closest P", lambda r: r["closest_point_P"]["norm_D"], 2, 1, True),
     ("λ %", lambda r: r["eigenvalue_error_mean"], 2, 100, True),
+    ("λ 2..K/5 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100, True),
     ("λ beyond %", lambda r: r["eigenvalue_error_beyond_mean"], 2, 100, True),
     ("diffusion %", lambda r: r["distance_errors"]["diffusion"], 2, 100, True),
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100, True),

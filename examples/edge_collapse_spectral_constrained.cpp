@@ -38,12 +38,10 @@ int main(int argc, char* argv[])
   std::cout << count() << " edges are constrained\n";
 
   //! [constrained]
-  SMS::Spectral_options options;
-  options.mass = CGAL::Spectral_geometry::Mass::averaged;
-  const SMS::Spectral_edge_collapse_result result =
-      SMS::spectral_edge_collapse(mesh, std::strtoul(argv[3], nullptr, 10), options,
-                                  CGAL::parameters::edge_is_constrained_map(is_constrained)
-                                      .filter(SMS::Bounded_normal_change_filter<>()));
+  const SMS::Spectral_edge_collapse_result result = SMS::spectral_edge_collapse(
+      mesh, std::strtoul(argv[3], nullptr, 10), SMS::Spectral_edge_collapse_options(),
+      CGAL::parameters::edge_is_constrained_map(is_constrained)
+          .filter(SMS::Bounded_normal_change_filter<>()));
   //! [constrained]
 
   std::cout << result.input_vertices << " -> " << result.output_vertices << " vertices, "

@@ -33,9 +33,8 @@ int main(int argc, char* argv[])
   const std::size_t N = std::strtoul(argv[3], nullptr, 10);
 
   //! [one_call]
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   options.number_of_eigenvectors = 50;
-  options.mass = SG::Mass::averaged;
   const SMS::Spectral_edge_collapse_result result = SMS::spectral_edge_collapse(mesh, N, options);
   std::cout << result.output_vertices << " vertices, " << result.stop_reason_name() << '\n';
   //! [one_call]

@@ -191,6 +191,7 @@ private:
     row.placement = s.placement;
     row.metric_mass = s.metric_mass;
     row.relocation = s.relocation;
+    row.shape_term = s.shape;
     row.requested_vertices = N;
     row.seconds_eigenpairs = s.seconds_eigenpairs;
     try {

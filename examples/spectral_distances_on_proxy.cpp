@@ -130,7 +130,7 @@ Pair simplify(const Distance_arguments& a)
                              std::to_string(n) + " vertices.");
   const SG::Mass mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   Unit_shape fine(SG::mesh_matrices(mesh), a.eigenvectors, mass);
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   options.mass = mass;
   SG::Eigenpairs pairs = fine.pairs; // at the scale of the mesh
   pairs.values /= fine.area;

@@ -124,22 +124,40 @@ const char* phase_name(SMS::Spectral_phase phase)
   return "collapses";
 }
 
-SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, Progress_bar& bar)
+// The preset and what overrides it.
+SMS::Spectral_edge_collapse_options preset_options(const Arguments& a)
 {
-  SMS::Spectral_options options;
+  using Options = SMS::Spectral_edge_collapse_options;
+  using Signals = SG::Relocation_options::Signals;
+  Options options = a.preset == "paper" ? Options::paper() : Options::best();
+  if(!a.placement.empty())
+    options.placement = a.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
+                        : a.placement == "free"   ? SMS::Spectral_placement_strategy::free
+                                                  : SMS::Spectral_placement_strategy::on_edge;
+  if(!a.mass.empty())
+    options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  if(a.shape)
+    options.shape = *a.shape;
+  if(!a.self_intersections.empty())
+    options.keep_free_of_self_intersections = a.self_intersections == "refuse";
+  if(!a.relocate.empty()) {
+    options.relocate = a.relocate != "none";
+    options.relocation.signals = a.relocate == "carried"   ? Signals::carried
+                                 : a.relocate == "sampled" ? Signals::sampled
+                                                           : Signals::carried_and_sampled;
+  }
+  return options;
+}
+
+SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std::size_t n, Progress_bar& bar)
+{
+  SMS::Spectral_edge_collapse_options options = preset_options(a);
   options.number_of_eigenvectors = a.eigenvectors;
-  options.placement = a.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
-                      : a.placement == "free"   ? SMS::Spectral_placement_strategy::free
-                                                : SMS::Spectral_placement_strategy::on_edge;
-  options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
   options.flips = a.flips == "spectral"   ? SG::Edge_flips::spectral
                   : a.flips == "delaunay" ? SG::Edge_flips::delaunay
                                           : SG::Edge_flips::none;
-  options.relocate = a.relocate;
-  if(a.resample)
-    options.relocation.signals = SG::Relocation_options::Signals::sampled;
   options.threads = a.threads;
   options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
@@ -147,7 +165,8 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
     return true;
   };
   options.cancel = &interrupted;
-  if(!a.levels.empty()) // one run for all of them: the largest decides how many eigenvectors steer it
+  if(!a.levels.empty() &&
+     a.signals.empty()) // one run for all of them: the largest decides how many eigenvectors steer it
     options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
   if(a.max_error)
     options.maximum_error = *a.max_error;
@@ -159,7 +178,7 @@ SMS::Spectral_options spectral_options(const Arguments& a, const std::size_t n, 
 }
 
 // Says how much memory the run will take, and refuses what the machine does not have.
-void check_memory(const Arguments& a, std::size_t n, const SMS::Spectral_options& options)
+void check_memory(const Arguments& a, std::size_t n, const SMS::Spectral_edge_collapse_options& options)
 {
   const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
   const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
@@ -231,15 +250,17 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
 {
   const auto& result = report.result;
   Simplified run;
-  run.simplifier = a.signals.empty() ? "spectral" : "spectral, own signals";
+  run.simplifier = report.options.shape > 0 ? "spectral with shape term" : "spectral";
+  if(!a.signals.empty())
+    run.simplifier += ", own signals";
   if(a.binary)
     run.simplifier += ", binary";
   if(a.flips != "none")
     run.simplifier += ", " + a.flips + " flips";
-  if(a.relocate)
-    run.simplifier += a.resample ? ", relocation, P anew" : ", relocation";
-  run.placement = a.placement;
-  run.metric_mass = a.mass;
+  run.relocation = relocation_name(report.options);
+  run.placement = SMS::placement_name(report.options.placement);
+  run.metric_mass = SG::mass_name(report.options.mass);
+  run.shape_term = report.options.shape;
   run.requested_vertices = run.vertices = result.output_vertices;
   run.faces = mesh.number_of_faces();
   run.seconds = result.seconds_collapse;
@@ -336,20 +357,6 @@ std::vector<std::size_t> write_levels(Output_files& files, const Arguments& a, M
   return written;
 }
 
-void describe_run(Simplification_report& report, const Arguments& a, const SMS::Spectral_options& options)
-{
-  report.input = a.input;
-  report.output = a.output;
-  report.placement = a.placement;
-  report.mass = a.mass;
-  report.binary = a.binary;
-  report.flips = a.flips;
-  report.number_of_eigenvectors = a.eigenvectors;
-  report.max_error = a.max_error;
-  report.kept_vertices = options.kept_vertices.size();
-  report.signals = options.signals.cols();
-}
-
 // How well the spectrum was kept, unless nobody wants to know or it takes the user too long.
 void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, SG::Mass mass,
               Progress_bar& bar)
@@ -396,7 +403,7 @@ void run(const Arguments& a)
   const std::size_t target = checked_target(a, num_vertices(mesh));
   const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
   Progress_bar bar(!a.quiet);
-  const SMS::Spectral_options options = spectral_options(a, num_vertices(mesh), bar);
+  const SMS::Spectral_edge_collapse_options options = options_of_run(a, num_vertices(mesh), bar);
   Output_files files;
   announce(files, a);
   check_memory(a, num_vertices(mesh), options);
@@ -418,7 +425,10 @@ void run(const Arguments& a)
   check_interrupted();
   report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
   report.repairs = repairs.changes();
-  describe_run(report, a, options);
+  report.input = a.input;
+  report.output = a.output;
+  report.preset = a.preset;
+  report.options = options;
   meshes.coarse = SG::mesh_matrices(mesh);
   evaluate(report, a, meshes, options.mass, bar);
   check_interrupted();

@@ -28,10 +28,11 @@ struct Arguments
   std::vector<std::size_t> levels; // descending
   long eigenvectors = 100;
   long pre_simplify = 0; // never
-  std::string placement = "on_edge", flips = "none", mass = "lumped";
+  std::string preset = "best", flips = "none";
+  std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
+  std::optional<double> shape;                               // the same
   int threads = 1;
-  bool binary = false, preserve_border = false, relocate = false, resample = false, no_evaluation = false,
-       quiet = false, repair = false;
+  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
@@ -86,25 +87,29 @@ inline boost::program_options::options_description described(Arguments& a)
   add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
       "first reduce a larger INPUT to this number, with CGAL's Garland-Heckbert cost; 100000 for large "
       "meshes");
-  add("placement", text(a.placement, "on_edge|midpoint|free")->default_value(a.placement),
-      "where the vertex goes that replaces an edge");
-  add("mass", text(a.mass, "lumped|averaged")->default_value(a.mass),
-      "the mass matrix of the eigenproblem: lumped as in the paper, or the mean of lumped and consistent, "
-      "which "
-      "keeps the eigenvalues of coarse meshes much closer");
+  add("preset", text(a.preset, "best|paper")->default_value(a.preset),
+      "best: what keeps the spectrum best; paper: what the paper describes. Each of the next five overrides "
+      "it");
+  add("mass", text(a.mass, "lumped|averaged"),
+      "the mass matrix of the eigenproblem: lumped (paper), or the mean of lumped and consistent (best), "
+      "which keeps the eigenvalues of coarse meshes much closer");
+  add("placement", text(a.placement, "on_edge|midpoint|free"),
+      "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
+  add("shape", po::value<double>()->value_name("G"),
+      "weight of the shape beside the spectrum, which keeps thin limbs (best: 3, paper: 0); 1 to 10 are "
+      "alike");
+  add("self-intersections", text(a.self_intersections, "allow|refuse"),
+      "collapses that put a face through another (best: refuse, paper: allow)");
+  add("relocate", text(a.relocate, "none|sampled|carried|carried_and_sampled"),
+      "afterwards move the vertices so that the spectrum is kept still better (best: sampled, paper: none), "
+      "by the functions at the closest points of INPUT, by what the restriction carries, or by both. With "
+      "sampled the restriction is that of the closest points, and no longer follows --map");
   add("binary", po::bool_switch(&a.binary), "a restriction of ones and zeros: it picks vertices of INPUT");
   add("preserve-border", po::bool_switch(&a.preserve_border), "no edge is drawn away from the border");
   add("flips", text(a.flips, "none|spectral|delaunay")->default_value(a.flips),
       "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite angles "
       "are more than 180 "
       "degrees together; --levels are written without");
-  add("relocate", po::bool_switch(&a.relocate),
-      "afterwards move the vertices so that the spectrum is kept still better; made for --mass averaged");
-  add("resample", po::bool_switch(&a.resample),
-      "with --relocate: restrict by the closest points of INPUT from then on, not by what the collapses "
-      "merged; it lowers the "
-      "norms "
-      "most, but --restriction no longer follows --map");
   add("repair", po::bool_switch(&a.repair),
       "make INPUT an oriented manifold of triangles first and say what was changed: polygons are "
       "triangulated, vertices of "
@@ -180,20 +185,31 @@ inline void check(const Arguments& a)
     refuse("--ratio is " + shown(*a.ratio) + ", it must be greater than 0 and at most 1.");
   if(a.max_error && !(*a.max_error > 0 && std::isfinite(*a.max_error)))
     refuse("--max-error is " + shown(*a.max_error) + ", it must be greater than 0.");
-  if(a.on_interrupt != "discard" && a.on_interrupt != "write")
-    refuse("--on-interrupt is '" + a.on_interrupt + "', it must be discard or write.");
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
   if(a.pre_simplify < 0)
     refuse("--pre-simplify is " + std::to_string(a.pre_simplify) + ", it must not be negative.");
-  if(a.placement != "on_edge" && a.placement != "midpoint" && a.placement != "free")
-    refuse("--placement is '" + a.placement + "', it must be on_edge, midpoint or free.");
-  if(a.mass != "lumped" && a.mass != "averaged")
-    refuse("--mass is '" + a.mass + "', it must be lumped or averaged.");
-  if(a.flips != "none" && a.flips != "spectral" && a.flips != "delaunay")
-    refuse("--flips is '" + a.flips + "', it must be none, spectral or delaunay.");
-  if(a.resample && !a.relocate)
-    refuse("--resample says how --relocate works: add --relocate.");
+  const auto check_choice = [&](const char* option, const std::string& value,
+                                const std::vector<std::string>& choices) {
+    if(value.empty() || std::find(choices.begin(), choices.end(), value) != choices.end())
+      return;
+    std::string list = choices.front();
+    for(std::size_t i = 1; i < choices.size(); ++i)
+      list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
+    refuse(std::string(option) + " is '" + value + "', it must be " + list + ".");
+  };
+  check_choice("--preset", a.preset, {"best", "paper"});
+  check_choice("--placement", a.placement, {"on_edge", "midpoint", "free"});
+  check_choice("--mass", a.mass, {"lumped", "averaged"});
+  check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
+  check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});
+  check_choice("--on-interrupt", a.on_interrupt, {"discard", "write"});
+  check_choice("--flips", a.flips, {"none", "spectral", "delaunay"});
+  if(a.shape && !(*a.shape >= 0 && std::isfinite(*a.shape)))
+    refuse("--shape is " + shown(*a.shape) + ", it must be a number from 0.");
+  if(a.binary && (a.relocate == "sampled" || (a.relocate.empty() && a.preset == "best")))
+    refuse("--binary asks for a restriction of ones and zeros, and relocation by the closest points makes "
+           "another one: add --relocate none or --relocate carried.");
   if(a.threads < 1)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be positive.");
   if(a.no_evaluation && !a.eigenpairs.empty())
@@ -248,6 +264,7 @@ inline Arguments parse_arguments(int argc, char* argv[])
   }
   a.vertices = arguments_internal::optional_value<long>(values, "vertices");
   a.ratio = arguments_internal::optional_value<double>(values, "ratio");
+  a.shape = arguments_internal::optional_value<double>(values, "shape");
   a.max_error = arguments_internal::optional_value<double>(values, "max-error");
   if(values.count("levels"))
     a.levels = arguments_internal::parsed_levels(values["levels"].as<std::string>());

@@ -27,16 +27,19 @@ struct Simplification_report
   std::optional<CGAL::Spectral_geometry::Spectral_evaluation> evaluation;
   double seconds_evaluation = 0;
 
-  std::string input, output, placement, mass;
-  std::string flips = "none"; // "spectral", "delaunay"
-  bool binary = false;
-  Eigen::Index number_of_eigenvectors = 0;
-  std::vector<Repair> repairs; // what --repair did, and how often
-  std::optional<double> max_error;
-  std::size_t kept_vertices = 0;
-  Eigen::Index signals = 0;        // 0: eigenvectors
+  std::string input, output, preset;
+  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
+  std::vector<Repair> repairs;     // what --repair did, and how often
   std::vector<std::size_t> levels; // those that were written
 };
+
+// What moved the vertices after the collapses.
+inline const char*
+relocation_name(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
+{
+  return options.relocate ? CGAL::Spectral_geometry::relocation_signals_name(options.relocation.signals)
+                          : "none";
+}
 
 // `floor`: what good linear elements of the same number have; 0 when no estimate is known.
 inline void print_norm(const char* name, double norm, double floor)
@@ -66,46 +69,93 @@ inline void print_table(const Simplification_report& r)
       std::printf("  eigenvalue error, mean    %8.2f %%\n", 100 * e.errors.mean);
       std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
     }
+    if(e.errors_low.modes > 0)
+      std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n", static_cast<int>(e.judged_modes / 5),
+                  100 * e.errors_low.mean);
     std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
   }
   std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
               r.result.relative_error);
-  if(r.flips != "none")
-    std::printf("  flipped edges             %8zu   (%s)\n\n", r.result.flips.flips.size(), r.flips.c_str());
+  using CGAL::Spectral_geometry::Edge_flips;
+  if(r.options.flips != Edge_flips::none)
+    std::printf("  flipped edges             %8zu   (%s)\n\n", r.result.flips.flips.size(),
+                edge_flips_name(r.options.flips));
+  if(r.options.relocate)
+    std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
+                r.result.relocation.moved_vertices, r.result.relocation.steps,
+                r.result.relocation.stop_reason_name());
+  if(r.options.pre_simplify != 0)
+    std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
+  if(r.options.flips != Edge_flips::none)
+    std::printf("  edge flips                %8.2f s\n", r.result.seconds_flips);
+  if(r.options.relocate)
+    std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
   std::printf("  total                     %8.2f s\n", r.result.seconds_total);
   if(r.evaluation)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
+}
+
+// What the relocation did; null where there was none.
+inline nlohmann::json relocation_json(const Simplification_report& r)
+{
+  if(!r.options.relocate)
+    return nullptr;
+  const CGAL::Spectral_geometry::Relocation_result& x = r.result.relocation;
+  return {{"signals", relocation_name(r.options)},
+          {"steps", x.steps},
+          {"stop_reason", x.stop_reason_name()},
+          {"moved_vertices", x.moved_vertices},
+          {"reverted_vertices", x.reverted_vertices},
+          {"held_vertices",
+           {{"fixed", x.held.fixed},
+            {"trust", x.held.trust},
+            {"boundary", x.held.boundary},
+            {"sheet", x.held.sheet},
+            {"distance", x.held.distance},
+            {"triangles", x.held.triangles}}},
+          {"E_before", x.E_before},
+          {"E_after", x.E_after},
+          {"seconds", x.seconds}};
 }
 
 // Numbers that were not computed are null.
 inline nlohmann::json to_json(const Simplification_report& r)
 {
   const auto number = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(); };
-  nlohmann::json json = {{"input_vertices", r.result.input_vertices},
-                         {"output_vertices", r.result.output_vertices},
-                         {"eigenvectors", r.number_of_eigenvectors},
-                         {"mass", r.mass},
-                         {"placement", r.placement},
-                         {"binary", r.binary},
-                         {"max_error", r.max_error ? number(*r.max_error) : nlohmann::json()},
-                         {"kept_vertices", r.kept_vertices},
-                         {"signals", r.signals},
-                         {"flips", r.flips},
-                         {"flipped_edges", r.result.flips.flips.size()},
-                         {"levels", r.levels},
-                         {"relative_error", number(r.result.relative_error)},
-                         {"seconds_eigenpairs", r.result.seconds_eigenpairs},
-                         {"seconds_collapse", r.result.seconds_collapse},
-                         {"seconds_total", r.result.seconds_total},
-                         {"stop_reason", r.result.stop_reason_name()},
-                         {"repairs", nlohmann::json::object()}};
+  nlohmann::json json = {
+      {"input_vertices", r.result.input_vertices},
+      {"output_vertices", r.result.output_vertices},
+      {"preset", r.preset},
+      {"eigenvectors", r.options.number_of_eigenvectors},
+      {"mass", CGAL::Spectral_geometry::mass_name(r.options.mass)},
+      {"placement", CGAL::Surface_mesh_simplification::placement_name(r.options.placement)},
+      {"shape", r.options.shape},
+      {"keep_free_of_self_intersections", r.options.keep_free_of_self_intersections},
+      {"binary", r.options.binary},
+      {"max_error", number(r.options.maximum_error)},
+      {"kept_vertices", r.options.kept_vertices.size()},
+      {"signals", r.options.signals.cols()},
+      {"flips", edge_flips_name(r.options.flips)},
+      {"flipped_edges", r.result.flips.flips.size()},
+      {"relocation", relocation_json(r)},
+      {"levels", r.levels},
+      {"relative_error", number(r.result.relative_error)},
+      {"seconds_pre_simplification", r.result.seconds_pre_simplification},
+      {"seconds_eigenpairs", r.result.seconds_eigenpairs},
+      {"seconds_collapse", r.result.seconds_collapse},
+      {"seconds_flips", r.result.seconds_flips},
+      {"seconds_relocation", r.result.seconds_relocation},
+      {"seconds_total", r.result.seconds_total},
+      {"stop_reason", r.result.stop_reason_name()},
+      {"repairs", nlohmann::json::object()}};
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count
   for(const char* name :
       {"norm_L", "norm_D", "norm_L_input_scale", "norm_D_extended", "floor_norm_L", "floor_norm_D",
-       "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio", "seconds_evaluation"})
+       "eigenvalue_error_mean", "eigenvalue_error_max", "eigenvalue_error_low_mean",
+       "eigenvalue_error_input_scale_mean", "area_ratio", "seconds_evaluation"})
     json[name] = nullptr;
   if(r.evaluation) {
     const auto& e = *r.evaluation;
@@ -117,6 +167,8 @@ inline nlohmann::json to_json(const Simplification_report& r)
     json["floor_norm_D"] = number(e.floor_norm_D);
     json["eigenvalue_error_mean"] = number(e.errors.mean);
     json["eigenvalue_error_max"] = number(e.errors.max);
+    json["eigenvalue_error_low_mean"] = number(e.errors_low.mean);
+    json["eigenvalue_error_input_scale_mean"] = number(e.errors_input_scale.mean);
     json["area_ratio"] = number(e.area_ratio);
     json["seconds_evaluation"] = r.seconds_evaluation;
   }

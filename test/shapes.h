@@ -93,6 +93,65 @@ inline Matrices bumpy_icosphere_matrices(int subdivisions)
   return result;
 }
 
+// A closed surface of revolution, bent: rings of `around` vertices along a body that ends in a thin limb, folded back beside
+// itself at a tenth of its length. Little of the spectrum lives on the limb.
+inline Matrices folded_limb_matrices(int along, int around)
+{
+  constexpr double pi = 3.14159265358979323846, bend = 0.14, leg = 1.2, body = 0.9;
+  const double length = body + leg + pi * bend + 0.85 * leg;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  const auto ring = [&](int i, int j) { return i * around + (j + around) % around; };
+  for(int i = 0; i < along; ++i) {
+    const double s = length * (i + 0.5) / along; // along the centre
+    double r = 0.055 * std::sqrt((std::min)(1., (length - s) / 0.055)) * (1 + 0.1 * std::sin(9 * s));
+    if(s < body)
+      r = (std::max)(r, 0.42 * std::sqrt((std::max)(0., 1 - std::pow(2 * s / body - 1, 2))));
+    Eigen::Vector3d centre(0, 0, -s), across(1, 0, 0);
+    const double t = s - body - leg;
+    if(t > pi * bend) {
+      centre = Eigen::Vector3d(2 * bend, 0, -body - leg + (t - pi * bend));
+      across = Eigen::Vector3d(-1, 0, 0);
+    } else if(t > 0) {
+      const double angle = t / bend;
+      across = Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
+      centre = Eigen::Vector3d(bend - bend * std::cos(angle), 0, -body - leg - bend * std::sin(angle));
+    }
+    for(int j = 0; j < around; ++j) {
+      const double angle = 2 * pi * (j + 0.5 * (i % 2)) / around;
+      points.push_back(centre + r * (std::cos(angle) * across + std::sin(angle) * Eigen::Vector3d(0, 1, 0)));
+    }
+    for(int j = 0; i > 0 && j < around; ++j) {
+      const int shift = i % 2; // rows are half a step apart
+      triangles.push_back({ring(i - 1, j), ring(i, j - 1 + shift), ring(i, j + shift)});
+      triangles.push_back({ring(i - 1, j), ring(i, j + shift), ring(i - 1, j + 1)});
+    }
+  }
+  const int first = static_cast<int>(points.size()), last = first + 1;
+  for(const int i : {0, along - 1}) {
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for(int j = 0; j < around; ++j)
+      middle += points[static_cast<std::size_t>(ring(i, j))] / around;
+    points.push_back(middle);
+  }
+  for(int j = 0; j < around; ++j) {
+    triangles.push_back({ring(0, j), ring(0, j + 1), first});
+    triangles.push_back({ring(along - 1, j + 1), ring(along - 1, j), last});
+  }
+  return matrices(points, triangles);
+}
+
+// A closed bowl, a fiftieth as thick as wide: two sheets that coarse triangles cut through.
+inline Matrices thin_bowl_matrices(int subdivisions)
+{
+  Matrices result = icosphere_matrices(subdivisions);
+  for(Eigen::Index i = 0; i < result.V.rows(); ++i) {
+    const double x = result.V(i, 0), y = result.V(i, 1);
+    result.V(i, 2) = 0.02 * result.V(i, 2) + 0.7 * (x * x + y * y) + 0.05 * std::sin(5 * x) * std::cos(4 * y);
+  }
+  return result;
+}
+
 // [0, width] x [0, height] in the plane z = 0, nx x ny cells, each cut in two by the same diagonal.
 inline Matrices grid_matrices(int nx, int ny, double width = 1., double height = 1.)
 {

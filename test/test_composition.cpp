@@ -174,7 +174,7 @@ TEST_CASE("P stays right where a filter or CGAL's own geometric test refuses")
 {
   const bool filtered = GENERATE(false, true);
   const shapes::Matrices input = wavy_grid_matrices(24, 24);
-  Spectral_options options;
+  Spectral_options options = Spectral_options::paper();
   options.signals = rough_signals(input, 1);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);

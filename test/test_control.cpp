@@ -26,7 +26,7 @@ using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using Result = SMS::Spectral_edge_collapse_result;
-using SMS::Spectral_options;
+using SMS::Spectral_edge_collapse_options;
 using SMS::Spectral_phase;
 using SMS::Spectral_placement_strategy;
 using SMS::Spectral_progress;
@@ -108,7 +108,7 @@ bool same_matrix(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix
 TEST_CASE("Vertices to keep survive with their position and their values")
 {
   const bool bordered = GENERATE(false, true);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
   options.preserve_border = bordered;
@@ -143,7 +143,7 @@ TEST_CASE("A second run keeps the vertices of the first")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.kept_vertices = every(20, 642);
   const Policies policies(mesh, options);
   for(const std::size_t N : {300, 100}) {
@@ -157,7 +157,7 @@ TEST_CASE("Vertices to keep are more than the target: the run ends when nothing 
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(5);
+  Spectral_edge_collapse_options options = options_with(5);
   options.kept_vertices = every(8, 642);
   const Result result = SMS::spectral_edge_collapse(mesh, 40, options);
   CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
@@ -171,7 +171,7 @@ TEST_CASE("Vertices to keep and edge constraints hold at the same time, in one s
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.pre_simplify = GENERATE(0, 400);
   CAPTURE(options.pre_simplify);
   auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
@@ -209,7 +209,7 @@ TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of 
   const int a = input.T(100, 0), b = input.T(100, 1), c = input.T(100, 2);
   input.V.row(a) = input.V.row(b);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(8);
+  Spectral_edge_collapse_options options = options_with(8);
   options.pre_simplify = GENERATE(0, 120);
   SECTION("one")
   {
@@ -245,7 +245,7 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
   shapes::Matrices input{Eigen::MatrixXd(4, 3), Eigen::MatrixXi(2, 3)};
   input.V << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0;
   input.T << 0, 1, 2, 0, 3, 1;
-  Spectral_options options = options_with(1);
+  Spectral_edge_collapse_options options = options_with(1);
   options.kept_vertices = {2, 3};
   options.pre_simplify = 2;
   Mesh mesh = make_mesh(input);
@@ -259,7 +259,7 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
 TEST_CASE("A bound of the error stops before the collapse that would exceed it")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const std::size_t about = GENERATE(500, 200);
   Mesh counted_first = make_mesh(input);
@@ -309,7 +309,7 @@ TEST_CASE("A bound of the error holds beside a cap, whose cost is nothing but ro
         const Eigen::RowVector3i t = input.T.row(face);
         input.V.row(t[1]) = (input.V.row(t[0]) + input.V.row(t[2])) / 2 + height * input.V.row(t[1]);
         Mesh mesh = make_mesh(input);
-        Spectral_options options = options_with(5);
+        Spectral_edge_collapse_options options = options_with(5);
         options.maximum_error = bound;
         const Result result = SMS::spectral_edge_collapse(mesh, 1, options);
         CAPTURE(face, height, bound, result.output_vertices);
@@ -339,7 +339,7 @@ TEST_CASE("A bound of the error looks at the placement of a wrapper")
 TEST_CASE("A bound that is no number is refused; 0 lets nothing be lost; constants lose nothing")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
-  Spectral_options options = options_with(5);
+  Spectral_edge_collapse_options options = options_with(5);
   const Policies policies(mesh, options);
   for(const double bound : {-1., std::nan("")}) {
     CHECK_THROWS_AS(SMS::Spectral_error_stop_predicate(policies, bound), std::invalid_argument);
@@ -357,7 +357,7 @@ TEST_CASE("A bound that is no number is refused; 0 lets nothing be lost; constan
 TEST_CASE("Progress towards a bound of the error never goes back and ends near 1")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(3));
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   options.maximum_error = 0.2;
   std::vector<double> fractions;
   std::size_t vertices = 0;
@@ -382,7 +382,7 @@ TEST_CASE("Another thread can cancel, in every phase")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   std::atomic<bool> cancel{false};
   options.cancel = &cancel;
   Spectral_phase phase = Spectral_phase::eigenpairs;
@@ -431,7 +431,7 @@ TEST_CASE("In two stages, what the first has done is returned when the run is ca
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   options.pre_simplify = 300;
   const Spectral_phase phase =
       GENERATE(Spectral_phase::pre_simplification, Spectral_phase::eigenpairs, Spectral_phase::first_costs);
@@ -457,7 +457,7 @@ TEST_CASE("The first stage does not feel how far from the origin the mesh lies, 
 {
   shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   input.V = (input.V * 65536).array().round() / 65536; // so that moving it is exact
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   options.pre_simplify = 200;
   options.kept_vertices = every(20, input.V.rows());
   Eigen::MatrixXd expected;
@@ -483,7 +483,7 @@ TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the poli
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
   Mesh mesh = make_mesh(input), expected = mesh;
   std::atomic<bool> cancel{false};
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.cancel = &cancel;
   options.progress = [&](const Spectral_progress& p) {
     cancel = p.phase == Spectral_phase::collapses && p.fraction > 0.5;
@@ -512,7 +512,7 @@ TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the poli
 TEST_CASE("A level replayed from the log is what a direct run to it gives: mesh and P")
 {
   const bool bordered = GENERATE(false, true);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
   const shapes::Matrices input =
@@ -557,7 +557,7 @@ TEST_CASE("Levels of both stages, under edge constraints, with vertices to keep"
     return CGAL::parameters::edge_is_constrained_map(
         m.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first);
   };
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.kept_vertices = every(50, 642);
   options.pre_simplify = 400;
   Mesh mesh = fine, copy = fine;

@@ -162,7 +162,7 @@ int turn_edges(shapes::Matrices& mesh, const int rings)
 
 Example simplified(const shapes::Matrices& fine, const std::size_t N)
 {
-  SMS::Spectral_options options = options_with(K);
+  SMS::Spectral_edge_collapse_options options = options_with(K);
   options.mass = SG::Mass::averaged;
   Mesh mesh = make_mesh(fine);
   const auto result = SMS::spectral_edge_collapse(mesh, N, options);
@@ -397,7 +397,7 @@ TEST_CASE("any mesh type is flipped as the matrices are, constrained edges by th
 TEST_CASE("the one-call form flips after the collapses and relocates what it flipped")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
-  SMS::Spectral_options options = options_with(K);
+  SMS::Spectral_edge_collapse_options options = options_with(K);
   options.mass = SG::Mass::averaged;
   Mesh plain = make_mesh(input);
   const auto before = SMS::spectral_edge_collapse(plain, 160, options);

@@ -24,7 +24,7 @@
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Result = SMS::Spectral_edge_collapse_result;
-using SMS::Spectral_options;
+using SMS::Spectral_edge_collapse_options;
 using SMS::Spectral_phase;
 using SMS::Spectral_progress;
 using Point = Kernel::Point_3;
@@ -43,7 +43,7 @@ struct Counting_visitor : SMS::internal::No_visitor
 
 // What is wrong with a result; empty if nothing is.
 std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes::Matrices& input,
-                            const Spectral_options& options)
+                            const Spectral_edge_collapse_options& options)
 {
   if(!CGAL::is_valid_polygon_mesh(mesh))
     return "the mesh is not valid";
@@ -74,7 +74,7 @@ std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes
 TEST_CASE("The one call returns what the policies give, and counts, times and reasons")
 {
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   Mesh mesh = make_mesh(input), other = mesh;
   const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
@@ -110,7 +110,7 @@ TEST_CASE("The one call returns what the policies give, and counts, times and re
 TEST_CASE("Below 3 K vertices the metric sees N / 4 of the eigenvectors, unless it is told how many")
 {
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
-  Spectral_options options = options_with(10);
+  Spectral_edge_collapse_options options = options_with(10);
   Mesh mesh = make_mesh(input), other = mesh, all = mesh;
   const Result result = SMS::spectral_edge_collapse(mesh, 29, options);
   CHECK(fault_of_result(mesh, result, input, options) == "");
@@ -159,7 +159,7 @@ TEST_CASE("The one call to the size that the mesh has changes nothing")
 TEST_CASE("The one call hands named parameters on: constraints, filter, visitor, point map")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  const Spectral_options options = options_with(10);
+  const Spectral_edge_collapse_options options = options_with(10);
   Mesh mesh = make_mesh(input);
   SECTION("constrained edges, and the points of their ends, stay")
   {
@@ -226,7 +226,7 @@ TEST_CASE("A target below 3 K is warned of")
 
 TEST_CASE("Where the target cannot be reached the result says why")
 {
-  Spectral_options options = options_with(3);
+  Spectral_edge_collapse_options options = options_with(3);
   SECTION("components cannot vanish")
   {
     const shapes::Matrices input = shapes::components_matrices(shapes::icosphere_matrices(1), 3);
@@ -276,7 +276,7 @@ TEST_CASE("Bad calls are refused before anything is changed")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(1);
   Mesh mesh = make_mesh(input);
-  Spectral_options options = options_with(5);
+  Spectral_edge_collapse_options options = options_with(5);
   std::size_t N = 20;
   std::string text;
   SECTION("no vertex")
@@ -317,7 +317,7 @@ TEST_CASE("Bad calls are refused before anything is changed")
 TEST_CASE("Progress runs through the phases, never backwards, and does not change the result")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   Mesh expected = make_mesh(input);
   SMS::spectral_edge_collapse(expected, 100, options);
 
@@ -348,7 +348,7 @@ TEST_CASE("Progress runs through the phases, never backwards, and does not chang
 TEST_CASE("A run can be cancelled in every phase")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   Spectral_phase phase = Spectral_phase::eigenpairs;
   double fraction = 0;
   options.progress = [&](const Spectral_progress& p) { return p.phase != phase || p.fraction < fraction; };
@@ -387,7 +387,7 @@ TEST_CASE("Edges without length are among the collapses that are counted")
   for(const int f : {100, 300, 500})
     input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
   Mesh mesh = make_mesh(input);
-  const Spectral_options options = options_with(10);
+  const Spectral_edge_collapse_options options = options_with(10);
   const std::size_t N = GENERATE(640, 639, 100);
   const Result result = SMS::spectral_edge_collapse(mesh, N, options);
   CHECK(result.stop_reason == Result::Stop_reason::target_reached);
@@ -399,7 +399,7 @@ TEST_CASE("Edges without length are among the collapses that are counted")
 TEST_CASE("Relocation leaves vertices to keep where they are, whichever handle they go on under")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
-  Spectral_options options = options_with(6);
+  Spectral_edge_collapse_options options = options_with(6);
   options.mass = SG::Mass::averaged;
   options.relocate = true;
   options.relocation.maximum_steps = 3;
@@ -424,7 +424,7 @@ TEST_CASE(
 {
   shapes::Matrices input = shapes::grid_matrices(4, 4);
   input.V.row(6) = 0.5 * (input.V.row(5) + input.V.row(11)); // the corner opposite to a diagonal
-  Spectral_options options = options_with(4);
+  Spectral_edge_collapse_options options = options_with(4);
   options.relocate = true;
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 25, options);
@@ -439,7 +439,7 @@ TEST_CASE("Rough eigenpairs have one E, in the collapses and after edge flips")
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
   const SG::Eigenpairs_options rough = SG::Eigenpairs_options::with_tolerance(1e-3);
-  Spectral_options options = options_with(20);
+  Spectral_edge_collapse_options options = options_with(20);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op, 20, rough));
   REQUIRE(SMS::internal::pairs_are_rough(SMS::internal::spectral_residuals(op, *options.eigenpairs)));
   Basis basis = basis_of_pairs(op, *options.eigenpairs);
@@ -457,7 +457,7 @@ TEST_CASE("Of one eigenvector of a mesh with needles there is nothing to lose bu
   const double length = GENERATE(1., 1e-6, 1e-9);
   for(const int v : {6, 12, 18}) // towards the next vertex
     input.V.row(v) = (1 - length) * input.V.row(v + 1) + length * input.V.row(v);
-  Spectral_options options = options_with(1);
+  Spectral_edge_collapse_options options = options_with(1);
   options.maximum_error = 0.1;
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 6, options);
@@ -469,7 +469,7 @@ TEST_CASE("Of one eigenvector of a mesh with needles there is nothing to lose bu
 TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplification or by the collapses")
 {
   shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
-  Spectral_options options = options_with(8);
+  Spectral_edge_collapse_options options = options_with(8);
   options.pre_simplify = GENERATE(0, 100);
   std::string word;
   SECTION("weights")

@@ -232,7 +232,7 @@ TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
   Mesh mesh = make_mesh(input);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
   const SG::Eigenpairs good = SG::eigenpairs(op, 8);
-  Spectral_options options;
+  Spectral_options options = Spectral_options::paper();
   const auto refuse = [&](const SG::Eigenpairs& pairs, const std::string& text) {
     options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
     CHECK_THROWS_AS(Policies(mesh, options), std::invalid_argument);
@@ -284,7 +284,7 @@ TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(mass));
   auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op, 10));
   pairs->vectors.leftCols(9) += 3e-5 * pairs->vectors.rightCols(9);
-  Spectral_options options;
+  Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.eigenpairs = pairs;
   Mesh mesh = make_mesh(input);
@@ -308,7 +308,7 @@ TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals t
   collapse(mesh, policies, 641);
   CHECK(policies.state().core().fields().has_z_rows());
   collapse(mesh, policies, 150);
-  Spectral_options again;
+  Spectral_options again = Spectral_options::paper();
   again.eigenpairs = policies.eigenpairs();
   CHECK(again.eigenpairs->residuals.maxCoeff() > 1e-3);
   Mesh same = make_mesh(input);
@@ -330,11 +330,11 @@ TEST_CASE("The memory estimate grows with the mesh and K, and shrinks with what 
   CHECK(plain < 400e6);
   CHECK(SMS::estimated_memory(500000, 100) == Catch::Approx(10 * plain));
   CHECK(SMS::estimated_memory(50000, 400) > 3 * 50000 * 400 * 8.);
-  Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   options.pre_simplify = 100000;
   CHECK(SMS::estimated_memory(50000, 100, options) == plain);
   CHECK(SMS::estimated_memory(1000000, 100, options) < 0.5 * SMS::estimated_memory(1000000, 100));
-  options = Spectral_options();
+  options = SMS::Spectral_edge_collapse_options();
   options.eigenpairs_options.maximum_vectors = 800;
   CHECK(SMS::estimated_memory(50000, 100, options) > plain);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>();
@@ -349,7 +349,7 @@ TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal
   SG::Eigenpairs some = all;
   some.values = all.values.head(6);
   some.vectors = all.vectors.leftCols(6);
-  Spectral_options weighted, plain;
+  Spectral_options weighted = Spectral_options::paper(), plain = weighted;
   weighted.eigenpairs = std::make_shared<SG::Eigenpairs>(all);
   plain.eigenpairs = std::make_shared<SG::Eigenpairs>(some);
   weighted.weights = Eigen::VectorXd::Zero(10);
@@ -385,7 +385,7 @@ TEST_CASE("A rotation of the signals within their span leaves every cost as it i
   for(Eigen::Index i = 0; i < 81; ++i)
     random(i) = std::sin(12.9898 * double(i * i + 1));
   const Eigen::MatrixXd rotation = Eigen::HouseholderQR<Eigen::MatrixXd>(random).householderQ();
-  Spectral_options options;
+  Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
   const std::vector<double> expected = costs(input, options);
@@ -402,7 +402,7 @@ TEST_CASE("Signals of the user's are followed as eigenvectors are")
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const bool weighted = GENERATE(false, true);
   const shapes::Matrices input = wavy_grid_matrices(24, 22);
-  Spectral_options options;
+  Spectral_options options = Spectral_options::paper();
   options.mass = mass;
   options.signals = rough_signals(input, 5);
   if(weighted)

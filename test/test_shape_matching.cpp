@@ -103,7 +103,7 @@ Simplified_shape simplified(const shapes::Matrices& matrices, std::size_t N, Ind
 {
   Mesh mesh;
   shapes::make_mesh(mesh, matrices);
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options = SMS::Spectral_edge_collapse_options::paper();
   options.number_of_eigenvectors = K;
   options.mass = SG::Mass::averaged;
   options.binary = true;

@@ -23,7 +23,7 @@
 #include <vector>
 
 using namespace spectral_test;
-using SMS::Spectral_options;
+using SMS::Spectral_edge_collapse_options;
 
 namespace {
 
@@ -41,7 +41,7 @@ std::vector<std::size_t> partition(const std::vector<std::size_t>& map)
 
 // A run on another mesh type ends as that on Surface_mesh does, up to the order and rounding of the vertices.
 template <class Mesh_type, class Traits>
-void check_against_surface_mesh(const shapes::Matrices& input, const Spectral_options& options,
+void check_against_surface_mesh(const shapes::Matrices& input, const Spectral_edge_collapse_options& options,
                                 const std::size_t N)
 {
   Mesh expected = make_mesh(input);
@@ -79,7 +79,7 @@ TEST_CASE("Surface_mesh and Polyhedron_3 give the same mesh")
     for(const int f : {20, 200, 410, 700})
       input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
   CAPTURE(bordered, zero_length);
-  Spectral_options options = options_with(15);
+  Spectral_edge_collapse_options options = options_with(15);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   check_against_surface_mesh<CGAL::Polyhedron_3<Kernel>, Kernel>(input, options, 120);
 }
@@ -93,7 +93,7 @@ TEST_CASE("Polyhedron_3 with ids works, and its rows follow vertices(mesh)")
 TEST_CASE("The kernel with exact predicates gives the same mesh")
 {
   using Exact_predicates = CGAL::Exact_predicates_inexact_constructions_kernel;
-  Spectral_options options = options_with(12);
+  Spectral_edge_collapse_options options = options_with(12);
   options.binary = GENERATE(false, true);
   check_against_surface_mesh<CGAL::Surface_mesh<Exact_predicates::Point_3>, Exact_predicates>(
       wavy_grid_matrices(22, 20), options, 100);
@@ -110,7 +110,7 @@ TEST_CASE("With points in single precision E is that of the rounded mesh, P give
 {
   using Single = CGAL::Simple_cartesian<float>;
   using Single_mesh = CGAL::Surface_mesh<Single::Point_3>;
-  Spectral_options options = options_with(12);
+  Spectral_edge_collapse_options options = options_with(12);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const bool bordered = GENERATE(false, true);
   Single_mesh mesh;

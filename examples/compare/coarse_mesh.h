@@ -41,14 +41,14 @@ struct Simplifier
   std::string name, placement, metric_mass = "none";
   double seconds_eigenpairs = 0; // of the basis that it needs
   std::function<Coarse_mesh(const Mesh& fine, std::size_t N)> run;
-  std::string relocation = "none"; // what moves the vertices afterwards
+  std::string relocation = "none"; // by which signals vertices are moved afterwards
+  double shape = 0;                // weight of the shape term
 };
 
 // The basis that the policies compute when they are given none: their own accuracy, not that of the judge.
 Basis spectral_basis(const Mesh& fine, Eigen::Index K, CGAL::Spectral_geometry::Mass mass);
 
-// Edge collapses: spectral in the metrics of the bases, and the costs that CGAL ships. Relocation is made for the averaged
-// mass and tried there alone, and a border is kept straight where the mesh has one.
+// Edge collapses: spectral in the metrics of the bases, and the costs that CGAL ships.
 std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases, int threads);
 
 // CGAL's remeshers; those that this CGAL or the mesh does not allow are explained in `notes`.

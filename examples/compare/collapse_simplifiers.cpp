@@ -24,10 +24,16 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
-#include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
+
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <chrono>
+#include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
@@ -65,6 +71,12 @@ Coarse_mesh collapse(const Mesh& fine, std::size_t N, const Make_policies& make_
   return result;
 }
 
+void scale(Mesh& mesh, double factor)
+{
+  for(const auto v : mesh.vertices())
+    mesh.point(v) = CGAL::ORIGIN + factor * (mesh.point(v) - CGAL::ORIGIN);
+}
+
 template <class Policies>
 Simplifier garland_heckbert(const std::string& name)
 {
@@ -76,6 +88,23 @@ Simplifier garland_heckbert(const std::string& name)
           }};
 }
 
+// CGAL's probabilistic quadrics have variances in the unit of the mesh: what they make depends on it. They are judged in the
+// unit in which they are best, that of an area of 20,000.
+template <class Policies>
+Simplifier probabilistic_garland_heckbert(const std::string& name)
+{
+  Simplifier result = garland_heckbert<Policies>("probabilistic " + name + ", area 20000");
+  result.run = [run = result.run](const Mesh& fine, std::size_t N) {
+    const double factor = std::sqrt(20000 / CGAL::Polygon_mesh_processing::area(fine));
+    Mesh scaled = fine;
+    scale(scaled, factor);
+    Coarse_mesh coarse = run(scaled, N);
+    scale(coarse.mesh, 1 / factor);
+    return coarse;
+  };
+  return result;
+}
+
 template <class Cost, class Placement>
 Simplifier plain(const std::string& name, const std::string& placement)
 {
@@ -84,82 +113,67 @@ Simplifier plain(const std::string& name, const std::string& placement)
           }};
 }
 
-enum class Relocate {
-  no,
-  carried, // by the default signals: P stays
-  sampled  // by signals at the closest points alone, where P is taken anew
-};
+using Options = SMS::Spectral_edge_collapse_options;
 
-struct Spectral_variant
-{
-  SMS::Spectral_placement_strategy placement;
-  Relocate relocate = Relocate::no;
-  bool preserve_border = false;
-};
-
-const char* relocation_name(Relocate relocate)
-{
-  return relocate == Relocate::no ? "none" : relocate == Relocate::carried ? "smoothed" : "sampled";
-}
-
-Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Basis& basis,
-                                SMS::Spectral_options options, Relocate relocate)
+Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Options& options)
 {
   Coarse_mesh result;
-  result.mesh = fine;
-  options.metric_eigenvectors = SMS::metric_eigenvectors_for(N, basis.pairs->size());
+  Mesh mesh = fine;
   const auto begin = std::chrono::steady_clock::now();
-  const SMS::Spectral_policies<Mesh> policies(result.mesh, options);
-  SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
-                     CGAL::parameters::get_cost(policies.get_cost())
-                         .get_placement(policies.get_placement())
-                         .visitor(policies.visitor()));
-  result.note = note_on_size(result.mesh, N);
-  result.mesh.collect_garbage();
-  result.carried = policies.restriction();
-  if(relocate != Relocate::no) {
-    SG::Relocation_options how;
-    if(relocate == Relocate::sampled)
-      how.signals = SG::Relocation_options::Signals::sampled;
-    result.carried = SMS::spectral_relocation(result.mesh, *result.carried, SG::mesh_matrices(fine),
-                                              *basis.pairs, basis.mass, how)
-                         .restriction;
-  }
+  result.carried = SMS::spectral_edge_collapse(mesh, N, options).restriction;
   result.seconds = seconds_since(begin);
+  result.note = note_on_size(mesh, N);
+  CGAL::copy_face_graph(mesh, result.mesh); // without garbage, in the order of P
   return result;
 }
 
-Simplifier spectral(const Spectral_variant& variant, const Basis& basis, int threads)
+Simplifier spectral(const std::string& name, Options options, const Basis& basis, int threads)
 {
-  SMS::Spectral_options options;
-  options.placement = variant.placement;
-  options.preserve_border = variant.preserve_border;
   options.mass = basis.mass;
   options.eigenpairs = basis.pairs;
-  options.number_of_eigenvectors = basis.pairs->size();
   options.threads = threads;
-  return {variant.preserve_border ? "spectral, border preserved" : "spectral",
-          SMS::placement_name(variant.placement),
+  return {name,
+          SMS::placement_name(options.placement),
           SG::mass_name(basis.mass),
           basis.seconds,
-          [options, basis, relocate = variant.relocate](const Mesh& fine, std::size_t N) {
-            return simplify_spectrally(fine, N, basis, options, relocate);
-          },
-          relocation_name(variant.relocate)};
+          [options](const Mesh& fine, std::size_t N) { return simplify_spectrally(fine, N, options); },
+          options.relocate ? SG::relocation_signals_name(options.relocation.signals) : "none",
+          options.shape};
 }
 
-std::vector<Spectral_variant> variants(const Mesh& fine, SG::Mass mass)
+// The presets, in the mass of each, and what lies between them.
+std::vector<Simplifier> spectral_simplifiers(const Mesh& fine, const Basis& basis, int threads)
 {
   using Placement = SMS::Spectral_placement_strategy;
-  std::vector<Spectral_variant> result{{Placement::on_edge}, {Placement::midpoint}, {Placement::free}};
-  if(mass != SG::Mass::averaged)
-    return result;
-  for(const Relocate relocate : {Relocate::carried, Relocate::sampled}) {
-    result.push_back({Placement::on_edge, relocate});
-    result.push_back({Placement::free, relocate});
-    if(!CGAL::is_closed(fine))
-      result.push_back({Placement::on_edge, relocate, true});
+  using Signals = SG::Relocation_options::Signals;
+  std::vector<Simplifier> result;
+  const auto add = [&](const std::string& name, const Options& options) {
+    result.push_back(spectral(name, options, basis, threads));
+  };
+  const auto with = [](Options options, const Placement placement) {
+    options.placement = placement;
+    return options;
+  };
+  const bool averaged = basis.mass == SG::Mass::averaged;
+  const Options paper = Options::paper();
+  Options best = Options::best();
+  if(averaged)
+    add("spectral, best", best);
+  if(averaged && !CGAL::is_closed(fine)) {
+    Options border = best;
+    border.preserve_border = true;
+    add("spectral, best, border preserved", border);
   }
+  if(averaged) {
+    best.relocation.signals = Signals::carried_and_sampled;
+    add("spectral with shape term", best);
+  }
+  best.relocate = false;
+  add("spectral with shape term", best);
+  add("spectral with shape term", with(best, Placement::on_edge));
+  add(averaged ? "spectral" : "spectral, paper", paper);
+  add("spectral", with(paper, Placement::midpoint));
+  add("spectral", with(paper, Placement::free));
   return result;
 }
 
@@ -179,14 +193,16 @@ std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector
 {
   std::vector<Simplifier> result;
   for(const Basis& basis : bases)
-    for(const Spectral_variant& variant : variants(fine, basis.mass))
-      result.push_back(spectral(variant, basis, threads));
+    for(Simplifier& s : spectral_simplifiers(fine, basis, threads))
+      result.push_back(std::move(s));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>>("plane"));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));
-  result.push_back(garland_heckbert<SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>(
-      "probabilistic plane"));
-  result.push_back(garland_heckbert<SMS::GarlandHeckbert_probabilistic_triangle_policies<Mesh, Kernel>>(
-      "probabilistic triangle"));
+  result.push_back(
+      probabilistic_garland_heckbert<SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>(
+          "plane"));
+  result.push_back(
+      probabilistic_garland_heckbert<SMS::GarlandHeckbert_probabilistic_triangle_policies<Mesh, Kernel>>(
+          "triangle"));
   result.push_back(
       plain<SMS::LindstromTurk_cost<Mesh>, SMS::LindstromTurk_placement<Mesh>>("Lindstrom-Turk", "optimal"));
   result.push_back(

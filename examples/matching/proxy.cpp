@@ -39,9 +39,10 @@ Eigen::SparseMatrix<double> picking(const std::vector<Eigen::Index>& representat
 Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, std::size_t vertices,
                                                 SG::Mass mass, const Keep_going& keep_going, Proxy& proxy)
 {
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   options.mass = mass;
-  options.binary = true;
+  options.binary = true; // the matches are vertices of the fine mesh
+  options.relocate = false;
   SG::Eigenpairs pairs = fine.spectral.pairs; // at the scale of the mesh
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);

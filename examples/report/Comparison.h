@@ -42,6 +42,7 @@ struct Judgement
   std::optional<Map_norms> closest; // with that of the closest points of the fine surface
   double floor_norm_L = not_computed, floor_norm_D = not_computed;
   double error_mean = not_computed, error_max = not_computed;               // eigenvalues 1..K
+  double error_low_mean = not_computed;                                     // 2..K/5
   double error_beyond_mean = not_computed, error_beyond_max = not_computed; // K+1..1.5K
   double error_input_scale_mean = not_computed;
   Distance_errors distances;
@@ -71,7 +72,8 @@ struct Simplified
 {
   std::string simplifier;           // "spectral", "Garland-Heckbert plane", ...
   std::string placement;            // "on_edge", "optimal", ...
-  std::string relocation = "none";  // what moved the vertices afterwards
+  std::string relocation = "none";  // by which signals vertices were moved afterwards
+  double shape_term = 0;            // its weight in a spectral metric
   std::string metric_mass = "none"; // the mass in the metric of the simplifier, if it has one
   std::size_t requested_vertices = 0, vertices = 0, faces = 0;
   double seconds = not_computed;            // simplification alone
@@ -93,7 +95,7 @@ struct Simplified
     if(metric_mass != "none")
       text += ", " + metric_mass + " metric";
     if(relocation != "none")
-      text += relocation == "sampled" ? ", relocated, P anew" : ", relocated";
+      text += ", relocated by " + relocation;
     return text;
   }
 };

@@ -28,6 +28,7 @@ inline Comparison single_run(const CGAL::Spectral_geometry::Spectral_evaluation&
   j.floor_norm_D = e.floor_norm_D;
   j.error_mean = e.errors.mean;
   j.error_max = e.errors.max;
+  j.error_low_mean = e.errors_low.mean;
   j.error_beyond_mean = e.errors_beyond.mean;
   j.error_beyond_max = e.errors_beyond.max;
   j.error_input_scale_mean = e.errors_input_scale.mean;

@@ -31,7 +31,8 @@ struct Arguments
   long eigenvectors = 100;
   int runs = 3;
   int threads = (std::max)(1, static_cast<int>(std::thread::hardware_concurrency()));
-  bool averaged = false, no_spectra = false;
+  bool no_spectra = false;
+  std::string preset = "best";
   std::string json, scaling;
   std::string scaling_vertices = "12000,25000,50000,100000,200000,400000,1000000";
   std::string scaling_eigenvectors = "50,100,200,400";
@@ -53,7 +54,7 @@ Arguments parse_arguments(int argc, char* argv[])
   add("vertices", po::value(&a.vertices)->value_name("N"), "target; 2 % of the mesh or 3 K, if that is more");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep");
-  add("averaged", po::bool_switch(&a.averaged), "the averaged mass instead of the lumped one");
+  add("preset", po::value(&a.preset)->value_name("best|paper")->default_value(a.preset), "of the options");
   add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
       "reduce to this number first, with Garland-Heckbert");
   add("threads", po::value(&a.threads)->value_name("T"),
@@ -84,6 +85,8 @@ Arguments parse_arguments(int argc, char* argv[])
     a.help = text.str();
   } else if(a.meshes.empty() && a.scaling.empty())
     throw std::runtime_error("name a mesh, or --scaling CSV; --help shows everything.");
+  if(a.preset != "best" && a.preset != "paper")
+    throw std::runtime_error("--preset is '" + a.preset + "', it must be best or paper.");
   if(a.runs < 1 || a.threads < 1 || a.eigenvectors < 1)
     throw std::runtime_error("--runs, --threads and --eigenvectors must be positive.");
   return a;
@@ -187,7 +190,7 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
                        : (std::max)(size.vertices / 50, static_cast<std::size_t>(3 * a.eigenvectors));
   setting.eigenvectors = a.eigenvectors;
   setting.pre_simplify = a.pre_simplify;
-  setting.averaged = a.averaged;
+  setting.paper = a.preset == "paper";
 
   Samples one, many, garland_heckbert, lindstrom_turk;
   std::vector<Solver_samples> paths = solvers(a);
@@ -204,7 +207,7 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
   const double base = median(garland_heckbert.us_per_collapse);
   const std::string with_threads = "spectral, " + std::to_string(a.threads) + " threads";
   std::printf("%s: %zu -> %zu vertices, K = %ld, %s mass\n", mesh.c_str(), size.vertices, setting.target,
-              a.eigenvectors, a.averaged ? "averaged" : "lumped");
+              a.eigenvectors, a.preset == "paper" ? "lumped" : "averaged");
   std::printf("  %-28s %9s %9s %10s %9s\n", "", "us/coll.", "ratio", "total s", "peak MB");
   print_collapses(a.threads > 1 ? with_threads.c_str() : "spectral, 1 thread", many, base);
   if(a.threads > 1)
@@ -265,7 +268,7 @@ void measure_scaling(const Arguments& a)
     const Mesh_size size = in_child([&] { return measure_mesh(mesh); }, peak);
     Setting setting;
     setting.target = size.vertices / 100;
-    setting.averaged = a.averaged;
+    setting.paper = a.preset == "paper";
     setting.pre_simplify = a.pre_simplify;
     setting.all_in_metric = true; // the series is to show what K costs
     for(const long K : numbers(a.scaling_eigenvectors)) {

@@ -42,14 +42,15 @@ Mesh load(const std::string& name)
 
 SG::Mass mass(const Setting& setting)
 {
-  return setting.averaged ? SG::Mass::averaged : SG::Mass::lumped;
+  return setting.paper ? SG::Mass::lumped : SG::Mass::averaged;
 }
 
-SMS::Spectral_options spectral_options(const Setting& setting, int threads)
+SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int threads)
 {
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options = setting.paper
+                                                    ? SMS::Spectral_edge_collapse_options::paper()
+                                                    : SMS::Spectral_edge_collapse_options::best();
   options.number_of_eigenvectors = setting.eigenvectors;
-  options.mass = mass(setting);
   options.pre_simplify = setting.pre_simplify;
   options.threads = threads;
   if(setting.all_in_metric)
@@ -121,7 +122,7 @@ double estimated_memory(std::size_t vertices, const Setting& setting)
 
 double default_tolerance()
 {
-  return SMS::Spectral_options().eigenpairs_options.tolerance;
+  return SMS::Spectral_edge_collapse_options().eigenpairs_options.tolerance;
 }
 
 std::string build_description()

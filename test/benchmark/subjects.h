@@ -16,7 +16,7 @@ struct Setting
   std::size_t target = 0;
   long eigenvectors = 100;
   std::size_t pre_simplify = 0;
-  bool averaged = false;
+  bool paper = false;       // the preset
   bool all_in_metric = false; // all eigenvectors, however few vertices remain
 };
 

@@ -73,7 +73,7 @@ struct Outcome
 
 // E recomputed from whole matrices, with the rounding that cotangents of that size leave in it.
 std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, const shapes::Matrices& fine,
-                       const SMS::Spectral_options& options)
+                       const SMS::Spectral_edge_collapse_options& options)
 {
   const double worst_angle = (std::max)(largest_cotangent(coarse), largest_cotangent(fine));
   if(!std::isfinite(outcome.E) || !std::isfinite(outcome.relative_error) || outcome.E < 0)
@@ -110,7 +110,7 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
 }
 
 std::string fault_of_result(const Mesh& mesh, const Policies& policies, const shapes::Matrices& fine,
-                            const SMS::Spectral_options& options)
+                            const SMS::Spectral_edge_collapse_options& options)
 {
   if(!CGAL::is_valid_polygon_mesh(mesh) || !CGAL::is_triangle_mesh(mesh))
     return "the mesh is not a valid triangle mesh";
@@ -258,7 +258,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   Edge_flags flags_before(mesh), flags_of_replay(mesh);
   *flags_before.flags = *flags_of_replay.flags = *flags.flags;
   int calls = 0;
-  SMS::Spectral_options options = call.options;
+  SMS::Spectral_edge_collapse_options options = call.options;
   options.progress = [&](const SMS::Spectral_progress&) { return ++calls != call.calls_until_cancelled; };
   SMS::Spectral_edge_collapse_result result;
   try {
@@ -282,7 +282,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
 
 // -----------------------------------------------------------------------------------------------------------------------
 
-bool refused(Mesh& mesh, const SMS::Spectral_options& options)
+bool refused(Mesh& mesh, const SMS::Spectral_edge_collapse_options& options)
 {
   try {
     const Policies policies(mesh, options);
@@ -303,7 +303,7 @@ std::string fault_of_input(Bytes bytes)
   const SG::Mesh_diagnosis diagnosis = SG::diagnose_polygon_soup(fine.V, polygons_of(fine.T));
   if(diagnosis.non_manifold_vertices.count != 0)
     return ""; // not a mesh
-  const SMS::Spectral_options options = options_from(bytes, fine);
+  const SMS::Spectral_edge_collapse_options options = options_from(bytes, fine);
   const std::size_t n = std::size_t(fine.V.rows()), N = 1 + std::size_t(bytes.below(int(n)));
   Mesh mesh = make_mesh(fine);
   if(!diagnosis.usable())

@@ -143,9 +143,9 @@ inline void disturb(shapes::Matrices& mesh, Bytes& bytes)
   }
 }
 
-inline SMS::Spectral_options options_from(Bytes& bytes, const shapes::Matrices& mesh)
+inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shapes::Matrices& mesh)
 {
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   const int n = int(mesh.V.rows());
   options.number_of_eigenvectors = 1 + bytes.below((std::min)(n - 1, 40));
   const SMS::Spectral_placement_strategy placements[] = {SMS::Spectral_placement_strategy::midpoint,
@@ -155,6 +155,9 @@ inline SMS::Spectral_options options_from(Bytes& bytes, const shapes::Matrices& 
   options.mass = bytes.one_in(2) ? SG::Mass::averaged : SG::Mass::lumped;
   options.binary = bytes.one_in(3);
   options.preserve_border = bytes.one_in(3);
+  const double shapes_of_term[] = {0, 3, 1e6};
+  options.shape = shapes_of_term[bytes.below(3)];
+  options.keep_free_of_self_intersections = bytes.one_in(2);
   options.threads = bytes.one_in(16) ? 2 : 1;
   if(bytes.one_in(4)) {
     const double extent = mesh.V.cwiseAbs().maxCoeff();
@@ -189,7 +192,7 @@ struct One_call
 {
   shapes::Matrices fine;
   SG::Mesh_diagnosis diagnosis;
-  SMS::Spectral_options options;
+  SMS::Spectral_edge_collapse_options options;
   std::size_t N = 0;
   Random_filter filter;
   int calls_until_cancelled = 0; // 0: never
@@ -205,14 +208,14 @@ struct One_call
 
 inline void add_one_call_options(One_call& call, Bytes& bytes)
 {
-  SMS::Spectral_options& o = call.options;
+  SMS::Spectral_edge_collapse_options& o = call.options;
   const int n = int(call.fine.V.rows());
   const SG::Edge_flips flips[] = {SG::Edge_flips::none, SG::Edge_flips::spectral, SG::Edge_flips::delaunay};
   o.flips = flips[bytes.below(3)];
   o.relocate = bytes.one_in(3);
   using Signals = SG::Relocation_options::Signals;
   const Signals signals[] = {Signals::carried, Signals::carried_and_sampled, Signals::sampled};
-  o.relocation.signals = signals[bytes.below(3)];
+  o.relocation.signals = o.binary ? Signals::carried : signals[bytes.below(3)];
   o.relocation.maximum_steps = 3;
   o.relocation.smoothing = bytes.one_in(2) ? 0 : 1;
   o.relocation.fix_boundary = bytes.one_in(2);

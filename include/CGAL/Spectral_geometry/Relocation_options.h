@@ -35,7 +35,7 @@ struct Relocation_options
     sampled ///< F at the closest point alone. The lowest of the three in that reading; the restriction that
             ///< came with the mesh no longer fits, and the result holds the one to use instead
   };
-  Signals signals = Signals::carried_and_sampled; ///< the choice among them
+  Signals signals = Signals::sampled; ///< the choice among them
 
   /// tau lambda_K of `Smoothed_relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
   /// times faster).
@@ -80,6 +80,14 @@ struct Relocation_options
   std::function<bool(double)> progress;
 };
 
+/// The name of a choice of signals as the programs spell it.
+inline const char* relocation_signals_name(const Relocation_options::Signals signals)
+{
+  return signals == Relocation_options::Signals::sampled   ? "sampled"
+         : signals == Relocation_options::Signals::carried ? "carried"
+                                                           : "carried_and_sampled";
+}
+
 /// What `relocate_positions()` did.
 struct Relocation_result
 {
@@ -94,10 +102,11 @@ struct Relocation_result
   /// Vertices that a guard stopped short in one step at least, by guard.
   struct Held
   {
-    std::size_t fixed = 0;     ///< never moved: kept by the caller, or boundary vertices that have to stay
-    std::size_t trust = 0;     ///< by `Relocation_options::trust_radius`
-    std::size_t boundary = 0;  ///< by the end of the boundary that they slide along
-    std::size_t sheet = 0;     ///< because their closest point would have leapt to another sheet of the fine surface
+    std::size_t fixed = 0;    ///< never moved: kept by the caller, or boundary vertices that have to stay
+    std::size_t trust = 0;    ///< by `Relocation_options::trust_radius`
+    std::size_t boundary = 0; ///< by the end of the boundary that they slide along
+    std::size_t sheet =
+        0; ///< because their closest point would have leapt to another sheet of the fine surface
     std::size_t distance = 0;  ///< by `Relocation_options::largest_distance`
     std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
   };
@@ -105,13 +114,13 @@ struct Relocation_result
   /// E (Eq. 2) with the carried signals before and after, in the scale of the meshes. It may
   /// rise while the norms fall: the norms do not see most of it.
   double E_before = 0;
-  double E_after = 0;             ///< see `E_before`
-  double objective_before = 0;    ///< what was minimised, at the start
-  double objective_after = 0;     ///< and at the end
-  int steps = 0;                  ///< of the descent
+  double E_after = 0;                                ///< see `E_before`
+  double objective_before = 0;                       ///< what was minimised, at the start
+  double objective_after = 0;                        ///< and at the end
+  int steps = 0;                                     ///< of the descent
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
   Held held;                                         ///< by which guard
-  std::size_t moved_vertices = 0; ///< vertices that are elsewhere now
+  std::size_t moved_vertices = 0;                    ///< vertices that are elsewhere now
   /// vertices that went back, in part or wholly, because of a self-intersection or the distance
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds

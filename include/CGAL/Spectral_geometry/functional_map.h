@@ -285,6 +285,7 @@ struct Spectral_evaluation
   double floor_norm_D = 0;       ///< `orthonormality_floor()`
 
   Eigenvalue_errors errors;        ///< of modes 1..K, zeros skipped
+  Eigenvalue_errors errors_low;    ///< of modes 2..K/5: limbs that lost their tips show here
   Eigenvalue_errors errors_beyond; ///< of modes K+1..1.5K, as far as both spectra were given: overfitting
   Eigenvalue_errors errors_input_scale; ///< of modes 1..K of the meshes as they are
 
@@ -385,6 +386,7 @@ inline Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const
   e.floor_norm_D = orthonormality_floor(e.theta, judged, N);
 
   e.errors = eigenvalue_errors(e.fine_values, e.coarse_values, 0, judged, e.fine_zeros);
+  e.errors_low = eigenvalue_errors(e.fine_values, e.coarse_values, 1, judged / 5, e.fine_zeros);
   e.errors_beyond =
       eigenvalue_errors(e.fine_values, e.coarse_values, judged, judged + judged / 2, e.fine_zeros);
   e.errors_input_scale = eigenvalue_errors(fine_pairs.values, coarse_pairs.values, 0, judged, e.fine_zeros);

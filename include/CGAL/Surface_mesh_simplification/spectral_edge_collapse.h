@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_post_process.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_pre_simplification.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -48,7 +49,7 @@ struct Spectral_edge_collapse_result
     target_reached,  ///< the mesh has the number of vertices that was asked for
     queue_exhausted, ///< no edge is left that may be collapsed; see `explanation`
     cancelled,       ///< by the progress callback or `Spectral_options::cancel`
-    error_reached    ///< one more collapse would have exceeded `Spectral_options::maximum_error`
+    error_reached ///< one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
   };
 
   /// Candidates that were given up when their turn came, by cause. One edge may be counted several times:
@@ -71,21 +72,21 @@ struct Spectral_edge_collapse_result
   Refusals refusals;                 ///< candidates that were given up, by cause
   std::size_t evaluations = 0;       ///< how often an edge was costed
 
-  double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_options::pre_simplify`
+  double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_edge_collapse_options::pre_simplify`
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
-  double seconds_flips = 0;              ///< wall seconds of `Spectral_options::flips`
-  double seconds_relocation = 0;         ///< wall seconds of `Spectral_options::relocate`
+  double seconds_flips = 0;              ///< wall seconds of `Spectral_edge_collapse_options::flips`
+  double seconds_relocation = 0;         ///< wall seconds of `Spectral_edge_collapse_options::relocate`
   double seconds_total = 0;              ///< the whole call
 
   std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
   double E = 0;              ///< Eq. 2 of these signals, for the input scaled to unit area
   double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
 
-  /// what `Spectral_options::flips` did: vertices by their rows of P, E in the scale of the input
+  /// what `Spectral_edge_collapse_options::flips` did: vertices by their rows of P, E in the scale of the input
   Spectral_geometry::Edge_flip_result flips;
-  /// what `Spectral_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
+  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
   Spectral_geometry::Relocation_result relocation;
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input.
@@ -95,7 +96,7 @@ struct Spectral_edge_collapse_result
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
   /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
   Collapse_log log;
-  /// number of vertices after `Spectral_options::pre_simplify`; that of the input without
+  /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input without
   std::size_t pre_simplified_vertices = 0;
   /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again; null with signals
   /// of the user's
@@ -239,7 +240,7 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
   }
 }
 
-/// `Spectral_options::flips` and `Spectral_options::relocate`. The log, and what is replayed from it, stay as they are: they end before them.
+/// `Spectral_edge_collapse_options::flips` and `Spectral_edge_collapse_options::relocate`. The log, and what is replayed from it, stay as they are: they end before them.
 template <class TriangleMesh, class Policies, class NamedParameters>
 void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process, const Policies& policies,
                       const std::vector<char>& kept, const NamedParameters& np,
@@ -285,7 +286,8 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, 
 
 /// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
-void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spectral_options& given,
+void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
+                        const Spectral_edge_collapse_options& given,
                         const PoliciesNamedParameters& policies_np, const NamedParameters& np,
                         const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
@@ -295,13 +297,14 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
   const Eigen::Index K = given.signals.size() != 0 ? given.signals.cols()
                          : given.eigenpairs        ? given.eigenpairs->size()
                                                    : given.number_of_eigenvectors;
-  std::optional<Spectral_options> narrowed; // with signals, which may be large, there is no need of a copy
-  if(given.signals.size() == 0 && given.metric_eigenvectors == 0 && !std::isfinite(given.maximum_error) &&
-     metric_eigenvectors_for(target, K) < K) {
+  std::optional<Spectral_edge_collapse_options>
+      narrowed; // with signals, which may be large, there is no need of a copy
+  if(given.metric_eigenvectors_by_target && given.signals.size() == 0 && given.metric_eigenvectors == 0 &&
+     !std::isfinite(given.maximum_error) && metric_eigenvectors_for(target, K) < K) {
     narrowed = given;
     narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
   }
-  const Spectral_options& options = narrowed ? *narrowed : given;
+  const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Spectral_post_process post_process(mesh, options, policies_np);
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
@@ -340,9 +343,9 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target, const Spec
 
 /// Both stages of a run whose first one has been done. Once the mesh has changed, to cancel is to return what was done.
 template <class TriangleMesh, class NamedParameters>
-void run_after_first_stage(TriangleMesh& mesh, const std::size_t target, Spectral_options options,
-                           const NamedParameters& np, const Pre_simplification& first,
-                           Spectral_edge_collapse_result& result)
+void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
+                           Spectral_edge_collapse_options options, const NamedParameters& np,
+                           const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using parameters::choose_parameter;
@@ -378,7 +381,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target, Spectra
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
  * @param number_of_vertices the target N, from 1 to the number of vertices of the mesh. At least 3 K is advised
  *        (section 4.3 of the paper); a smaller one is warned of in the result, unless an error bound is given as well
- * @param options see `Spectral_options`
+ * @param options see `Spectral_edge_collapse_options`
  * @param np an optional sequence of named parameters among those below, which are those of `edge_collapse()` and one more
  *
  * \cgalNamedParamsBegin
@@ -418,14 +421,14 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target, Spectra
  *
  * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is changed
  * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
- *         `Spectral_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
+ *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
  *         mesh that the spectral cost refuses (a needle, a vertex without area)
  * @throws Spectral_geometry::Cancelled when the run is cancelled before the first collapse; later a
  *         cancelled run returns what was done
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                                                     const Spectral_options& options = Spectral_options(),
+                                                     const Spectral_edge_collapse_options& options = {},
                                                      const NamedParameters& np = parameters::default_values())
 {
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
@@ -436,7 +439,7 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   Spectral_edge_collapse_result result;
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target(number_of_vertices, result.input_vertices);
-  internal::check_post_process_options(options);
+  internal::check_edge_collapse_options(options);
   const internal::Pre_simplification first =
       internal::pre_simplify<Geom_traits>(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = seconds();

@@ -7,7 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
 #include <Eigen/Core>
 
@@ -27,7 +27,7 @@ namespace Surface_mesh_simplification {
  * times n K doubles (five times with signals of the user's, for Z). The constants were measured on closed meshes of 50,000
  * to 500,000 vertices; estimates are within about a quarter.
  *
- * With `Spectral_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
+ * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
  * vertex of the input that does not depend on K.
  *
  * @param number_of_vertices n of the input
@@ -36,7 +36,7 @@ namespace Surface_mesh_simplification {
  */
 inline double estimated_memory(const std::size_t number_of_vertices,
                                const Eigen::Index number_of_eigenvectors,
-                               const Spectral_options& options = Spectral_options())
+                               const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
 {
   const bool reduced = options.pre_simplify != 0 && number_of_vertices > options.pre_simplify;
   const double input = double(number_of_vertices), n = reduced ? double(options.pre_simplify) : input;

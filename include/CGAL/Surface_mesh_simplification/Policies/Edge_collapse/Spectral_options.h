@@ -7,8 +7,6 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Spectral_geometry/Edge_flip_options.h>
-#include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
@@ -18,7 +16,6 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -54,12 +51,12 @@ inline const char* placement_name(const Spectral_placement_strategy placement)
 
 /// What a run is doing; see `Spectral_options::progress`.
 enum class Spectral_phase {
-  pre_simplification, ///< collapsing with a cheap cost down to `Spectral_options::pre_simplify`
+  pre_simplification, ///< collapsing with a cheap cost down to `Spectral_edge_collapse_options::pre_simplify`
   eigenpairs,         ///< solving for the basis
   first_costs,        ///< evaluating every edge once
   collapses,          ///< inside the collapse loop
-  flips,              ///< flipping edges of the mesh that is left, see `Spectral_options::flips`
-  relocation          ///< moving the vertices that are left, see `Spectral_options::relocate`
+  flips,     ///< flipping edges of the mesh that is left, see `Spectral_edge_collapse_options::flips`
+  relocation ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
 };
 
 /// The argument of `Spectral_options::progress`.
@@ -71,37 +68,51 @@ struct Spectral_progress
 };
 
 /*!
- * The options of `Spectral_policies` and `spectral_edge_collapse()`, in the manner of the parameter
- * structures of the other policies. The defaults are those of Lescoat et al., *Spectral Mesh
- * Simplification*, Computer Graphics Forum 39(2), 2020.
+ * The options of `Spectral_policies`, in the manner of the parameter structures of the other policies; those of
+ * `spectral_edge_collapse()` are `Spectral_edge_collapse_options`. The defaults are what was found best, see `best()`.
  */
 struct Spectral_options
 {
+  /// The defaults: averaged mass, free placement, shape term, no new self-intersections. Chosen by measurement, see the manual.
+  static Spectral_options best() { return Spectral_options(); }
+
+  /// What Lescoat et al. describe, *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020: lumped mass, placement
+  /// on the edge, E alone.
+  static Spectral_options paper()
+  {
+    Spectral_options options;
+    options.mass = Spectral_geometry::Mass::lumped;
+    options.placement = Spectral_placement_strategy::on_edge;
+    options.shape = 0;
+    options.keep_free_of_self_intersections = false;
+    return options;
+  }
+
   /// K, the number of eigenvectors that are preserved, the constant one included. In [1, n - 1].
   /// The target size should be at least 3 K (section 4.3 of the paper). Ignored when `signals` or
   /// `eigenpairs` are given: they bring their own number of columns.
   Eigen::Index number_of_eigenvectors = 100;
 
   /// How many of the K eigenvectors the metric sees: the lowest of them, those of eigenvalue 0 not counted. The others are
-  /// found, returned, and used by `relocate` all the same. 0: all; but `spectral_edge_collapse()` takes N / 4 where its
-  /// target N is less than 3 K, see `metric_eigenvectors_for()`. Ignored with `signals`; not negative.
+  /// found, returned, and used by the relocation of `spectral_edge_collapse()` all the same. 0: all. Not with `signals`; not
+  /// negative. See `metric_eigenvectors_for()`.
   Eigen::Index metric_eigenvectors = 0;
 
   /// The placement strategy.
-  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+  Spectral_placement_strategy placement = Spectral_placement_strategy::free;
 
   /// The shape term: a candidate costs the change of E plus `shape` S n times that of a probabilistic plane quadric, where
   /// S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing left and n the number of vertices now. Without unit: one value
   /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone.
-  double shape = 0;
+  double shape = 3;
 
   /// Collapses put no face through another, unless one that they replace went through it already. Where the placement found would, the
   /// ends and the middle of the edge are tried, and then the edge stays. Placements of a wrapper are not looked at.
-  bool keep_free_of_self_intersections = false;
+  bool keep_free_of_self_intersections = true;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
   /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %.
-  Spectral_geometry::Mass mass = Spectral_geometry::Mass::lumped;
+  Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
@@ -134,35 +145,10 @@ struct Spectral_options
   /// Which of its two handles a mesh goes on with after a collapse is CGAL's choice: the vertex map says where
   /// each went. Edge constraints do not promise this: they keep edges. Works together with them (see
   /// `Spectral_filter`), with `preserve_border` (an edge from a kept inner vertex to a border vertex that is
-  /// not kept stays) and with `pre_simplify`.
+  /// not kept stays) and with `Spectral_edge_collapse_options::pre_simplify`.
   std::vector<std::size_t> kept_vertices;
 
-  /// `spectral_edge_collapse()` only: stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
-  /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
-  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number.
-  double maximum_error = std::numeric_limits<double>::infinity();
-
-  /// `spectral_edge_collapse()` only: first reduces a mesh of more vertices to this number with CGAL's
-  /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
-  /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
-  std::size_t pre_simplify = 0;
-
-  /// `spectral_edge_collapse()` only: flips edges of the mesh that is left, before `relocate`, where that lowers E or
-  /// makes them Delaunay, see `Spectral_geometry::flip_edges()`. Constrained edges stay. The log, and the levels that are
-  /// replayed from it, end before. Off by default: it changes little (section 6 of the paper).
-  Spectral_geometry::Edge_flips flips = Spectral_geometry::Edge_flips::none;
-
-  /// What a flip may not do; its criterion and its progress callback are replaced by those here.
-  Spectral_geometry::Edge_flip_options flipping;
-
-  /// `spectral_edge_collapse()` only: moves the vertices that are left so that the spectrum is kept still better, see
-  /// `Spectral_geometry::relocate_positions()`. Made for the averaged mass.
-  bool relocate = false;
-
-  /// How they are moved; its progress callback is replaced by the one below.
-  Spectral_geometry::Relocation_options relocation;
-
-  /// Number of threads that find eigenpairs, evaluate costs and relocate; from 1. The result does not depend on it.
+  /// Number of threads that find eigenpairs and evaluate costs, and that relocate in `spectral_edge_collapse()`; from 1. The result does not depend on it.
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
@@ -178,8 +164,8 @@ struct Spectral_options
 
 /// How many eigenvectors the metric should see for a target of N vertices: all K from 3 K vertices on (section 4.3 of the
 /// paper), N / 4 below. There the upper modes cannot be had, and those who ask for them lose the lower ones with
-/// them: whole limbs, which carry few modes, are given up. `spectral_edge_collapse()` does this by itself;
-/// with `Spectral_policies` set `Spectral_options::metric_eigenvectors` to it.
+/// them: whole limbs, which carry few modes, are given up. For `Spectral_options::metric_eigenvectors`;
+/// `Spectral_edge_collapse_options::metric_eigenvectors_by_target` does it.
 inline Eigen::Index metric_eigenvectors_for(const std::size_t number_of_vertices, const Eigen::Index K)
 {
   const Eigen::Index N = Eigen::Index(number_of_vertices);

@@ -51,14 +51,15 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
   if(options.threads < 1)
     throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
                                 ", use a number from 1.");
-  if(!(options.maximum_error >= 0))
-    throw std::invalid_argument("Spectral_options: maximum_error is " + to_string(options.maximum_error) +
-                                ", use a number from 0.");
   if(!(options.shape >= 0) || !std::isfinite(options.shape))
     throw std::invalid_argument("Spectral_options: shape is " + to_string(options.shape) +
                                 ", use a number from 0.");
   if(options.signals.size() != 0 && options.eigenpairs)
     throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
+  if(options.signals.size() != 0 && options.metric_eigenvectors != 0)
+    throw std::invalid_argument("Spectral_options: metric_eigenvectors chooses among eigenvectors, but "
+                                "signals are given; pass the signals "
+                                "that the metric is to see.");
   if(options.signals.size() != 0 && options.signals.rows() != n)
     throw std::invalid_argument("Spectral_options: signals has " + to_string(options.signals.rows()) +
                                 " rows, but the mesh has " + to_string(n) +

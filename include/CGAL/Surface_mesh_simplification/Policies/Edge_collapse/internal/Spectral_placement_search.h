@@ -33,8 +33,8 @@ struct Spectral_cost_parameters
   bool preserve_border = false;
   bool single_precision_points = false; ///< the mesh stores its points as float
   bool keep_free_of_self_intersections = false;
-  double shape = 0;                     ///< see `Spectral_options::shape`
-  double sum_of_squares = 1;            ///< || Z ||_B^2, E when everything is lost
+  double shape = 0;          ///< see `Spectral_options::shape`
+  double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
   int threads = 1;
 };
 
@@ -148,14 +148,22 @@ public:
     if(count == 0)
       return Spectral_sample(); // of infinite cost
     evaluate(u, v, kernel, samples, count);
-    std::sort(samples, samples + count, [](const auto& a, const auto& b) { return a.cost < b.cost; });
-    for(int s = 0; s < count; ++s)
-      if(std::isfinite(samples[s].cost) && allowed(samples[s].point))
-        return samples[s];
+    for(; count > 0; --count) {
+      Spectral_sample* const best = cheapest(samples, count);
+      if(std::isfinite(best->cost) && allowed(best->point))
+        return *best;
+      *best = samples[count - 1];
+    }
     return Spectral_sample();
   }
 
 private:
+  static Spectral_sample* cheapest(Spectral_sample* samples, const int count)
+  {
+    return std::min_element(samples, samples + count,
+                            [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  }
+
   double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
   {
     if(is_kept(u) || is_kept(v))
@@ -222,8 +230,7 @@ private:
     Spectral_sample samples[n] = {sample_at(u, v, 0), sample_at(u, v, 0.5), sample_at(u, v, 1),
                                   sample_off_edge(u, v, x.allFinite() ? x : middle)};
     evaluate(u, v, kernel, samples, n);
-    return *std::min_element(samples, samples + n,
-                             [](const auto& a, const auto& b) { return a.cost < b.cost; });
+    return *cheapest(samples, n);
   }
 
   // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples

@@ -7,8 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
@@ -29,22 +29,14 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
-/// Throws for what would otherwise be found out after the collapses.
-inline void check_post_process_options(const Spectral_options& options)
-{
-  if(options.flips != Spectral_geometry::Edge_flips::none)
-    Spectral_geometry::internal::check_edge_flip_options(options.flipping);
-  if(options.relocate)
-    Spectral_geometry::internal::check_relocation_options(options.relocation);
-}
-
-/// What follows the collapses: `Spectral_options::flips`, then `Spectral_options::relocate`. Made before the first collapse:
+/// What follows the collapses: `Spectral_edge_collapse_options::flips`, then `Spectral_edge_collapse_options::relocate`. Made before the first collapse:
 /// it needs the mesh of the eigenpairs.
 class Spectral_post_process
 {
 public:
   template <class TriangleMesh, class NamedParameters>
-  Spectral_post_process(const TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np)
+  Spectral_post_process(const TriangleMesh& mesh, const Spectral_edge_collapse_options& options,
+                        const NamedParameters& np)
     : m_options(options)
   {
     if(is_wanted())
@@ -176,7 +168,7 @@ private:
       result.relative_error *= std::sqrt(result.E / before);
   }
 
-  const Spectral_options& m_options;
+  const Spectral_edge_collapse_options& m_options;
   Spectral_geometry::Mesh_matrices m_fine;
 };
 

@@ -11,12 +11,12 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Shifted_point_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -54,7 +54,8 @@ template <class TriangleMesh>
 class Pre_simplification_stop
 {
 public:
-  Pre_simplification_stop(const TriangleMesh& mesh, const Collapse_log& log, const Spectral_options& options)
+  Pre_simplification_stop(const TriangleMesh& mesh, const Collapse_log& log,
+                          const Spectral_edge_collapse_options& options)
     : m_stop(options.pre_simplify, mesh)
     , m_log(&log)
     , m_options(&options)
@@ -81,23 +82,24 @@ public:
 private:
   Vertex_count_stop_predicate<TriangleMesh> m_stop;
   const Collapse_log* m_log;
-  const Spectral_options* m_options;
+  const Spectral_edge_collapse_options* m_options;
   mutable double m_next_report = 0;
   mutable bool m_cancelled = false;
 };
 
 /// Throws for what would otherwise be found out after the mesh has changed.
-inline void check_pre_simplification(const Spectral_options& options, const std::size_t n,
+inline void check_pre_simplification(const Spectral_edge_collapse_options& options, const std::size_t n,
                                      const std::size_t target)
 {
   using std::to_string;
-  const std::string size = "Spectral_options: pre_simplify is " + to_string(options.pre_simplify);
+  const std::string size =
+      "Spectral_edge_collapse_options: pre_simplify is " + to_string(options.pre_simplify);
   if(options.pre_simplify < target)
     throw std::invalid_argument(size + ", less than the target of " + to_string(target) +
                                 " vertices; use a number between the target and the size of the mesh.");
   if(options.signals.size() != 0 || options.eigenpairs)
     throw std::invalid_argument(
-        "Spectral_options: pre_simplify is set, but the signals or eigenpairs that are "
+        "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that are "
         "given belong to the mesh before it; use one of the two.");
   if(options.number_of_eigenvectors >= Eigen::Index(options.pre_simplify))
     throw std::invalid_argument(size + ", but " + to_string(options.number_of_eigenvectors) +
@@ -131,10 +133,10 @@ inline Collapse_log shifted(const Collapse_log& log, const Eigen::Vector3d& offs
   return Collapse_log(log.forest(), std::move(points));
 }
 
-/// The first stage of `Spectral_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices.
+/// The first stage of `Spectral_edge_collapse_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices.
 template <class GeomTraits, class TriangleMesh, class NamedParameters>
 Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
-                                const Spectral_options& options, const NamedParameters& np)
+                                const Spectral_edge_collapse_options& options, const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;

@@ -119,7 +119,8 @@ private:
       if(!ring[i].face)
         continue;
       const std::size_t before = Spectral_rings::prev(ring, i), after = Spectral_rings::next(ring, i);
-      const Eigen::Vector3d a = points[ring[i].vertex] - points[w], b = points[ring[after].vertex] - points[w];
+      const Eigen::Vector3d a = points[ring[i].vertex] - points[w],
+                            b = points[ring[after].vertex] - points[w];
       const Eigen::Vector3d cross = a.cross(b);
       const double double_area = cross.norm();
       if(!(double_area > 0))

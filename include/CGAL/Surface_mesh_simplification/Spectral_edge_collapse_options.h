@@ -1,0 +1,103 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_OPTIONS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_OPTIONS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+
+#include <CGAL/Spectral_geometry/Edge_flip_options.h>
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+/*!
+ * The options of `spectral_edge_collapse()`: those of the metric, and what is done before and after the collapses. The
+ * defaults are what was found best.
+ */
+struct Spectral_edge_collapse_options : Spectral_options
+{
+  /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest points. The relocation
+  /// takes about a third of the run and halves the norms once more; P no longer follows the vertex map then, and levels
+  /// that are replayed from the log end before it.
+  static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
+
+  /// `Spectral_options::paper()`, and nothing after the collapses.
+  static Spectral_edge_collapse_options paper()
+  {
+    Spectral_edge_collapse_options options;
+    static_cast<Spectral_options&>(options) = Spectral_options::paper();
+    options.relocate = false;
+    return options;
+  }
+
+  /// Where `metric_eigenvectors` is 0 and the target less than 3 K, without signals of the user's and without an error bound: the
+  /// metric sees as many as `metric_eigenvectors_for()` says.
+  bool metric_eigenvectors_by_target = true;
+
+  /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
+  /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
+  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number.
+  double maximum_error = std::numeric_limits<double>::infinity();
+
+  /// First reduces a mesh of more vertices to this number with CGAL's
+  /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
+  /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
+  std::size_t pre_simplify = 0;
+
+  /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
+  /// makes them Delaunay, see `Spectral_geometry::flip_edges()`. Constrained edges stay. The log, and the levels that are
+  /// replayed from it, end before. Off by default: it changes little (section 6 of the paper).
+  Spectral_geometry::Edge_flips flips = Spectral_geometry::Edge_flips::none;
+
+  /// What a flip may not do; its criterion and its progress callback are replaced by those here.
+  Spectral_geometry::Edge_flip_options flipping;
+
+  /// Moves the vertices that are left so that the spectrum is kept still better, see
+  /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges stay. Made for the averaged
+  /// mass. Not with `binary`, unless its signals are `carried`: it takes P anew.
+  bool relocate = true;
+
+  /// How they are moved; its progress callback is replaced by that of the run.
+  Spectral_geometry::Relocation_options relocation;
+};
+
+/// @}
+
+namespace internal {
+
+/// Throws for what would otherwise be found out after the mesh has changed.
+inline void check_edge_collapse_options(const Spectral_edge_collapse_options& options)
+{
+  if(!(options.maximum_error >= 0))
+    throw std::invalid_argument("Spectral_edge_collapse_options: maximum_error is " +
+                                std::to_string(options.maximum_error) + ", use a number from 0.");
+  if(options.flips != Spectral_geometry::Edge_flips::none)
+    Spectral_geometry::internal::check_edge_flip_options(options.flipping);
+  if(!options.relocate)
+    return;
+  Spectral_geometry::internal::check_relocation_options(options.relocation);
+  if(options.binary && options.relocation.signals == Spectral_geometry::Relocation_options::Signals::sampled)
+    throw std::invalid_argument(
+        "Spectral_edge_collapse_options: relocate takes a restriction anew that is not binary; set "
+        "relocate to false, or relocation.signals to carried.");
+}
+
+} // namespace internal
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_OPTIONS_H

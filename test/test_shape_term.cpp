@@ -1,0 +1,438 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The shape term of the cost, the guard against crossings, and the presets that switch them on.
+
+#include "catch.h"
+#include "collapse_helpers.h"
+#include "core_helpers.h"
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/Closest_point_query.h>
+#include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+using SMS::Spectral_edge_collapse_options;
+using SMS::Spectral_options;
+using SMS::Spectral_placement_strategy;
+
+namespace {
+
+constexpr double variance = 0.0225; // of a normal, see Spectral_shape_term
+
+// A plane of the input beside a vertex of it.
+struct Plane
+{
+  Eigen::Vector3d normal, point;
+  double weight;
+};
+
+using Planes = std::vector<Plane>;
+
+std::vector<Planes> planes_of(const shapes::Matrices& mesh)
+{
+  std::vector<Planes> result(std::size_t(mesh.V.rows()));
+  std::map<std::pair<int, int>, int> faces;
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      ++faces[std::minmax(mesh.T(f, k), mesh.T(f, (k + 1) % 3))];
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    const Eigen::Vector3d p[3] = {mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)),
+                                  mesh.V.row(mesh.T(f, 2))};
+    const Eigen::Vector3d cross = (p[1] - p[0]).cross(p[2] - p[0]);
+    for(int k = 0; k < 3; ++k) {
+      const int v = mesh.T(f, k), w = mesh.T(f, (k + 1) % 3);
+      result[std::size_t(v)].push_back({cross.normalized(), p[k], cross.norm() / 2});
+      if(faces.at(std::minmax(v, w)) != 1)
+        continue;
+      const Eigen::Vector3d edge = p[(k + 1) % 3] - p[k], normal = cross.cross(edge).normalized();
+      result[std::size_t(v)].push_back({normal, p[k], 10 * edge.squaredNorm()});
+      result[std::size_t(w)].push_back({normal, p[(k + 1) % 3], 10 * edge.squaredNorm()});
+    }
+  }
+  return result;
+}
+
+double quadric(const Planes& planes, const Eigen::Vector3d& x)
+{
+  double sum = 0;
+  for(const Plane& plane : planes) {
+    const Eigen::Vector3d d = x - plane.point;
+    sum += plane.weight * (std::pow(plane.normal.dot(d), 2) + variance * d.squaredNorm());
+  }
+  return sum;
+}
+
+double vertex_mass(const Slow_mesh& mesh, const int v, const double area)
+{
+  double sum = 0;
+  for(const Eigen::Vector3i& t : mesh.triangles)
+    if(Slow_mesh::contains(t, v)) {
+      const Eigen::Vector3d a = mesh.V.row(t(0)), b = mesh.V.row(t(1)), c = mesh.V.row(t(2));
+      sum += (b - a).cross(c - a).norm() / 6;
+    }
+  return sum / area;
+}
+
+// The largest distance of a fine vertex from the coarse mesh.
+double furthest(const shapes::Matrices& fine, const shapes::Matrices& coarse)
+{
+  const SG::internal::Closest_point_query closest(coarse);
+  double result = 0;
+  for(Eigen::Index v = 0; v < fine.V.rows(); ++v)
+    result = (std::max)(result, (closest(fine.V.row(v)).point - Eigen::Vector3d(fine.V.row(v))).norm());
+  return result;
+}
+
+Mesh simplified(const shapes::Matrices& input, const std::size_t N,
+                const Spectral_edge_collapse_options& options)
+{
+  Mesh mesh = make_mesh(input);
+  REQUIRE(SMS::spectral_edge_collapse(mesh, N, options).output_vertices == N);
+  return mesh;
+}
+
+} // namespace
+
+TEST_CASE("A cost with a shape term is that of whole matrices and of all planes that were merged")
+{
+  const bool closed = GENERATE(true, false);
+  const shapes::Matrices input = closed ? shapes::bumpy_icosphere_matrices(2) : wavy_grid_matrices(12, 11);
+  const Basis basis = eigenbasis(input, GENERATE(0., 0.5), 8);
+  Slow_mesh mesh(input, basis);
+  std::vector<Planes> planes = planes_of(input);
+  Parameters parameters;
+  parameters.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
+  parameters.shape = GENERATE(0.5, 300.);
+  parameters.sum_of_squares = basis.lambda.squaredNorm();
+  Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
+  std::mt19937 random(5);
+  Core_kernel kernel;
+  std::size_t n = std::size_t(input.V.rows());
+  for(int round = 0; round < 3; ++round) {
+    int counts[2] = {}; // costs that the loss of E decides in part, and those where it is bounded
+    const double before = mesh.energy();
+    for(const Edge& e : mesh.edge_list()) {
+      if(random() % 8 != 0)
+        continue;
+      const Candidate candidate = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      if(!candidate.collapsible)
+        continue;
+      const Eigen::Vector3d x = candidate.point;
+      const Planes &at_u = planes[std::size_t(e.first)], &at_v = planes[std::size_t(e.second)];
+      const double change = quadric(at_u, x) + quadric(at_v, x) - quadric(at_u, on_edge(mesh, e, 0)) -
+                            quadric(at_v, on_edge(mesh, e, 1));
+      const double loss =
+          mesh.energy_after(e, core.projected_weight(Slot(e.first), Slot(e.second), x), x) - before;
+      const double bound = 10 * parameters.sum_of_squares *
+                           (vertex_mass(mesh, e.first, basis.area) + vertex_mass(mesh, e.second, basis.area));
+      const double slow = (std::min)(loss, bound) + parameters.shape * parameters.sum_of_squares * double(n) *
+                                                        change / (basis.area * basis.area);
+      ++counts[loss > bound];
+      CHECK(std::abs(candidate.cost - slow) < 1e-8 * (std::abs(slow) + before + std::abs(loss)));
+    }
+    CHECK(counts[0] > 10);
+    for(int i = 0; i < 15; ++i) {
+      const std::vector<Edge> edges = mesh.edge_list();
+      const Edge e = edges[random() % edges.size()];
+      const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      if(!c.collapsible)
+        continue;
+      commit(core, mesh, e, c, true);
+      Planes& kept = planes[std::size_t(e.first)];
+      const Planes& removed = planes[std::size_t(e.second)];
+      kept.insert(kept.end(), removed.begin(), removed.end());
+      --n;
+    }
+    REQUIRE(n < std::size_t(input.V.rows()) - 5);
+  }
+}
+
+TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane quadric")
+{
+  // All faces are alike: CGAL does not weight them by area.
+  const shapes::Matrices input = scaled(shapes::icosphere_matrices(0), 3);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options;
+  options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
+  options.shape = 2;
+  const SMS::Spectral_policies<Mesh> policies(mesh, options);
+  using Variances = CGAL::Constant_property_map<Mesh::Face_index, std::pair<double, double>>;
+  const SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel, Variances> quadrics(
+      mesh, 100., Variances{{variance, 0.}});
+  const double total = SG::laplace_operator(input.V, input.T).mass.sum(),
+               area = total / double(input.T.rows());
+  const double unit = options.shape * double(input.V.rows()) * area / (total * total);
+  std::size_t compared = 0;
+  const auto squared_distance = [](const Kernel::Point_3& p, const Kernel::Point_3& q) {
+    return CGAL::squared_distance(p, q);
+  };
+  for(const auto e : edges(mesh)) {
+    using Profile = SMS::Edge_profile<Mesh>;
+    const Profile profile(halfedge(e, mesh), mesh, Kernel(), get(boost::vertex_point, mesh), false);
+    for(const double alpha : {0., 0.3, 1.1}) {
+      const Kernel::Point_3 x =
+          CGAL::barycenter(profile.p0(), 1 - alpha, profile.p1(), alpha) + Kernel::Vector_3(0.1, -0.2, 0.05);
+      const auto cost = quadrics(profile, boost::optional<Kernel::Point_3>(x));
+      REQUIRE(bool(cost));
+      // There planes of a face go through one of its corners, here through the vertex itself.
+      double expected = *cost;
+      for(const auto& [v, p] : {std::pair{profile.v0(), profile.p0()}, std::pair{profile.v1(), profile.p1()}})
+        for(const auto f : faces_around_target(halfedge(v, mesh), mesh))
+          expected += variance * (squared_distance(x, p) -
+                                  squared_distance(x, mesh.point(source(halfedge(f, mesh), mesh))));
+      const auto own = policies.get_cost()(profile, boost::optional<Kernel::Point_3>(x));
+      REQUIRE(bool(own));
+      CHECK(std::abs(*own - unit * expected) < 1e-10 * unit * std::abs(expected));
+      ++compared;
+    }
+  }
+  CHECK(compared == 90);
+}
+
+TEST_CASE("Without signals that tell anything the shape term simplifies as well as CGAL's quadrics do")
+{
+  const shapes::Matrices input = scaled(shapes::bumpy_icosphere_matrices(4), 50);
+  Mesh ours = make_mesh(input), theirs = make_mesh(input);
+  Spectral_edge_collapse_options options;
+  options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 1);
+  options.relocate = false;
+  SMS::spectral_edge_collapse(ours, 200, options);
+  const SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel> quadrics(theirs);
+  SMS::edge_collapse(theirs, SMS::Vertex_count_stop_predicate<Mesh>(200, theirs),
+                     CGAL::parameters::get_cost(quadrics.get_cost()).get_placement(quadrics.get_placement()));
+  CHECK(furthest(input, SG::mesh_matrices(ours)) < 1.25 * furthest(input, SG::mesh_matrices(theirs)));
+}
+
+TEST_CASE("A weight of the shape term means the same at every unit of length")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options;
+  options.number_of_eigenvectors = 20;
+  const auto map_at = [&](const double factor) {
+    Mesh mesh = make_mesh(scaled(input, factor));
+    const SMS::Spectral_policies<Mesh> policies(mesh, options);
+    collapse(mesh, policies, 120);
+    return policies.vertex_map();
+  };
+  const std::vector<std::size_t> map = map_at(1);
+  CHECK(map_at(1024) == map);
+  CHECK(map_at(1. / 1024) == map);
+}
+
+TEST_CASE("A thin limb folded beside a body survives, and would not in the paper's metric")
+{
+  const shapes::Matrices input = shapes::folded_limb_matrices(260, 20);
+  REQUIRE(SG::internal::self_intersecting_faces(input.V, input.T).empty());
+  constexpr Eigen::Index K = 30;
+  struct Found
+  {
+    double furthest, low, norm_L;
+    std::size_t crossings;
+  };
+  const auto found = [&](Spectral_edge_collapse_options options) {
+    options.number_of_eigenvectors = K;
+    const Mesh mesh = simplified(input, 90, options);
+    const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+    const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, 0.5),
+                               op = SG::laplace_operator(coarse.V, coarse.T, 0.5);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(fine_op, SG::eigenpairs(fine_op, K), op, SG::eigenpairs(op, K),
+                              SG::closest_point_interpolation(coarse.V, input), K);
+    return Found{furthest(input, coarse), e.errors_low.mean, e.norm_L,
+                 SG::internal::self_intersecting_faces(coarse.V, coarse.T).size()};
+  };
+  Spectral_edge_collapse_options policies;
+  policies.relocate = false;
+  const Found paper = found(Spectral_edge_collapse_options::paper()), shaped = found(policies),
+              best = found(Spectral_edge_collapse_options::best());
+  CAPTURE(paper.furthest, shaped.furthest, best.furthest, paper.low, shaped.low, best.low, paper.norm_L,
+          shaped.norm_L, best.norm_L, paper.crossings);
+  CHECK(shaped.furthest < 0.5 * paper.furthest);
+  CHECK(best.furthest < 1.001 * shaped.furthest);
+  CHECK(shaped.low < 0.5 * paper.low);
+  CHECK(best.norm_L < 0.7 * shaped.norm_L);
+  CHECK(shaped.crossings == 0);
+  CHECK(best.crossings == 0);
+}
+
+TEST_CASE("Two sheets close to each other do not cross, and would without the guard")
+{
+  const shapes::Matrices input = shapes::thin_bowl_matrices(4);
+  REQUIRE(SG::internal::self_intersecting_faces(input.V, input.T).empty());
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.relocate = false;
+  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free,
+                               Spectral_placement_strategy::midpoint);
+  const auto crossings = [&] {
+    const shapes::Matrices coarse = SG::mesh_matrices(simplified(input, 150, options));
+    return SG::internal::self_intersecting_faces(coarse.V, coarse.T).size();
+  };
+  CHECK(crossings() == 0);
+  options.keep_free_of_self_intersections = false;
+  CHECK(crossings() > 0);
+}
+
+TEST_CASE("Several runs with a shape term go on from each other")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_options options;
+  options.number_of_eigenvectors = 12;
+  Mesh once = make_mesh(input), twice = make_mesh(input);
+  const SMS::Spectral_policies<Mesh> a(once, options), b(twice, options);
+  collapse(once, a, 100);
+  collapse(twice, b, 300);
+  collapse(twice, b, 100);
+  // The order may differ by candidates that the first run had put off; planes and crossings are those of the input.
+  const double difference =
+      std::abs(furthest(input, SG::mesh_matrices(once)) / furthest(input, SG::mesh_matrices(twice)) - 1);
+  CHECK(difference < 0.3);
+  CHECK(
+      SG::internal::self_intersecting_faces(SG::mesh_matrices(twice).V, SG::mesh_matrices(twice).T).empty());
+}
+
+TEST_CASE("With a shape term the result does not depend on the number of threads, and the error bound speaks "
+          "of E alone")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 15;
+  Mesh one = make_mesh(input), two = make_mesh(input);
+  SMS::spectral_edge_collapse(one, 100, options);
+  options.threads = 2;
+  SMS::spectral_edge_collapse(two, 100, options);
+  CHECK(SG::mesh_matrices(one).V == SG::mesh_matrices(two).V);
+
+  options.relocate = false;
+  options.maximum_error = 0.15;
+  Mesh bounded = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(bounded, 45, options);
+  CHECK(result.relative_error <= 0.15);
+  CHECK(result.relative_error > 0.1);
+  const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
+  CHECK(relative_difference(energy(SG::mesh_matrices(bounded), basis, result.restriction), result.E) < 1e-8);
+}
+
+TEST_CASE("Presets: the defaults are the best, the paper's have neither shape term nor relocation")
+{
+  const Spectral_edge_collapse_options plain, best = Spectral_edge_collapse_options::best(),
+                                              paper = Spectral_edge_collapse_options::paper();
+  for(const Spectral_edge_collapse_options& o : {plain, best}) {
+    CHECK(o.mass == SG::Mass::averaged);
+    CHECK(o.placement == Spectral_placement_strategy::free);
+    CHECK(o.shape == 3);
+    CHECK(o.keep_free_of_self_intersections);
+    CHECK(o.relocate);
+    CHECK(o.relocation.signals == SG::Relocation_options::Signals::sampled);
+  }
+  CHECK(Spectral_options().shape == Spectral_options::best().shape);
+  CHECK(paper.mass == SG::Mass::lumped);
+  CHECK(paper.placement == Spectral_placement_strategy::on_edge);
+  CHECK(paper.shape == 0);
+  CHECK_FALSE(paper.keep_free_of_self_intersections);
+  CHECK_FALSE(paper.relocate);
+  CHECK(Spectral_options::paper().mass == SG::Mass::lumped);
+}
+
+TEST_CASE("Options that contradict each other are refused before the mesh changes")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));
+  const auto refusal = [&](const Spectral_edge_collapse_options& options) {
+    try {
+      SMS::spectral_edge_collapse(mesh, 20, options);
+    } catch(const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  Spectral_edge_collapse_options options = options_with(5);
+  options.binary = true;
+  options.relocate = true;
+  CHECK_THAT(refusal(options), ContainsSubstring("relocate") && ContainsSubstring("binary"));
+  options = options_with(5);
+  options.shape = -1;
+  CHECK_THAT(refusal(options), ContainsSubstring("shape is -1"));
+  options = options_with(5);
+  options.signals = Eigen::MatrixXd::Ones(42, 3);
+  options.metric_eigenvectors = 2;
+  CHECK_THAT(refusal(options), ContainsSubstring("metric_eigenvectors") && ContainsSubstring("signals"));
+  CHECK(mesh.number_of_vertices() == 42);
+}
+
+TEST_CASE("A tree of boxes finds what looking at all of them finds, while they change")
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  using Box = SG::internal::Box_tree::Box;
+  const auto draw = [&] {
+    const Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
+    // far apart in size
+    return Box(p, p + std::pow(10., -6 * uniform(random)) * Eigen::Vector3d(uniform(random), 0.3, 0.1));
+  };
+  for(const std::size_t n : {std::size_t(0), std::size_t(1), std::size_t(2), std::size_t(700)}) {
+    std::vector<Box> boxes(n);
+    std::generate(boxes.begin(), boxes.end(), draw);
+    if(n > 100)
+      boxes[7] = Box(); // met by nothing
+    SG::internal::Box_tree tree;
+    tree.build(boxes);
+    for(int round = 0; round < 200; ++round) {
+      const Box box = draw();
+      std::set<std::size_t> found, expected;
+      tree.any(box, [&](const std::size_t i) {
+        found.insert(i);
+        return false;
+      });
+      for(std::size_t i = 0; i < n; ++i)
+        if(boxes[i].intersects(box))
+          expected.insert(i);
+      CHECK(found == expected);
+      if(n != 0) {
+        const std::size_t i = random() % n;
+        boxes[i] = random() % 5 == 0 ? Box() : draw();
+        tree.update(i, boxes[i]);
+      }
+    }
+  }
+}
+
+TEST_CASE("Faces that meet are those that CGAL finds")
+{
+  shapes::Matrices input = shapes::thin_bowl_matrices(3);
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for(Eigen::Index i = 0; i < input.V.size(); ++i)
+    input.V.data()[i] += 0.03 * uniform(random);
+  const Mesh mesh = make_mesh(input);
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> theirs;
+  using Exact = CGAL::Exact_predicates_inexact_constructions_kernel;
+  CGAL::Surface_mesh<Exact::Point_3> exact;
+  shapes::make_mesh(exact, input);
+  CGAL::Polygon_mesh_processing::self_intersections(exact, std::back_inserter(theirs));
+  SG::internal::Face_pairs expected;
+  for(const auto& [f, g] : theirs)
+    expected.emplace_back(Eigen::Index((std::min)(f, g)), Eigen::Index((std::max)(f, g)));
+  std::sort(expected.begin(), expected.end());
+  REQUIRE(expected.size() > 100);
+  CHECK(SG::internal::self_intersecting_faces(input.V, input.T) == expected);
+}
