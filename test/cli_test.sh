@@ -62,7 +62,8 @@ refuses()
 # --- what it writes ---------------------------------------------------------------------------------------------------
 
 all="--restriction P.mtx --prolongation Q.mtx --map map.txt --eigenpairs pairs --json out.json"
-for variant in "" "--mass averaged" "--placement midpoint" "--placement free" "--binary" "--preserve-border --threads 1"; do
+for variant in "" "--preset paper" "--preset paper --mass averaged" "--placement midpoint" "--shape 0 --relocate none" \
+  "--preset paper --placement free" "--binary --relocate none" "--preserve-border --threads 1"; do
   runs "simplification $variant" shape.off coarse.off --vertices 250 --eigenvectors 25 $all $variant
   "$check" . shape.off coarse.off || fail "outputs of '$variant'"
   grep -q '|C|_L' said || fail "no table with '$variant'"
@@ -74,10 +75,19 @@ grep -q 'flipped edges .* [1-9].*(spectral)' said || fail "no flips in the table
 grep -q '"flips": "spectral"' out.json || fail "no flips in the JSON file"
 
 norm_of() { awk -F'[:,]' '/"norm_L":/ { print $2 }' out.json; }
-runs "relocation" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --relocate $all
+runs "relocation by both signals" shape.off coarse.off --vertices 250 --eigenvectors 25 --relocate carried_and_sampled $all
+"$check" . shape.off coarse.off || fail "outputs of --relocate carried_and_sampled"
 relocated=$(norm_of)
-runs "relocation with a new P" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --relocate --resample $all
-awk "BEGIN { exit !($(norm_of) < $relocated) }" || fail "--resample: $(norm_of) is not below $relocated"
+runs "the best preset" shape.off coarse.off --vertices 250 --eigenvectors 25 $all
+awk "BEGIN { exit !($(norm_of) < $relocated) }" || fail "--relocate sampled: $(norm_of) is not below $relocated"
+grep -q 'relocated vertices .*ended by' said || fail "no relocation in the table"
+for word in '"preset": "best"' '"stop_reason": "' '"held_vertices"' '"sheet"'; do
+  grep -q "$word" out.json || fail "no $word in the JSON file"
+done
+runs "what overrides the preset" shape.off a.off --vertices 250 --eigenvectors 25 --mass lumped --placement on_edge \
+  --shape 0 --self-intersections allow --relocate none
+runs "the paper's preset" shape.off b.off --vertices 250 --eigenvectors 25 --preset paper
+cmp -s a.off b.off || fail "the paper's preset is not what its options are"
 
 runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
 runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
@@ -157,23 +167,23 @@ field()
   sed -n "s/^ *\"$1\": \([-0-9.e]*\),*$/\1/p" "$2"
 }
 
-runs "levels" shape.off fine.off --levels 200,800,400 --eigenvectors 25 --restriction fine.mtx --map fine.txt \
+runs "levels" shape.off fine.off --levels 200,800,400 --eigenvectors 25 --relocate none --restriction fine.mtx --map fine.txt \
   --json levels.json
 for level in 800 400 200; do
-  runs "direct run to $level" shape.off direct.off --vertices $level --eigenvectors 25 --restriction direct.mtx \
+  runs "direct run to $level" shape.off direct.off --vertices $level --eigenvectors 25 --relocate none --restriction direct.mtx \
     --map direct.txt --no-evaluation --quiet
   cmp -s direct.off fine-$level.off || fail "level $level is not the mesh of a direct run"
   cmp -s direct.mtx fine-$level.mtx || fail "the matrix of level $level is not that of a direct run"
   cmp -s direct.txt fine-$level.txt || fail "the map of level $level is not that of a direct run"
 done
 cmp -s direct.off fine.off || fail "without a target the smallest level is not OUTPUT"
-"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.16 --eigenvectors 25 --json levels.json \
+"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.16 --eigenvectors 25 --relocate none --json levels.json \
   >said 2>complained || fail "levels and an error: $(cat complained)"
 grep -q "error bound reached" levels.json || fail "the error bound did not end the run"
 grep -q "150 vertices was not reached" complained || fail "a level that was not reached is not warned of"
 [ -f fine-800.off ] && [ ! -f fine-150.off ] || fail "the levels that were reached: $(ls fine-*)"
 
-runs "an error" shape.off error.off --max-error 0.12 --eigenvectors 25 --json error.json
+runs "an error" shape.off error.off --max-error 0.12 --eigenvectors 25 --relocate none --json error.json
 error=$(field relative_error error.json)
 [ "$(echo "$error" | awk '{ print ($1 <= 0.12 && $1 > 0.1) }')" -eq 1 ] || fail "--max-error 0.12 ends at $error"
 runs "an error never reached" shape.off error.off --max-error 5 --eigenvectors 25 --json error.json
@@ -248,7 +258,10 @@ refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 
 refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
   --signals pairs/coarse_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
-refuses "resampling without relocation" "add --relocate" shape.off out.off --vertices 100 --resample
+refuses "a binary P that relocation would replace" "--relocate none" shape.off out.off --vertices 100 --binary
+refuses "an unknown preset" "--preset is 'worst'" shape.off out.off --vertices 100 --preset worst
+refuses "a negative shape term" "--shape is -1" shape.off out.off --vertices 100 --shape -1
+refuses "an unknown relocation" "--relocate is 'much'" shape.off out.off --vertices 100 --relocate much
 refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --flips up
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0

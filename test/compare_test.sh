@@ -67,7 +67,8 @@ refuses "an unknown simplifier" "no simplifier" shape.off --vertices 200 -k 10 -
 refuses "a folder that does not exist" "folder" shape.off --vertices 200 --json none/out.json
 
 runs "all simplifiers, two sizes" shape.off --vertices 10%,120 -k 20 --report report.html --json out.json --coloured ply
-for name in "spectral" "Garland-Heckbert plane" "Garland-Heckbert triangle" "Garland-Heckbert probabilistic plane" \
+for name in "spectral, best" "spectral with shape term" "spectral, paper" "spectral" "Garland-Heckbert plane" \
+  "Garland-Heckbert triangle" "Garland-Heckbert probabilistic plane, area 20000" \
   "Lindstrom-Turk" "edge length" "isotropic remeshing"; do
   [ "$(grep -c "\"simplifier\": \"$name\"" out.json)" -ge 4 ] || fail "'$name' is not in the JSON for each size and mass"
   grep -q "$name" report.html || fail "'$name' is not on the page"
@@ -77,15 +78,15 @@ grep -q "judged in the averaged mass" said || fail "the table does not name the 
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ -s ply/fine.ply ] || fail "there is no coloured fine mesh"
 grep -q "^property float eigenvector_2$" ply/fine.ply || fail "the fine mesh has no eigenvectors"
-grep -q "^property float hks$" ply/spectral_on_edge_lumped_metric_120.ply || fail "a coarse mesh has no signature"
+grep -q "^property float hks$" ply/spectral_paper_on_edge_lumped_metric_120.ply || fail "a coarse mesh has no signature"
 rm -f report.html
 
-"$simplify" shape.off coarse.off --vertices 150 --eigenvectors 20 --restriction P.mtx --eigenpairs pairs --json s.json \
+"$simplify" shape.off coarse.off --vertices 150 --eigenvectors 20 --preset paper --restriction P.mtx --eigenpairs pairs --json s.json \
   --quiet || fail "spectral_simplify"
 runs "anybody's mesh" --fine shape.off --coarse coarse.off --restriction P.mtx -k 20 --judge lumped --json mesh.json
 runs "anybody's operator" --fine shape.off --operator pairs/coarse_L.mtx --mass pairs/coarse_mass.mtx --restriction P.mtx \
   -k 20 --judge lumped --json operator.json
-for key in norm_L norm_D norm_L_input_scale eigenvalue_error_mean; do
+for key in norm_L norm_D norm_L_input_scale eigenvalue_error_mean eigenvalue_error_low_mean; do
   for file in mesh.json operator.json; do
     [ "$(number $file $key)" = "$(number s.json $key)" ] ||
       fail "$key is $(number $file $key) in $file and $(number s.json $key) in s.json"

