@@ -11,6 +11,7 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/Relocation.h>
 #include <CGAL/Spectral_geometry/internal/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
@@ -354,6 +355,26 @@ TEST_CASE("With a shape term the result does not depend on the number of threads
   CHECK(relative_difference(energy(SG::mesh_matrices(bounded), basis, result.restriction), result.E) < 1e-8);
 }
 
+TEST_CASE("Vertices to keep are where they were after a relocation, with a single 1 in their rows of P")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 15;
+  options.kept_vertices = {3, 77, 500};
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
+  REQUIRE(result.relocation.resampled);
+  CHECK(result.relocation.held.fixed == 3);
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> P = result.restriction;
+  for(const std::size_t v : options.kept_vertices) {
+    const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
+    CHECK(coarse.V.row(row) == input.V.row(Eigen::Index(v)));
+    CHECK(P.row(row).nonZeros() == 1);
+    CHECK(P.coeff(row, Eigen::Index(v)) == 1);
+  }
+}
+
 TEST_CASE("Presets: the defaults are the best, the paper's have neither shape term nor relocation")
 {
   const Spectral_edge_collapse_options plain, best = Spectral_edge_collapse_options::best(),
@@ -398,6 +419,49 @@ TEST_CASE("Options that contradict each other are refused before the mesh change
   options.metric_eigenvectors = 2;
   CHECK_THAT(refusal(options), ContainsSubstring("metric_eigenvectors") && ContainsSubstring("signals"));
   CHECK(mesh.number_of_vertices() == 42);
+}
+
+TEST_CASE("A step that leaps to another sheet is told from one along the surface")
+{
+  shapes::Matrices sheets = shapes::components_matrices(shapes::grid_matrices(10, 10), 2);
+  const Eigen::Index half = sheets.V.rows() / 2;
+  sheets.V.bottomRows(half) = sheets.V.topRows(half);
+  sheets.V.bottomRows(half).col(2).setConstant(0.1);
+  const SG::internal::Closest_point_query closest(sheets);
+  SG::internal::Sheet_guard leaps(closest);
+  const Eigen::Vector3d low(0.5, 0.5, 0.04), high(0.5, 0.5, 0.06);
+  CHECK(leaps(0, low, high));
+  CHECK_FALSE(leaps(0, low, {0.6, 0.52, 0.045}));
+  CHECK_FALSE(leaps(1, high, {0.5, 0.3, 0.3}));
+  CHECK(leaps(0, high, low)); // from elsewhere now
+}
+
+TEST_CASE(
+    "Relocation leaves no vertex of the input further behind than before, and says what held which vertex")
+{
+  const shapes::Matrices input = shapes::folded_limb_matrices(200, 16);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 25;
+  const auto run = [&](const bool guarded, SMS::Spectral_edge_collapse_result& result) {
+    Mesh mesh = make_mesh(input);
+    options.relocation.keep_hausdorff_distance = guarded;
+    result = SMS::spectral_edge_collapse(mesh, 75, options);
+    return furthest(input, SG::mesh_matrices(mesh));
+  };
+  SMS::Spectral_edge_collapse_result guarded, free, before;
+  const double with = run(true, guarded), without = run(false, free);
+  options.relocate = false;
+  const double start = run(true, before);
+  CHECK(with <= start * (1 + 1e-9));
+  CHECK(without > start);
+  CHECK(guarded.relocation.reverted_vertices > free.relocation.reverted_vertices);
+  CHECK(guarded.relocation.steps > 0);
+  CHECK(guarded.relocation.held.trust + guarded.relocation.held.triangles + guarded.relocation.held.sheet >
+        0);
+  CHECK(guarded.relocation.held.fixed == 0);
+  CHECK(std::string(guarded.relocation.stop_reason_name()) != "");
+  CHECK((guarded.relocation.stop_reason == SG::Relocation_result::Stop_reason::steps) ==
+        (guarded.relocation.steps == options.relocation.maximum_steps));
 }
 
 TEST_CASE("A tree of boxes finds what looking at all of them finds, while they change")

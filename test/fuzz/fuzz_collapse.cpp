@@ -201,7 +201,7 @@ std::string fault_of_constraints(const Mesh& mesh, const Edge_flags& flags, cons
     const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
     if(V.row(row) != call.fine.V.row(Eigen::Index(v)))
       return "a kept vertex has moved";
-    if(!result.relocation.resampled && result.restriction.coeff(row, Eigen::Index(v)) != 1)
+    if(result.restriction.coeff(row, Eigen::Index(v)) != 1)
       return "the values of a kept vertex have changed";
   }
   if(!call.has_zero_lengths() &&

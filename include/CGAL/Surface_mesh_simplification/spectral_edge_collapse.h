@@ -248,21 +248,31 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
 {
   // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
   std::vector<bool> stays;
+  std::vector<Eigen::Triplet<double>> rows_of_kept;
   if(!kept.empty()) {
     stays.resize(result.output_vertices, false);
     const std::vector<std::size_t> map = policies.vertex_map();
     for(std::size_t v = 0; v < kept.size(); ++v)
-      if(kept[v])
+      if(kept[v]) {
         stays[map[v]] = true;
+        rows_of_kept.emplace_back(int(map[v]), int(v), 1.);
+      }
   }
   post_process.run(mesh, policies, stays, np, result);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
   // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
   Eigen::SparseMatrix<double>& own = result.relocation.restriction;
-  if(own.rows() == result.restriction.rows() && result.relocation.resampled)
+  if(own.rows() == result.restriction.rows() && result.relocation.resampled) {
+    if(!rows_of_kept.empty()) {
+      own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
+      Eigen::SparseMatrix<double> ones(own.rows(), own.cols());
+      ones.setFromTriplets(rows_of_kept.begin(), rows_of_kept.end());
+      own += ones;
+    }
     result.restriction =
         first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
+  }
   own.resize(0, 0);
 }
 
