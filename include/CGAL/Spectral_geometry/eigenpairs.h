@@ -32,6 +32,9 @@ struct Eigenpairs
       solver; ///< "block+cholmod", "block+simplicial", "spectra+cholmod", "spectra+simplicial" or "dense"
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
   bool complete = false;
+  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
+  /// min(`zeros`, K). To be set where pairs are filled by hand, see `number_of_zero_eigenvalues()`; negative: not known
+  Eigen::Index zeros = -1;
 
   Eigen::Index size() const { return values.size(); } ///< K
 };

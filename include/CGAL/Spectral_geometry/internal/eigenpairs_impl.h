@@ -46,6 +46,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
     result.solver = "block+" + internal::Cholesky::name();
   }
   internal::fix_signs(pairs.vectors);
+  result.zeros = number_of_zero_eigenvalues(op);
   result.residuals = problem.residuals(pairs);
   result.values = std::move(pairs.values);
   result.vectors = std::move(pairs.vectors);
