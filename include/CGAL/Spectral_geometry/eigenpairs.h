@@ -43,7 +43,7 @@ struct Eigenpairs
 ///
 /// `automatic` is `dense` when n is at most 300 or K close to n, otherwise `block`: block Lanczos, eight vectors at a time.
 /// `spectra` is Spectra's implicitly restarted Lanczos method, the reference; a problem that is too small for the space that
-/// `spectra` or `block` needs is solved densely all the same.
+/// `spectra` (2 K + 20 vectors) or `block` (that, and K + 56) needs is solved densely all the same.
 enum class Eigenpairs_method { automatic, block, spectra, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
@@ -58,7 +58,9 @@ struct Eigenpairs_options
   Eigen::Index maximum_iterations = 300;
   /// search for copies of multiple eigenvalues that the Krylov space has missed. `spectra` starts from one vector: one more
   /// factorisation counts the eigenvalues (Sylvester's law of inertia). `block` starts from eight random vectors, which
-  /// cannot miss a copy of an eigenvalue of smaller multiplicity; it counts when more than four of the values are equal.
+  /// cannot miss a copy of an eigenvalue of smaller multiplicity; it counts when more than four of the values are equal as
+  /// far as the tolerance tells. With a tolerance above 1e-3 the values are too rough for a count, and the pairs of both
+  /// methods are not known to be complete.
   bool verify = true;
   /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K, K + 120): fewer take less
   /// memory and more time
@@ -101,7 +103,8 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
 /// factorisation of \f$L + s B\f$: CHOLMOD's where `CGAL_SPECTRAL_WITH_CHOLMOD` is defined (link with `-lcholmod`),
 /// otherwise Eigen's. The shift \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix
 /// is positive definite, its condition number stays that of the wanted spectrum, and the eigenvalues next to 0 are
-/// separated as well as with a smaller one. Start vectors are fixed, so the result is the same in every run.
+/// separated as well as with a smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
+/// has the shift in that unit. Start vectors are fixed, so the result is the same in every run.
 /// With K = 100, `block` keeps about 3.4 K vectors of n doubles at a tolerance of 1e-8, 2.8 K at 1e-4, never more than
 /// max(3.6 K, K + 120).
 ///

@@ -51,6 +51,9 @@ public:
     , m_random(1)
   {}
 
+  // Whether the space holds the vectors that a restart keeps and two panels more, and leaves room for random ones.
+  static bool fits(Index n, Index K) { return K + 7 * panel_width <= n; }
+
   // `complete` tells whether no eigenvalue can be missing.
   Ritz_pairs compute(Index K, bool verify, bool& complete)
   {
@@ -59,9 +62,8 @@ public:
     m_panels = 0;
     add_random_panel();
     iterate(rounded_up(K + (std::max)(K / 2, 3 * Index(panel_width))));
-    complete = verify && !may_be_incomplete(m_problem, values());
-    if(verify && !complete && counting_is_meaningful(m_tolerance))
-      complete = find_missing();
+    complete = verify && counting_is_meaningful(m_tolerance) &&
+               (!may_be_incomplete(m_problem, values(), m_tolerance) || find_missing());
     return pairs();
   }
 
