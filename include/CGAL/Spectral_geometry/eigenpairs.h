@@ -95,6 +95,16 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
         std::to_string(options.maximum_vectors) + ".");
 }
 
+// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. A Krylov space must fit into n dimensions; that
+// of `block` holds the vectors that a restart keeps and two panels more, and leaves room for random ones. Up to 300 vertices
+// a dense solver takes milliseconds.
+inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpairs_method method)
+{
+  return method == Eigenpairs_method::dense || 2 * K + 20 > n ||
+         (method == Eigenpairs_method::block && K + 56 > n) ||
+         (method == Eigenpairs_method::automatic && n <= 300);
+}
+
 } // namespace internal
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.

@@ -51,9 +51,6 @@ public:
     , m_random(1)
   {}
 
-  // Whether the space holds the vectors that a restart keeps and two panels more, and leaves room for random ones.
-  static bool fits(Index n, Index K) { return K + 7 * panel_width <= n; }
-
   // `complete` tells whether no eigenvalue can be missing.
   Ritz_pairs compute(Index K, bool verify, bool& complete)
   {

@@ -29,9 +29,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   internal::Ritz_pairs pairs;
   Eigenpairs result;
   problem.report(0.);
-  if(options.method == Method::dense || internal::must_be_dense(problem.size(), K) ||
-     (options.method == Method::block && !internal::Block_lanczos::fits(problem.size(), K)) ||
-     (options.method == Method::automatic && internal::dense_is_better(problem.size()))) {
+  if(internal::is_dense(problem.size(), K, options.method)) {
     pairs = internal::dense_eigenpairs(problem, K);
     result.solver = "dense";
     result.complete = true;
