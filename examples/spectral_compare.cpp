@@ -314,6 +314,7 @@ private:
     SG::Eigenpairs fine_pairs;
     fine_pairs.values = reference.pairs.values.head(reference.K);
     fine_pairs.vectors = reference.pairs.vectors.leftCols(reference.K);
+    fine_pairs.zeros = reference.pairs.zeros;
     if(!m_colours_known) {
       m_colours_known = true;
       m_colours.hks_time = SG::heat_kernel_times(fine_pairs, 3)(1);

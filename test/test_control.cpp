@@ -15,11 +15,13 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 using namespace spectral_test;
@@ -450,6 +452,87 @@ TEST_CASE("In two stages, what the first has done is returned when the run is ca
   CHECK((result.output_vertices == 300) == (phase != Spectral_phase::pre_simplification));
   CHECK(result.output_vertices < 500);
   CHECK(fault(mesh, result.restriction, result.vertex_map, input) == "");
+}
+
+namespace {
+
+struct Counts
+{
+  std::size_t started = 0, finished = 0, collapsed = 0;
+  bool outside = false; // a point was seen that is not near the mesh
+};
+
+struct Loop_visitor : SMS::internal::No_visitor
+{
+  Counts* counts;
+  void OnStarted(Mesh&) { ++counts->started; }
+  void OnFinished(Mesh&) { ++counts->finished; }
+  template <class Profile, class Vertex>
+  void OnCollapsed(const Profile& profile, const Vertex&)
+  {
+    ++counts->collapsed;
+    counts->outside |= !(profile.p0().x() > 10 && profile.p0().x() < 22);
+  }
+};
+
+// Takes no point beyond x = 16.5.
+struct Half_space
+{
+  template <class Profile>
+  SMS::internal::Spectral_optional<typename Profile::Point>
+  operator()(const Profile&, const SMS::internal::Spectral_optional<typename Profile::Point>& point) const
+  {
+    return point && point->x() > 16.5 ? SMS::internal::Spectral_optional<typename Profile::Point>() : point;
+  }
+};
+
+std::size_t vertices_beyond(const Mesh& mesh, const double x)
+{
+  return std::size_t((positions(mesh).col(0).array() > x).count());
+}
+
+} // namespace
+
+TEST_CASE("The first stage calls the visitor and asks the filter")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  input.V.array() += 16.;
+  Spectral_edge_collapse_options options = options_with(20);
+  options.relocate = false;
+  options.pre_simplify = 400;
+  Mesh mesh = make_mesh(input);
+  const std::size_t beyond = vertices_beyond(mesh, 17.2);
+  REQUIRE(beyond > 5);
+  Counts counts;
+  Loop_visitor visitor;
+  visitor.counts = &counts;
+  const Result result = SMS::spectral_edge_collapse(
+      mesh, 300, options, CGAL::parameters::visitor(std::ref(visitor)).filter(Half_space()));
+  CHECK(result.pre_simplified_vertices == 400);
+  CHECK(result.output_vertices == 300);
+  CHECK(vertices_beyond(mesh, 17.2) == beyond);
+  CHECK(counts.started == 2);
+  CHECK(counts.finished == 2);
+  CHECK(counts.collapsed == result.collapses);
+  CHECK(!counts.outside);
+  Mesh replayed = make_mesh(input);
+  SMS::Collapse_replay<Mesh>(replayed, result.log).collapse_to(300);
+  CHECK(positions(replayed) == positions(mesh));
+}
+
+TEST_CASE("Named parameters that the one call cannot honour do not compile")
+{
+  namespace parameters = CGAL::parameters;
+  const auto overrides = [](const auto& np) {
+    return SMS::internal::overrides_policies<std::decay_t<decltype(np)>>;
+  };
+  CHECK(overrides(parameters::use_relaxed_order(CGAL::Tag_true())));
+  CHECK(overrides(parameters::vertex_index_map(0)));
+  CHECK(overrides(parameters::halfedge_index_map(0)));
+  CHECK(overrides(parameters::get_cost(0)));
+  CHECK(overrides(parameters::visitor(0).get_placement(0)));
+  CHECK(!overrides(parameters::visitor(0).filter(0).edge_is_constrained_map(0)));
+  CHECK(!overrides(parameters::default_values()));
 }
 
 TEST_CASE("The first stage does not feel how far from the origin the mesh lies, and leaves no vertex a "

@@ -341,6 +341,33 @@ TEST_CASE("The memory estimate grows with the mesh and K, and shrinks with what 
   CHECK(SMS::estimated_memory(50000, 100, options) <= plain);
 }
 
+TEST_CASE("The memory estimate knows of dense solves")
+{
+  // L, B, their factor, the reduced matrix and the vectors: at least five matrices of n^2
+  SMS::Spectral_edge_collapse_options options;
+  const double loop = 8. * 3. * 4000 * 1000;
+  CHECK(SMS::estimated_memory(4000, 1995, options) > 8. * 5 * 4000 * 4000);
+  CHECK(SMS::estimated_memory(4000, 1000, options) < 8. * 4000 * 4000 + 2. * loop);
+  options.eigenpairs_options.method = SG::Eigenpairs_method::dense;
+  CHECK(SMS::estimated_memory(20000, 50, options) > 8. * 5 * 20000. * 20000.);
+  options.pre_simplify = 2000;
+  CHECK(SMS::estimated_memory(20000, 50, options) > 8. * 5 * 2000 * 2000);
+  CHECK(SMS::estimated_memory(20000, 50, options) < 8. * 20000. * 20000.);
+}
+
+TEST_CASE("To judge a pre-simplified run takes what the eigenpairs of the whole input take")
+{
+  SMS::Spectral_edge_collapse_options options;
+  options.pre_simplify = 100000;
+  const double run = SMS::estimated_memory(4000000, 100, options),
+               evaluation = SMS::estimated_evaluation_memory(4000000, 1000, 100);
+  CHECK(evaluation > run);
+  CHECK(evaluation > 3. * 8. * 4e6 * 100);
+  CHECK(SMS::estimated_evaluation_memory(4000000, 1000, 100, {}, true) < 0.5 * evaluation);
+  // a coarse mesh of few vertices with many pairs is solved densely beside the pairs of the input
+  CHECK(SMS::estimated_evaluation_memory(50000, 5000, 3000, {}, true) > 8. * (5e4 * 3000 + 5. * 5000 * 5000));
+}
+
 TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")
 {
   const shapes::Matrices input = wavy_grid_matrices(14, 13);

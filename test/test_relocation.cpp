@@ -453,6 +453,23 @@ TEST_CASE("fixed vertices stay, and the distance to the fine surface is bounded"
   CHECK(relocated(s, result, {}, fixed) == s.coarse.V);
 }
 
+TEST_CASE("guards without room end the descent")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()})
+    for(const double turn : {1e-300, 1e-9, 1e-3}) {
+      SG::Relocation_options options;
+      options.largest_turn = turn;
+      options.smallest_angle_ratio = 1;
+      options.trust_radius = turn;
+      options.size_tolerance = turn;
+      SG::Relocation_result result;
+      const Eigen::MatrixXd V = relocated(*s, result, options);
+      CHECK(V.allFinite());
+      for(Eigen::Index f = 0; f < s->coarse.T.rows(); ++f)
+        CHECK(normal(V, s->coarse.T, f).dot(normal(s->coarse.V, s->coarse.T, f)) > std::cos(turn) - 1e-11);
+    }
+}
+
 TEST_CASE("boundary vertices slide along the boundary of the fine mesh, or stay")
 {
   const Simplified_mesh& s = open_example();

@@ -21,6 +21,7 @@
 #include <vector>
 
 using Catch::Approx;
+using Catch::Matchers::ContainsSubstring;
 
 namespace SG = CGAL::Spectral_geometry;
 namespace SMS = CGAL::Surface_mesh_simplification;
@@ -324,6 +325,38 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
   CHECK_THROWS_AS(SG::zoom_out(C, x, y, 41), std::invalid_argument);
   CHECK_THROWS_AS(SG::zoom_out(C, x, y, 11), std::invalid_argument);
   CHECK_THROWS_AS(SG::functional_map_of_descriptors(x, y, f, g.leftCols(9), 12), std::invalid_argument);
+
+  // Constants say nothing of the other modes, and commutativity nothing of equal eigenvalues.
+  const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(f.rows(), 1);
+  CHECK_THROWS_WITH(SG::functional_map_of_descriptors(x, y, ones, ones, 12),
+                    ContainsSubstring("do not determine"));
+  CHECK_THROWS_WITH(SG::functional_map_of_descriptors(x, y, f.leftCols(0), g.leftCols(0), 12, {0.1, 0., 0.}),
+                    ContainsSubstring("do not determine"));
+
+  // One descriptor of different size on the two shapes, nothing else but a little commutativity: the minimum by hand.
+  const SG::Functional_map_weights weights{1e-2, 0., 0.};
+  const Eigen::MatrixXd two = f.leftCols(4) * Eigen::Vector4d(1., 2., 3., 4.).asDiagonal();
+  Eigen::MatrixXd other = 3. * g.leftCols(4);
+  other.col(2) += g.col(9);
+  const Eigen::MatrixXd D = SG::functional_map_of_descriptors(x, y, two, other, 3, weights);
+  const auto objective = [&](const Eigen::MatrixXd& map) {
+    double sum = 0.;
+    for(Index i = 0; i < 4; ++i) {
+      const Eigen::VectorXd a = x.pairs.vectors.leftCols(3).transpose() * (x.op.B * two.col(i)),
+                            b = y.pairs.vectors.leftCols(3).transpose() * (y.op.B * other.col(i));
+      sum += 0.25 * 2. * (map * a - b).squaredNorm() / (a.squaredNorm() + b.squaredNorm());
+    }
+    const double largest = std::max(x.pairs.values(2), y.pairs.values(2));
+    return sum + weights.commutativity * (map * x.pairs.values.head(3).asDiagonal() / largest -
+                                          y.pairs.values.head(3).asDiagonal() * map / largest)
+                                             .squaredNorm();
+  };
+  for(Index j = 0; j < 3; ++j)
+    for(Index l = 0; l < 3; ++l) {
+      Eigen::MatrixXd step = Eigen::MatrixXd::Zero(3, 3);
+      step(j, l) = 1e-3;
+      CHECK(objective(D + step) == Approx(objective(D - step)).epsilon(1e-6)); // a parabola about its minimum
+    }
 
   // The scores from their definition, with the kernels written out.
   const double t = 0.01;

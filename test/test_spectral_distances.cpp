@@ -33,6 +33,15 @@ Eigenpairs pairs_of(const shapes::Matrices& mesh, Index K, double theta = 0.)
   return SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, theta), K);
 }
 
+// Two meshes as one.
+shapes::Matrices joined(const shapes::Matrices& a, const shapes::Matrices& b)
+{
+  shapes::Matrices result{MatrixXd(a.V.rows() + b.V.rows(), 3), Eigen::MatrixXi(a.T.rows() + b.T.rows(), 3)};
+  result.V << a.V, b.V;
+  result.T << a.T, b.T.array() + static_cast<int>(a.V.rows());
+  return result;
+}
+
 const Eigenpairs& bumpy()
 {
   static const Eigenpairs pairs = pairs_of(shapes::bumpy_icosphere_matrices(3), 60);
@@ -135,6 +144,7 @@ Eigenpairs cycle(Index n)
   Eigenpairs pairs;
   pairs.values = solver.eigenvalues();
   pairs.vectors = solver.eigenvectors();
+  pairs.zeros = 1;
   return pairs;
 }
 
@@ -259,7 +269,6 @@ TEST_CASE("all pairs of a cycle give its effective resistance and the norm of th
 {
   const Index n = 31;
   const Eigenpairs pairs = cycle(n);
-  REQUIRE(SG::number_of_zero_eigenvalues(pairs) == 1);
   const VectorXd resistance = SG::squared_commute_time_distance(pairs, 4);
   const VectorXd biharmonic = SG::squared_biharmonic_distance(pairs, 4);
   const Eigen::LLT<MatrixXd> green(cycle_laplacian(n) + MatrixXd::Ones(n, n));
@@ -371,9 +380,8 @@ TEST_CASE("sums with inverse eigenvalues skip one zero for each component")
 {
   const shapes::Matrices mesh = shapes::components_matrices(shapes::bumpy_icosphere_matrices(2), 3);
   Eigenpairs pairs = pairs_of(mesh, 30);
-  CHECK(SG::number_of_zero_eigenvalues(pairs) == 3);
+  CHECK(pairs.zeros == 3);
   pairs.values.head(3) << 0., 1e-15, 1e-11; // what other solvers leave of zeros
-  CHECK(SG::number_of_zero_eigenvalues(pairs) == 3);
   const VectorXd biharmonic = SG::squared_biharmonic_distance(pairs, 5);
   const VectorXd commute = SG::squared_commute_time_distance(pairs, 5);
   for(const Index v : {0, 5, 100, 170, 400}) {
@@ -394,6 +402,68 @@ TEST_CASE("sums with inverse eigenvalues skip one zero for each component")
   kernel.vectors = pairs.vectors.leftCols(3).eval();
   CHECK_THROWS_WITH(SG::squared_biharmonic_distance(kernel, 0),
                     ContainsSubstring("all of the 3 eigenvalues"));
+}
+
+TEST_CASE("modes of components of very different size are not taken for zeros")
+{
+  // Spheres of radius 1 and 1e-4 in either order: the constants of both are first, in any mixture.
+  for(const double radius : {1., 1e-4}) {
+    const shapes::Matrices mesh =
+        joined(shapes::icosphere_matrices(3, radius), shapes::icosphere_matrices(2, 1e-4 / radius));
+    Eigenpairs pairs = pairs_of(mesh, 20, 0.5);
+    CHECK(pairs.zeros == 2);
+    CHECK(SG::default_diffusion_time(pairs) == Approx(1. / 8.).epsilon(0.02));
+    const Index large = radius == 1. ? 0 : 642;
+    const VectorXd biharmonic = SG::squared_biharmonic_distance(pairs, large);
+    CHECK(biharmonic.segment(large, radius == 1. ? 642 : 162).maxCoeff() ==
+          Approx(shapes::pi / 12.).epsilon(0.05));
+    // A basis of the kernel as other solvers may return it.
+    const MatrixXd constants = pairs.vectors.leftCols(2);
+    const double c = std::cos(1.), s = std::sin(1.);
+    pairs.vectors.col(0) = c * constants.col(0) + s * constants.col(1);
+    pairs.vectors.col(1) = c * constants.col(1) - s * constants.col(0);
+    CHECK(SG::squared_biharmonic_distance(pairs, large) == biharmonic);
+  }
+}
+
+TEST_CASE("small eigenvalues of a thin neck are not taken for zeros")
+{
+  // A strip of 400 squares that is 1e5 times longer than wide.
+  const Eigenpairs pairs = pairs_of(shapes::grid_matrices(400, 1, 1., 1e-5), 5);
+  CHECK(pairs.zeros == 1);
+  CHECK(SG::default_diffusion_time(pairs) == Approx(1. / (4. * shapes::pi * shapes::pi)).epsilon(0.01));
+}
+
+TEST_CASE("zeros of pairs that are filled by hand must be given")
+{
+  Eigenpairs pairs = bumpy();
+  pairs.zeros = -1;
+  CHECK_THROWS_WITH(SG::squared_biharmonic_distance(pairs, 0), ContainsSubstring("Eigenpairs::zeros"));
+  CHECK_THROWS_WITH(SG::wave_kernel_energies(pairs), ContainsSubstring("Eigenpairs::zeros"));
+  CHECK_NOTHROW(SG::heat_kernel(pairs, 0, 1.));
+  pairs.zeros = 1;
+  pairs.values(1) = 0.;
+  CHECK_THROWS_WITH(SG::default_diffusion_time(pairs),
+                    ContainsSubstring("eigenvalue 1 was computed as zero"));
+}
+
+TEST_CASE("zeros are counted on the matrix")
+{
+  using SG::laplace_operator;
+  const shapes::Matrices grid = shapes::grid_matrices(4, 3); // right angles: weights of zero
+  SG::Laplace_operator op = laplace_operator(grid.V, grid.T);
+  CHECK(SG::number_of_zero_eigenvalues(op) == 1);
+  op.L += 0.1 * op.B;
+  CHECK(SG::number_of_zero_eigenvalues(op) == 0);
+  const shapes::Matrices nine = shapes::components_matrices(shapes::icosphere_matrices(1), 9);
+  CHECK(SG::number_of_zero_eigenvalues(laplace_operator(nine.V, nine.T)) == 9);
+  CHECK(pairs_of(nine, 7).zeros == 9);
+  // two triangles, and one without area between them
+  shapes::Matrices linked = shapes::matrices(
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}}, {{0, 1, 2}, {3, 4, 5}, {0, 1, 3}});
+  CHECK(SG::number_of_zero_eigenvalues(laplace_operator(linked.V, linked.T)) == 2);
+  linked.V(3, 1) = 0.1;
+  CHECK(SG::number_of_zero_eigenvalues(laplace_operator(linked.V, linked.T)) == 1);
 }
 
 TEST_CASE("results follow the unit of length as documented")

@@ -15,9 +15,15 @@
 #include "catch.h"
 #include "shapes.h"
 
+#if defined(CGAL_SPECTRAL_WITH_CHOLMOD) && defined(__linux__)
+#include <dlfcn.h>
+#endif
+
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace SG = CGAL::Spectral_geometry;
@@ -402,6 +408,111 @@ TEST_CASE("Spaces that are exhausted are continued with random vectors")
   }
 }
 
+TEST_CASE("Either method takes problems of any size")
+{
+  for(const shapes::Matrices& mesh :
+      {shapes::grid_matrices(4, 3), shapes::torus_matrices(6, 5), shapes::icosphere_matrices(1),
+       shapes::components_matrices(shapes::icosphere_matrices(0), 5), shapes::irregular_grid_matrices(8, 7),
+       shapes::torus_matrices(11, 9), shapes::bumpy_icosphere_matrices(2)}) {
+    const Laplace_operator op = laplace(mesh, 0.5);
+    const Eigen::Index n = op.mass.size();
+    for(Eigen::Index K = 1; K <= n; K += K < 10 ? 1 : 7) {
+      const Eigenpairs dense = SG::eigenpairs(op, K, with_method(Method::dense));
+      for(const Method method : {Method::block, Method::spectra}) {
+        SG::Eigenpairs_options options = with_method(method);
+        options.maximum_iterations = 100;
+        const Eigenpairs pairs = SG::eigenpairs(op, K, options);
+        CHECK(pairs.complete);
+        CHECK(orthonormality_error(op, pairs) < 1e-10);
+        const double spacing = 4. * shapes::pi / op.mass.sum();
+        CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-8 * (dense.values(K - 1) + spacing));
+      }
+    }
+  }
+}
+
+TEST_CASE("Rough pairs are complete only where they have been counted")
+{
+  // Four spheres that differ a little: twelve nearly equal first eigenvalues, of which a block may find eight mixtures.
+  const shapes::Matrices sphere = shapes::icosphere_matrices(3);
+  shapes::Matrices mesh = shapes::components_matrices(sphere, 4);
+  for(int c = 0; c < 4; ++c)
+    mesh.V.middleRows(c * sphere.V.rows(), sphere.V.rows()) *= 1. + 2e-5 * c;
+  const Laplace_operator op = laplace(mesh);
+  const Eigenpairs reference = SG::eigenpairs(op, 36);
+  for(const double tolerance : {0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
+    for(const Eigen::Index K : {6, 13, 16, 20, 36}) {
+      const Eigenpairs pairs = SG::eigenpairs(op, K, with_method(Method::block, tolerance));
+      INFO(tolerance << ' ' << K);
+      if(tolerance > 1e-3)
+        CHECK(!pairs.complete);
+      const double error = ((pairs.values - reference.values.head(K)).array().abs() /
+                            (reference.values.head(K).array() + 4. * shapes::pi / op.mass.sum()))
+                               .maxCoeff();
+      if(pairs.complete)
+        CHECK(error < 1e-2);
+      CHECK((pairs.complete || tolerance > 1e-3));
+    }
+}
+
+TEST_CASE("Eigenpairs of a stiffness in any unit")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
+  const Eigenpairs reference = SG::eigenpairs(op, 30);
+  for(const double unit : {1e-12, 1e-6, 1e6, 1e12})
+    for(const Method method : {Method::block, Method::spectra, Method::dense}) {
+      Laplace_operator scaled = op;
+      scaled.L *= unit;
+      const Eigenpairs pairs = SG::eigenpairs(scaled, 30, with_method(method));
+      CHECK(pairs.complete);
+      CHECK(pairs.residuals.maxCoeff() < 1e-8);
+      CHECK((pairs.values / unit - reference.values).cwiseAbs().maxCoeff() < 1e-9 * reference.values(29));
+    }
+  // the shapes of triangles are no unit
+  const Laplace_operator strip = laplace(shapes::grid_matrices(400, 1, 1., 1e-5));
+  const std::function<bool(double)> silent;
+  CHECK(SG::internal::Eigen_problem(strip.L, strip.B, strip.mass, silent).shift() ==
+        Approx(4e5 * shapes::pi));
+}
+
+#ifdef CGAL_SPECTRAL_WITH_CHOLMOD
+
+TEST_CASE("CHOLMOD's failures are told apart")
+{
+  using SG::internal::factorisation_failed;
+  CHECK_THROWS_WITH(factorisation_failed(CHOLMOD_OUT_OF_MEMORY), ContainsSubstring("not enough memory"));
+  CHECK_THROWS_WITH(factorisation_failed(CHOLMOD_TOO_LARGE), ContainsSubstring("32 bits"));
+  CHECK_THROWS_WITH(factorisation_failed(CHOLMOD_NOT_INSTALLED), ContainsSubstring("status"));
+  CHECK_THROWS_WITH(factorisation_failed(CHOLMOD_NOT_POSDEF), ContainsSubstring("needle"));
+  CHECK_THROWS_WITH(factorisation_failed(CHOLMOD_OK), ContainsSubstring("needle"));
+
+#if defined(__linux__) && SUITESPARSE_VERSION < SUITESPARSE_VER_CODE(7, 0)
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  CHECK_THROWS_WITH(SG::internal::Cholesky(op.L - op.B), ContainsSubstring("needle"));
+  // Nothing larger than what the analysis takes: the factor does not fit.
+  auto* const allocators = static_cast<SuiteSparse_config_struct*>(dlsym(RTLD_DEFAULT, "SuiteSparse_config"));
+  REQUIRE(allocators != nullptr);
+  auto* const malloc_of_cholmod = allocators->malloc_func;
+  allocators->malloc_func = [](size_t size) { return size > 100000 ? nullptr : std::malloc(size); };
+  std::string block, spectra;
+  try {
+    SG::eigenpairs(op, 20, with_method(Method::block));
+  } catch(const std::runtime_error& e) {
+    block = e.what();
+  }
+  try {
+    SG::eigenpairs(op, 20, with_method(Method::spectra));
+  } catch(const std::runtime_error& e) {
+    spectra = e.what();
+  }
+  allocators->malloc_func = malloc_of_cholmod;
+  CHECK_THAT(block, ContainsSubstring("not enough memory"));
+  CHECK_THAT(spectra, ContainsSubstring("not enough memory"));
+#endif
+}
+
+#endif
+
 TEST_CASE("Eigenpairs that the iteration has missed are counted and found")
 {
   const Laplace_operator op = laplace(shapes::icosphere_matrices(3));
@@ -567,6 +678,9 @@ TEST_CASE("Bad requests for eigenpairs are refused")
   Laplace_operator broken = op;
   broken.mass.conservativeResize(7);
   CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
+  broken = op;
+  broken.mass *= 2.;
+  CHECK_THROWS_WITH(SG::eigenpairs(broken, 5), ContainsSubstring("row sums of B"));
   broken = op;
   broken.mass(3) = 0.;
   CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);

@@ -22,6 +22,7 @@ SG::Eigenpairs unit_area(const SG::Eigenpairs& pairs, double area, Eigen::Index 
   SG::Eigenpairs result;
   result.values = area * pairs.values.head(K);
   result.vectors = std::sqrt(area) * pairs.vectors.leftCols(K);
+  result.zeros = pairs.zeros;
   return result;
 }
 

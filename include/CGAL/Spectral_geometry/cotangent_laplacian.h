@@ -68,6 +68,39 @@ struct Laplace_operator
   double theta = 0.;
 };
 
+/// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which
+/// constants are in the kernel: rows that sum to zero, in single precision at least. Nothing is read off eigenvalues.
+inline Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
+{
+  const double rounding = 1e-6; // of a row's sum, relative to its entries
+  std::vector<char> seen(op.L.cols(), false);
+  std::vector<Eigen::Index> stack;
+  Eigen::Index zeros = 0;
+  for(Eigen::Index root = 0; root < op.L.cols(); ++root) {
+    if(seen[root])
+      continue;
+    bool kernel = true;
+    seen[root] = true;
+    stack.push_back(root);
+    while(!stack.empty()) {
+      const Eigen::Index v = stack.back();
+      stack.pop_back();
+      double sum = 0., size = 0.;
+      for(Eigen::SparseMatrix<double>::InnerIterator entry(op.L, v); entry; ++entry) {
+        sum += entry.value();
+        size += std::abs(entry.value());
+        if(entry.value() != 0. && !seen[entry.row()]) {
+          seen[entry.row()] = true;
+          stack.push_back(entry.row());
+        }
+      }
+      kernel = kernel && std::abs(sum) <= rounding * size;
+    }
+    zeros += kernel;
+  }
+  return zeros;
+}
+
 /// \brief the cotangents of a triangle's three angles and its area.
 struct Triangle_cotangents
 {

@@ -32,6 +32,9 @@ struct Eigenpairs
       solver; ///< "block+cholmod", "block+simplicial", "spectra+cholmod", "spectra+simplicial" or "dense"
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
   bool complete = false;
+  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
+  /// min(`zeros`, K). To be set where pairs are filled by hand, see `number_of_zero_eigenvalues()`; negative: not known
+  Eigen::Index zeros = -1;
 
   Eigen::Index size() const { return values.size(); } ///< K
 };
@@ -40,7 +43,7 @@ struct Eigenpairs
 ///
 /// `automatic` is `dense` when n is at most 300 or K close to n, otherwise `block`: block Lanczos, eight vectors at a time.
 /// `spectra` is Spectra's implicitly restarted Lanczos method, the reference; a problem that is too small for the space that
-/// `spectra` or `block` needs is solved densely all the same.
+/// `spectra` (2 K + 20 vectors) or `block` (that, and K + 56) needs is solved densely all the same.
 enum class Eigenpairs_method { automatic, block, spectra, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
@@ -55,7 +58,9 @@ struct Eigenpairs_options
   Eigen::Index maximum_iterations = 300;
   /// search for copies of multiple eigenvalues that the Krylov space has missed. `spectra` starts from one vector: one more
   /// factorisation counts the eigenvalues (Sylvester's law of inertia). `block` starts from eight random vectors, which
-  /// cannot miss a copy of an eigenvalue of smaller multiplicity; it counts when more than four of the values are equal.
+  /// cannot miss a copy of an eigenvalue of smaller multiplicity; it counts when more than four of the values are equal as
+  /// far as the tolerance tells. With a tolerance above 1e-3 the values are too rough for a count, and the pairs of both
+  /// methods are not known to be complete.
   bool verify = true;
   /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K, K + 120): fewer take less
   /// memory and more time
@@ -90,6 +95,16 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
         std::to_string(options.maximum_vectors) + ".");
 }
 
+// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. A Krylov space must fit into n dimensions; that
+// of `block` holds the vectors that a restart keeps and two panels more, and leaves room for random ones. Up to 300 vertices
+// a dense solver takes milliseconds.
+inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpairs_method method)
+{
+  return method == Eigenpairs_method::dense || 2 * K + 20 > n ||
+         (method == Eigenpairs_method::block && K + 56 > n) ||
+         (method == Eigenpairs_method::automatic && n <= 300);
+}
+
 } // namespace internal
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.
@@ -98,7 +113,8 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
 /// factorisation of \f$L + s B\f$: CHOLMOD's where `CGAL_SPECTRAL_WITH_CHOLMOD` is defined (link with `-lcholmod`),
 /// otherwise Eigen's. The shift \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix
 /// is positive definite, its condition number stays that of the wanted spectrum, and the eigenvalues next to 0 are
-/// separated as well as with a smaller one. Start vectors are fixed, so the result is the same in every run.
+/// separated as well as with a smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
+/// has the shift in that unit. Start vectors are fixed, so the result is the same in every run.
 /// With K = 100, `block` keeps about 3.4 K vectors of n doubles at a tolerance of 1e-8, 2.8 K at 1e-4, never more than
 /// max(3.6 K, K + 120).
 ///

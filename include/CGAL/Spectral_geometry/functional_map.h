@@ -201,23 +201,6 @@ inline double restriction_energy(const Laplace_operator& coarse, const Eigen::Sp
   return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
 }
 
-/*!
-returns how many of ascending eigenvalues are zero up to rounding, one per connected component of the mesh:
-those at or below `relative_threshold * spacing`.
-
-@param values eigenvalues, ascending
-@param spacing a typical distance of successive eigenvalues: \f$ 4\pi/A \f$ by Weyl's law, with the area `A`
-  of the mesh
-@param relative_threshold the default of 1e-6 lies between what a solver leaves of a zero (1e-10) and the
-  first eigenvalue of any shape of practical interest (a rod a thousand times longer than its girth has 8e-4)
-*/
-inline Eigen::Index number_of_zero_eigenvalues(const Eigen::VectorXd& values, double spacing,
-                                               double relative_threshold = 1e-6)
-{
-  const double threshold = relative_threshold * spacing;
-  return std::upper_bound(values.data(), values.data() + values.size(), threshold) - values.data();
-}
-
 /// relative errors \f$ |\widetilde\lambda_k - \lambda_k| / \lambda_k \f$ of a range of eigenvalues.
 struct Eigenvalue_errors
 {
@@ -368,8 +351,8 @@ inline Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const
   e.area_ratio = e.coarse_area / e.fine_area;
   e.fine_values = e.fine_area * fine_pairs.values;
   e.coarse_values = e.coarse_area * coarse_pairs.values;
-  e.fine_zeros = number_of_zero_eigenvalues(e.fine_values, 4 * CGAL_PI);
-  e.coarse_zeros = number_of_zero_eigenvalues(e.coarse_values, 4 * CGAL_PI);
+  e.fine_zeros = (std::min)(number_of_zero_eigenvalues(fine), fine_pairs.size());
+  e.coarse_zeros = (std::min)(number_of_zero_eigenvalues(coarse), coarse_pairs.size());
 
   const Eigen::MatrixXd C_extended = functional_map(coarse_pairs.vectors.leftCols(e.extended_modes), coarse.B,
                                                     P, fine_pairs.vectors.leftCols(judged));

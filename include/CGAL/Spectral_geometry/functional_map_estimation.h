@@ -62,7 +62,7 @@ struct Spectral_shape
 /*!
 returns the functional map \f$ C_{X,Y} \f$ between the first modes of two shapes that best keeps pairs of
 descriptors \f$ f_i, g_i \f$ with coefficients \f$ a_i, b_i \f$ in the two bases: the minimiser of
-\f[ \frac1d \sum_i \frac{\|C a_i - b_i\|^2}{\|b_i\|^2} + w_L \|C \Lambda_X - \Lambda_Y C\|^2
+\f[ \frac1d \sum_i \frac{2 \|C a_i - b_i\|^2}{\|a_i\|^2 + \|b_i\|^2} + w_L \|C \Lambda_X - \Lambda_Y C\|^2
     + \frac{w_M}{d} \sum_i \|C \Gamma_i^X - \Gamma_i^Y C\|^2 + \frac{w_O}{d} \sum_i \|C \Omega_i^X - \Omega_i^Y C\|^2 \f]
 (Ovsjanikov et al. 2012; Nogneng and Ovsjanikov 2017; Ren et al. 2018), a linear system of the size of C. Pairs of operators
 are scaled to the norm \f$ \sqrt k \f$.
@@ -75,7 +75,7 @@ are scaled to the norm \f$ \sqrt k \f$.
   descriptors leave it underdetermined, which commutativity then decides
 @return k x k
 
-Throws `std::invalid_argument` if sizes do not match, `std::runtime_error` if the system is singular.
+Throws `std::invalid_argument` if sizes do not match, `std::runtime_error` if the system is singular up to rounding.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
 functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, const Eigen::MatrixXd& f,

@@ -6,9 +6,6 @@
 #define CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/functional_map.h>
-
-#include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>
 
@@ -26,16 +23,17 @@ formulas of section 5.1 of Lescoat et al. 2020, truncated to the `K` pairs that 
 
 Common to all functions:
 - `pairs` holds `K` eigenpairs of a mesh of `n` vertices, \f$ \phi_i \f$ orthonormal in its mass.
-- Sums with \f$ 1/\lambda \f$ or \f$ \log\lambda \f$ skip the eigenvalues that are zero up to rounding, one
-  per connected component (see `number_of_zero_eigenvalues()`); the others run over all pairs. Distances
-  between different components by such sums are finite numbers without a meaning.
+- Sums with \f$ 1/\lambda \f$ or \f$ \log\lambda \f$ skip the zero eigenvalues, one per connected component
+  (`Eigenpairs::zeros`); the others run over all pairs. Distances between different components by such sums
+  are finite numbers without a meaning.
 - One source gives a vector of `n` values, several sources give an `n` x (number of sources) matrix, one
   column each.
 - Units are given for a mesh measured in a unit of length `u`, time `t` of heat in `u^2`. Defaults of times
   and energies are multiples of the spectrum's own, so that results do not depend on the unit. To compare two
   meshes use *one* set of times or energies for both: take them from one and pass them to both.
 - `std::invalid_argument` is thrown for a source out of range, a time or energy that is not finite or negative
-  where it must not be, and when all eigenvalues are zero and a nonzero one is needed.
+  where it must not be, and where a nonzero eigenvalue is needed, when all of them are zero, when `zeros` is
+  not known, or when one that is not among them was computed as zero.
 */
 
 namespace CGAL {
@@ -43,16 +41,6 @@ namespace Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
 /// @{
-
-/// returns how many of the eigenvalues are zero up to rounding, at most 1e-6 times \f$ 4 \pi / A \f$. The
-/// area `A` of the mesh is read off the first eigenvector, which is \f$ 1/\sqrt{A} \f$ at all vertices of a
-/// connected mesh (in other cases it gives the order of magnitude, which is all that is needed).
-inline Eigen::Index number_of_zero_eigenvalues(const Eigenpairs& pairs)
-{
-  if(pairs.size() == 0 || pairs.vectors.rows() == 0)
-    return 0;
-  return number_of_zero_eigenvalues(pairs.values, 4 * CGAL_PI * pairs.vectors.col(0).array().square().mean());
-}
 
 namespace internal {
 
@@ -82,10 +70,18 @@ inline void check_steps(Eigen::Index steps, Eigen::Index least)
 // The pairs without the kernel.
 inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
 {
-  const Eigen::Index first = number_of_zero_eigenvalues(pairs);
+  if(pairs.zeros < 0)
+    throw std::invalid_argument(
+        "spectral distances: the eigenpairs do not say how many eigenvalues are zero; set Eigenpairs::zeros "
+        "to the number of connected components.");
+  const Eigen::Index first = pairs.zeros;
   if(first >= pairs.size())
     throw std::invalid_argument("spectral distances: all of the " + std::to_string(pairs.size()) +
                                 " eigenvalues are zero, compute more of them than the mesh has components.");
+  if(!(pairs.values(first) > 0))
+    throw std::invalid_argument("spectral distances: eigenvalue " + std::to_string(first) +
+                                " was computed as zero, but only " + std::to_string(first) +
+                                " are; the component has a neck that is too narrow for doubles.");
   return first;
 }
 

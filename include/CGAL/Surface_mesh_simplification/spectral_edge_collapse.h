@@ -120,6 +120,14 @@ struct Loop_end
   bool cancelled = false, error_reached = false;
 };
 
+/// Whether there are named parameters of `edge_collapse()` that the one call has no use for.
+template <class NamedParameters>
+constexpr bool overrides_policies = is_given<NamedParameters>(internal_np::get_cost_policy_t()) ||
+                                    is_given<NamedParameters>(internal_np::get_placement_policy_t()) ||
+                                    is_given<NamedParameters>(internal_np::use_relaxed_order_t()) ||
+                                    is_given<NamedParameters>(internal_np::vertex_index_t()) ||
+                                    is_given<NamedParameters>(internal_np::halfedge_index_t());
+
 /// Runs the loop with the constraint map, filter and visitor that the user gave, if any.
 template <class TriangleMesh, class Policies, class NamedParameters>
 Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
@@ -427,6 +435,10 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
+ * Filter and visitor take part in the stage of `Spectral_edge_collapse_options::pre_simplify` as well: the visitor sees two loops
+ * from `OnStarted()` to `OnFinished()`. The other named parameters of `edge_collapse()` do not compile: cost, placement and
+ * order are those of the metric, and indices are its own.
+ *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
  *
  * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is changed
@@ -442,6 +454,8 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
                                                      const NamedParameters& np = parameters::default_values())
 {
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
+  static_assert(!internal::overrides_policies<NamedParameters>,
+                "spectral_edge_collapse() takes no get_cost, get_placement, use_relaxed_order or index map");
   const auto begin = std::chrono::steady_clock::now();
   const auto seconds = [&begin] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

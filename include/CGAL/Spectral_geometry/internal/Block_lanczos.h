@@ -59,9 +59,8 @@ public:
     m_panels = 0;
     add_random_panel();
     iterate(rounded_up(K + (std::max)(K / 2, 3 * Index(panel_width))));
-    complete = verify && !may_be_incomplete(m_problem, values());
-    if(verify && !complete && counting_is_meaningful(m_tolerance))
-      complete = find_missing();
+    complete = verify && counting_is_meaningful(m_tolerance) &&
+               (!may_be_incomplete(m_problem, values(), m_tolerance) || find_missing());
     return pairs();
   }
 

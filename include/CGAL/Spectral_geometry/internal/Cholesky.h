@@ -23,7 +23,7 @@ namespace internal {
 
 using Sparse_matrix = Eigen::SparseMatrix<double>;
 
-inline void factorisation_failed()
+[[noreturn]] inline void factorisation_failed()
 {
   throw std::runtime_error(
       "Eigenpairs: the factorisation of the shifted Laplacian failed; look for needle faces or "
@@ -31,6 +31,23 @@ inline void factorisation_failed()
 }
 
 #ifdef CGAL_SPECTRAL_WITH_CHOLMOD
+
+// By `cholmod_common::status`.
+[[noreturn]] inline void factorisation_failed(int status)
+{
+  if(status == CHOLMOD_OUT_OF_MEMORY)
+    throw std::runtime_error(
+        "Eigenpairs: there is not enough memory for the factor of the shifted Laplacian; simplify the mesh "
+        "before.");
+  if(status == CHOLMOD_TOO_LARGE)
+    throw std::runtime_error(
+        "Eigenpairs: the factor of the shifted Laplacian has more entries than indices of 32 bits can count; "
+        "simplify the mesh before.");
+  if(status < CHOLMOD_OK)
+    throw std::runtime_error("Eigenpairs: CHOLMOD could not factorise the shifted Laplacian (status " +
+                             std::to_string(status) + "); look at its installation.");
+  factorisation_failed();
+}
 
 // CHOLMOD keeps its settings, its workspace and the outcome of the last call here; one for each thread.
 class Cholmod_context
@@ -110,12 +127,14 @@ public:
     m_factor = cholmod_analyze(&view, c);
     m_ok = m_factor != nullptr && cholmod_factorize(&view, m_factor, c) && c->status == CHOLMOD_OK &&
            m_factor->minor == m_factor->n;
+    m_status = c->status;
   }
   ~Cholmod_factor() { cholmod_free_factor(&m_factor, m_context.common()); }
   Cholmod_factor(const Cholmod_factor&) = delete;
   Cholmod_factor& operator=(const Cholmod_factor&) = delete;
 
   bool ok() const { return m_ok; }
+  int status() const { return m_status; }
   cholmod_factor* get() const { return m_factor; }
   Cholmod_context& context() { return m_context; }
 
@@ -134,6 +153,7 @@ private:
   Cholmod_context m_context;
   cholmod_factor* m_factor = nullptr;
   bool m_ok = false;
+  int m_status = CHOLMOD_OK;
 };
 
 #endif // CGAL_SPECTRAL_WITH_CHOLMOD
@@ -149,7 +169,7 @@ public:
     , m_factor(A, true)
   {
     if(!m_factor.ok())
-      factorisation_failed();
+      factorisation_failed(m_factor.status());
   }
 #else
   {

@@ -40,7 +40,7 @@ public:
     , m_B(B)
     , m_mass(mass)
     , m_progress(progress)
-    , m_shift(4. * 3.14159265358979323846 / mass.sum())
+    , m_shift(4. * 3.14159265358979323846 / mass.sum() * unit_of(L))
   {}
 
   void check(Eigen::Index K) const
@@ -51,6 +51,8 @@ public:
           "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
     if(!(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift)))
       throw std::invalid_argument("Eigenpairs: every mass must be positive and finite.");
+    if(!((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all())
+      throw std::invalid_argument("Eigenpairs: the mass vector must hold the row sums of B.");
     if(K < 1 || K > n)
       throw std::invalid_argument(
           "Eigenpairs: the number of eigenvectors must lie between 1 and the number of "
@@ -98,6 +100,19 @@ public:
   }
 
 private:
+  // What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the shapes of triangles
+  // explain a factor of a thousand, beyond that it is a unit.
+  static double unit_of(const Eigen::SparseMatrix<double>& L)
+  {
+    Eigen::VectorXd diagonal = L.diagonal();
+    if(diagonal.size() == 0 || !diagonal.allFinite())
+      return 1.;
+    double* const middle = diagonal.data() + diagonal.size() / 2;
+    std::nth_element(diagonal.data(), middle, diagonal.data() + diagonal.size());
+    const double size = *middle / std::sqrt(12.);
+    return size > 0. && !(size > 1e-3 && size < 1e3) ? size : 1.;
+  }
+
   const Eigen::SparseMatrix<double>& m_L;
   const Eigen::SparseMatrix<double>& m_B;
   const Eigen::VectorXd& m_mass;

@@ -38,7 +38,7 @@ public:
     : m_V(V)
     , m_mesh(mesh)
     , m_angle_ratio(options.smallest_angle_ratio)
-    , m_cosine(std::cos(options.largest_turn))
+    , m_cosine((std::min)(std::cos(options.largest_turn), 1 - 1e-12)) // rounding is no turn
     , m_tolerance(options.size_tolerance)
   {
     const Eigen::MatrixXi& T = mesh.triangles();

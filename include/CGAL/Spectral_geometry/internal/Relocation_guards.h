@@ -58,6 +58,8 @@ public:
     , m_boundary(std::size_t(V.rows()))
     , m_held_by(std::size_t(V.rows()), 0)
   {
+    // The rounding of what is legal only just must not make the start illegal; nor below.
+    m_limits.largest_turn_cosine = (std::min)(m_limits.largest_turn_cosine, 1 - 1e-12);
     measure_vertices(V);
     measure_triangles(V);
   }
@@ -188,7 +190,6 @@ private:
     m_smallest_angle.resize(m_T.rows());
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
       m_normal.push_back(normal_of(f, V).normalized());
-      // The rounding of what is legal only just must not make the start illegal.
       m_smallest_angle(f) = (m_limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
     }
   }

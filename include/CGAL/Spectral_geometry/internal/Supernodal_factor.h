@@ -175,7 +175,7 @@ private:
   {
     const Cholmod_factor cholmod(A, true);
     if(!cholmod.ok())
-      factorisation_failed();
+      factorisation_failed(cholmod.status());
     const cholmod_factor& f = *cholmod.get();
     const int* order = static_cast<const int*>(f.Perm);
     const int* first = static_cast<const int*>(f.super);

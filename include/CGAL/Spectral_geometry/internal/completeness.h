@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace CGAL {
@@ -60,12 +61,14 @@ inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& v
 }
 
 // Whether a group of equal values is so large that a block of eight start vectors may have missed copies. Fewer copies than
-// start vectors are found with probability one; half of that leaves a margin for those that converge late.
-inline bool may_be_incomplete(const Eigen_problem& problem, const Eigen::VectorXd& values)
+// start vectors are found with probability one; half of that leaves a margin for those that converge late. Values within the
+// tolerance of each other are equal to the iteration: a mixture of their vectors passes as converged.
+inline bool may_be_incomplete(const Eigen_problem& problem, const Eigen::VectorXd& values, double tolerance)
 {
+  const double width = (std::max)(1e-5, 10. * tolerance);
   Eigen::Index group = 1;
   for(Eigen::Index k = 1; k < values.size(); ++k) {
-    group = values(k) - values(k - 1) < 1e-5 * (values(k) + problem.shift()) ? group + 1 : 1;
+    group = values(k) - values(k - 1) < width * (values(k) + problem.shift()) ? group + 1 : 1;
     if(group > 4)
       return true;
   }

@@ -17,18 +17,6 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-// A Krylov space of 2K + 20 vectors must fit into n dimensions.
-inline bool must_be_dense(Eigen::Index n, Eigen::Index K)
-{
-  return 2 * K + 20 > n;
-}
-
-// Milliseconds.
-inline bool dense_is_better(Eigen::Index n)
-{
-  return n <= 300;
-}
-
 inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
 {
   // In units of 1/shift: the solver compares with absolute thresholds.

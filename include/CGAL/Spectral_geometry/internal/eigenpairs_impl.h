@@ -29,8 +29,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   internal::Ritz_pairs pairs;
   Eigenpairs result;
   problem.report(0.);
-  if(options.method == Method::dense || internal::must_be_dense(problem.size(), K) ||
-     (options.method == Method::automatic && internal::dense_is_better(problem.size()))) {
+  if(internal::is_dense(problem.size(), K, options.method)) {
     pairs = internal::dense_eigenpairs(problem, K);
     result.solver = "dense";
     result.complete = true;
@@ -46,6 +45,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
     result.solver = "block+" + internal::Cholesky::name();
   }
   internal::fix_signs(pairs.vectors);
+  result.zeros = number_of_zero_eigenvalues(op);
   result.residuals = problem.residuals(pairs);
   result.values = std::move(pairs.values);
   result.vectors = std::move(pairs.vectors);

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -134,10 +135,13 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
   for(Eigen::Index j = 0; j < k; ++j)
     for(Eigen::Index l = 0; l < k; ++l)
       form.block(j * k, l * k, k, k).diagonal().array() += aa(j, l);
+  // Positive semidefinite. The solver replaces the inverses of vanishing pivots by zero and reports success.
   const Eigen::LDLT<Eigen::MatrixXd> solver(form);
-  const Eigen::VectorXd c = solver.solve(Eigen::Map<const Eigen::VectorXd>(ba.data(), ba.size()));
-  if(solver.info() != Eigen::Success || !c.allFinite())
+  const Eigen::VectorXd pivots = solver.vectorD();
+  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
+  if(solver.info() != Eigen::Success || !(pivots.minCoeff() > rounding * pivots.maxCoeff()))
     throw std::runtime_error("functional map: the descriptors do not determine it, pass more of them.");
+  const Eigen::VectorXd c = solver.solve(Eigen::Map<const Eigen::VectorXd>(ba.data(), ba.size()));
   return Eigen::Map<const Eigen::MatrixXd>(c.data(), k, k);
 }
 

@@ -9,6 +9,8 @@
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -17,14 +19,33 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 
+namespace internal {
+
+constexpr double bytes_of_mesh = 300; ///< for each vertex
+
+/// Of `Spectral_geometry::eigenpairs()`, its result included.
+inline double memory_of_eigenpairs(const double n, const double K,
+                                   const Spectral_geometry::Eigenpairs_options& options)
+{
+  const double factor = 900; // matrices and Cholesky factor, for each vertex
+  if(Spectral_geometry::internal::is_dense(Eigen::Index(n), Eigen::Index(K), options.method))
+    return n * (8 * 5.2 * n + factor);
+  const double space =
+      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(3.5 * K, K + 120);
+  return n * (8 * space + factor);
+}
+
+} // namespace internal
+
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
 
 /*!
  * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to be compared with what the
  * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 3.5 K vectors of n
- * doubles (or `Eigenpairs_options::maximum_vectors`), and the loop, which keeps the eigenpairs, F and R = B Z - L F, three
- * times n K doubles (five times with signals of the user's, for Z). The constants were measured on closed meshes of 50,000
+ * doubles (or `Eigenpairs_options::maximum_vectors`; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
+ * the loop, which keeps the eigenpairs, F and R = B Z - L F, three times n K doubles (five times with signals of the user's,
+ * for Z). The constants were measured on closed meshes of 50,000
  * to 500,000 vertices; estimates are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
@@ -34,23 +55,46 @@ namespace Surface_mesh_simplification {
  * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs are given
  * @param options placement and so on do not matter; `signals`, `eigenpairs`, `pre_simplify` and `eigenpairs_options` do
  */
-inline double estimated_memory(const std::size_t number_of_vertices,
-                               const Eigen::Index number_of_eigenvectors,
-                               const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
+inline double
+estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number_of_eigenvectors,
+                 const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
 {
   const bool reduced = options.pre_simplify != 0 && number_of_vertices > options.pre_simplify;
   const double input = double(number_of_vertices), n = reduced ? double(options.pre_simplify) : input;
   const double K = double(number_of_eigenvectors);
-  const Eigen::Index limit = options.eigenpairs_options.maximum_vectors;
   const bool solves = options.signals.size() == 0 && !options.eigenpairs;
 
-  // Bytes per vertex: mesh; matrices and Cholesky factor; rings, inner products, candidates and CGAL's queue.
-  const double mesh = 300, factor = 900, loop = 1900, first_stage = 1500;
-  const double space = limit > 0 ? double(limit) : (std::max)(3.5 * K, K + 120);
-  const double solver = solves ? n * (8 * space + factor) : 0;
+  // Bytes per vertex: rings, inner products, candidates and CGAL's queue; the first stage.
+  const double loop = 1900, first_stage = 1500;
+  const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options) : 0;
   const double collapses = n * (8 * (options.signals.size() != 0 ? 5 : 3) * K + loop);
   const double both = (std::max)(solver, collapses);
-  return input * mesh + (reduced ? (std::max)(input * first_stage, both) : both);
+  return input * internal::bytes_of_mesh + (reduced ? (std::max)(input * first_stage, both) : both);
+}
+
+/*!
+ * Returns about how many bytes it takes to judge a result by `Spectral_geometry::evaluate_spectrum()`: first the eigenpairs of the
+ * whole input, whatever `Spectral_edge_collapse_options::pre_simplify` was, then those of the result beside them. It
+ * comes after the run of `estimated_memory()`: the larger one counts.
+ *
+ * @param number_of_vertices n of the input
+ * @param number_of_coarse_vertices N of the result, at most n
+ * @param number_of_eigenvectors K pairs of either mesh; as many as it has where these are fewer
+ * @param options of both solves
+ * @param pairs_are_known whether those of the input are at hand, and need not be solved for
+ */
+inline double estimated_evaluation_memory(const std::size_t number_of_vertices,
+                                          const std::size_t number_of_coarse_vertices,
+                                          const Eigen::Index number_of_eigenvectors,
+                                          const Spectral_geometry::Eigenpairs_options& options = {},
+                                          const bool pairs_are_known = false)
+{
+  const double n = double(number_of_vertices), N = double(number_of_coarse_vertices);
+  const double K = (std::min)(double(number_of_eigenvectors), n), coarse_K = (std::min)(K, N);
+  const double fine_pairs = 8 * n * K;
+  const double fine = pairs_are_known ? fine_pairs : internal::memory_of_eigenpairs(n, K, options);
+  const double coarse = fine_pairs + internal::memory_of_eigenpairs(N, coarse_K, options);
+  return n * internal::bytes_of_mesh + (std::max)(fine, coarse);
 }
 
 /// @}

@@ -11,9 +11,6 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/functional_map.h>
-
-#include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>
 #include <Eigen/IterativeLinearSolvers>
@@ -206,11 +203,12 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
 
 /// The pairs that the metric sees, from the first.
 inline Eigen::Index number_in_metric(const Spectral_options& options,
-                                     const Spectral_geometry::Eigenpairs& pairs, const double area)
+                                     const Spectral_geometry::Laplace_operator& op,
+                                     const Spectral_geometry::Eigenpairs& pairs)
 {
   if(options.metric_eigenvectors == 0)
     return pairs.size();
-  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(pairs.values, 4 * CGAL_PI / area);
+  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
   return (std::min)(zeros + options.metric_eigenvectors, pairs.size());
 }
 
@@ -224,7 +222,7 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
   const Eigen::VectorXd residuals = spectral_residuals(op, *pairs);
   if(options.eigenpairs)
     check_eigenpairs(*pairs, residuals, options.mass);
-  const Eigen::Index seen = number_in_metric(options, *pairs, area);
+  const Eigen::Index seen = number_in_metric(options, op, *pairs);
   basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
   basis.lambda = area * pairs->values.head(seen);
   basis.sum_of_squares = weights.head(seen).dot(basis.lambda.cwiseAbs2());

@@ -133,7 +133,8 @@ inline Collapse_log shifted(const Collapse_log& log, const Eigen::Vector3d& offs
   return Collapse_log(log.forest(), std::move(points));
 }
 
-/// The first stage of `Spectral_edge_collapse_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices.
+/// The first stage of `Spectral_edge_collapse_options::pre_simplify`: CGAL's Garland-Heckbert on a mesh of n vertices. A filter or
+/// visitor of the user's sees points as they are: nothing is shifted then.
 template <class GeomTraits, class TriangleMesh, class NamedParameters>
 Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
                                 const Spectral_edge_collapse_options& options, const NamedParameters& np)
@@ -149,12 +150,19 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   if(!report_progress(options, Spectral_phase::pre_simplification, 0., n))
     throw Spectral_geometry::Cancelled();
 
-  const Eigen::Vector3d offset = offset_of(V);
+  constexpr bool has_filter = is_given<NamedParameters>(internal_np::filter_t());
+  constexpr bool is_seen = has_filter || is_given<NamedParameters>(internal_np::visitor_t());
+  const Eigen::Vector3d offset = is_seen ? Eigen::Vector3d::Zero() : offset_of(V);
   const auto points =
       choose_parameter(get_parameter(np, internal_np::vertex_point), get_property_map(vertex_point, mesh));
-  using Vector = typename GeomTraits::Vector_3;
-  const Shifted_point_map<std::decay_t<decltype(points)>, Vector> vpm(
-      points, Vector(offset[0], offset[1], offset[2]));
+  const auto vpm = [&] {
+    using Vector = typename GeomTraits::Vector_3;
+    if constexpr(is_seen)
+      return points;
+    else
+      return Shifted_point_map<std::decay_t<decltype(points)>, Vector>(
+          points, Vector(offset[0], offset[1], offset[2]));
+  }();
   using Tracker = Restriction_tracker<TriangleMesh>;
   const auto tracker = std::make_shared<Tracker>(mesh, kept_vertex_flags(mesh, options.kept_vertices, np));
   using vertex_descriptor = typename Tracker::vertex_descriptor;
@@ -169,20 +177,25 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   using Policies = GarlandHeckbert_plane_policies<TriangleMesh, GeomTraits>;
   using Placement = typename Policies::Get_placement;
   const Policies policies(mesh);
-  const Restriction_visitor<TriangleMesh> visitor(tracker);
+  const auto user = choose_parameter(get_parameter(np, internal_np::visitor), No_visitor());
+  const Restriction_visitor<TriangleMesh, std::decay_t<decltype(user)>> visitor(tracker, user);
   const Pre_simplification_stop<TriangleMesh> stop(mesh, tracker->log(), options);
   const auto common = parameters::visitor(visitor).vertex_point_map(vpm).get_cost(policies.get_cost());
+  const auto run = [&](const auto& with_placement) {
+    if constexpr(has_filter)
+      edge_collapse(mesh, stop, with_placement.filter(get_parameter(np, internal_np::filter)));
+    else
+      edge_collapse(mesh, stop, with_placement);
+  };
   if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
     const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
     using Constrained = Constrained_placement<Placement, std::decay_t<decltype(ecm)>>;
     const Constrained constrained(ecm, policies.get_placement());
-    edge_collapse(mesh, stop,
-                  common.edge_is_constrained_map(ecm).get_placement(
-                      Kept_vertices_placement<Tracker, Constrained>(tracker, shared, constrained)));
+    run(common.edge_is_constrained_map(ecm).get_placement(
+        Kept_vertices_placement<Tracker, Constrained>(tracker, shared, constrained)));
   } else
-    edge_collapse(mesh, stop,
-                  common.get_placement(Kept_vertices_placement<Tracker, Placement>(
-                      tracker, shared, policies.get_placement())));
+    run(common.get_placement(
+        Kept_vertices_placement<Tracker, Placement>(tracker, shared, policies.get_placement())));
   result.done = true;
   result.cancelled = stop.cancelled();
   result.log = shifted(tracker->log(), offset);
