@@ -374,6 +374,7 @@ TEST_CASE("the eigenvalues beyond K do not fall in the mean, and would without t
   };
   const Eigen::ArrayXd start = beyond(s.coarse.V);
   SG::Relocation_options options;
+  options.signals = Signals::carried_and_sampled;
   SG::Relocation_result result;
   CHECK((beyond(relocated(s, result, options)) / start).mean() > 1);
   options.beyond = 0;

@@ -130,6 +130,11 @@ public:
       m_closest = std::make_unique<Closest_point_query>(fine);
     set_guards(fixed);
     set_objective(P, F, Z, theta);
+    m_has_reverted.assign(std::size_t(m_start.rows()), 0);
+    if(m_options.keep_free_of_self_intersections)
+      m_crossing = self_intersecting_faces(m_start, m_T);
+    if(m_options.keep_hausdorff_distance)
+      measure_fine();
   }
 
   Positions run(Relocation_result& result)
@@ -164,14 +169,22 @@ public:
           result.stop_reason = Reason::converged;
           break;
         }
-        if(result.steps < m_options.maximum_steps && m_objective->refresh(descent.positions()))
-          descent.refresh();
+        if(result.steps < m_options.maximum_steps) {
+          const Positions repaired_so_far = repaired(descent.positions());
+          const bool refreshed = m_objective->refresh(repaired_so_far);
+          if(repaired_so_far != descent.positions())
+            descent.start(repaired_so_far);
+          else if(refreshed)
+            descent.refresh();
+        }
         last = descent.value();
       }
     }
     result.objective_after = descent.value();
+    V = repaired(descent.positions());
     result.held = m_guards.held();
-    V = repaired(descent.positions(), result.reverted_vertices);
+    result.reverted_vertices = std::size_t(std::count(m_has_reverted.begin(), m_has_reverted.end(), 1));
+    result.held.fixed -= result.reverted_vertices;
     result.E_after = m_objective->E(V);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
       result.moved_vertices += V.row(v) != m_start.row(v);
@@ -241,38 +254,38 @@ private:
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
-  // out of its bounds.
-  Positions repaired(Positions V, std::size_t& reverted) const
+  // out of its bounds. Vertices that did stay from then on, so that the others go on around them.
+  Positions repaired(Positions V)
   {
-    const Face_pairs before =
-        m_options.keep_free_of_self_intersections ? self_intersecting_faces(m_start, m_T) : Face_pairs();
-    const double furthest = m_options.keep_hausdorff_distance ? furthest_of_fine(m_start, nullptr, 0) : 0.;
-    std::vector<char> has_reverted(std::size_t(V.rows()), 0);
     for(int round = 0;; ++round) {
       std::vector<char> back(std::size_t(V.rows()), 0);
       if(m_options.keep_free_of_self_intersections)
         for(const auto& pair : self_intersecting_faces(V, m_T))
-          if(!std::binary_search(before.begin(), before.end(), pair))
+          if(!std::binary_search(m_crossing.begin(), m_crossing.end(), pair))
             for(const Eigen::Index f : {pair.first, pair.second})
               mark_face(f, back);
       if(m_options.keep_hausdorff_distance)
-        furthest_of_fine(V, &back, furthest);
-      for(std::size_t v = 0; v < back.size(); ++v)
-        has_reverted[v] |= back[v];
+        mark_left_behind(V, back);
       const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
       if(!any && !too_large)
         break;
-      const double kept = round < 12 ? 0.6 : 0.;
       if(round >= 24) // single vertices going back have put others in the way
         V = m_start;
       for(Eigen::Index v = 0; v < V.rows(); ++v)
-        if(too_large || back[std::size_t(v)])
+        if(too_large || back[std::size_t(v)]) {
+          // Half way back a vertex of the boundary would lie beside it.
+          const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
+        }
+      for(std::size_t v = 0; v < back.size(); ++v)
+        if(back[v] && !m_guards.is_fixed(Eigen::Index(v))) {
+          m_has_reverted[v] = 1;
+          m_guards.fix(Eigen::Index(v));
+        }
       m_guards.admit_without_projection(m_start, V);
       if(round >= 24)
         break;
     }
-    reverted = std::size_t(std::count(has_reverted.begin(), has_reverted.end(), 1));
     return V;
   }
 
@@ -282,22 +295,41 @@ private:
       marks[std::size_t(m_T(f, k))] = 1;
   }
 
-  // The largest distance of a fine vertex from the coarse mesh at V; marks the corners of the faces that vertices further than
-  // `limit` are closest to.
-  double furthest_of_fine(const Positions& V, std::vector<char>* marks, const double limit) const
+  // Where the fine vertices lie at the start.
+  void measure_fine()
   {
-    const Closest_point_query closest(Mesh_matrices{V, m_T});
-    double furthest = 0;
+    const Closest_point_query closest(Mesh_matrices{m_start, m_T});
     for(Eigen::Index i = 0; i < m_fine.V.rows(); ++i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
       const Closest_point_query::Answer answer = closest(point);
-      const double distance = (answer.point - point).norm();
-      furthest = (std::max)(furthest, distance);
-      if(marks != nullptr && distance > limit * (1 + 1e-9))
-        mark_face(answer.face, *marks);
+      m_nearest.push_back({answer.face, (answer.point - point).norm()});
+      m_furthest = (std::max)(m_furthest, m_nearest.back().distance);
     }
-    return furthest;
   }
+
+  // The corners of the faces closest to fine vertices that are further from V than any was at the start. A face that was
+  // near and has moved little is still near: most need not be looked for.
+  void mark_left_behind(const Positions& V, std::vector<char>& marks) const
+  {
+    const Closest_point_query closest(Mesh_matrices{V, m_T});
+    const Eigen::VectorXd moved = (V - m_start).rowwise().norm();
+    for(std::size_t i = 0; i < m_nearest.size(); ++i) {
+      const Nearest& n = m_nearest[i];
+      const auto corners = m_T.row(n.face);
+      if(n.distance + (std::max)({moved(corners(0)), moved(corners(1)), moved(corners(2))}) <= m_furthest)
+        continue;
+      const Eigen::Vector3d point = m_fine.V.row(Eigen::Index(i));
+      const Closest_point_query::Answer answer = closest(point);
+      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
+        mark_face(answer.face, marks);
+    }
+  }
+
+  struct Nearest
+  {
+    Eigen::Index face;
+    double distance;
+  };
 
   Relocation_options m_options;
   Positions m_start;
@@ -310,6 +342,10 @@ private:
   Position_dependent_signals::Rows m_fine_F, m_fine_Z;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
+  Face_pairs m_crossing;          // at the start
+  std::vector<Nearest> m_nearest; // of each fine vertex at the start
+  double m_furthest = 0;
+  std::vector<char> m_has_reverted;
 };
 
 } // namespace internal

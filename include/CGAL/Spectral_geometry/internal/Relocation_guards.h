@@ -79,6 +79,8 @@ public:
       fix(v);
   }
 
+  bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[std::size_t(v)].empty(); }
+
   /// A further condition on the position of any vertex: a distance to a surface.
   void set_bound(std::function<bool(const Eigen::Vector3d&)> allowed) { m_allowed = std::move(allowed); }
 
