@@ -7,18 +7,26 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-// Reads a sparse matrix as other programs write it: Matrix Market, coordinate, real or integer, general or
-// symmetric. Errors name the file and the first line that is wrong.
-inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path)
+// What is wrong with a matrix of so many rows, columns and nonzeros, as "'P.mtx' " begins it; empty if nothing is.
+using Size_objection = std::function<std::string(long long, long long, long long)>;
+
+// Reads a sparse matrix as other programs write it: Matrix Market, coordinate, real or integer, general or symmetric,
+// the words of the header in upper or lower case. Errors name the file and the first line that is wrong. `objection` is
+// asked before memory is taken: rows and columns cost some, and the file may promise any number of them.
+inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
+                                                      const Size_objection& objection)
 {
   const auto refuse = [&](const std::string& why) {
     throw std::runtime_error("cannot read '" + path + "': " + why);
@@ -28,8 +36,10 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path)
     refuse("there is no such file, or it may not be read.");
   std::string line, banner, object, format, field, symmetry;
   std::getline(stream, line);
+  std::transform(line.begin(), line.end(), line.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   std::istringstream(line) >> banner >> object >> format >> field >> symmetry;
-  if(banner != "%%MatrixMarket" || object != "matrix" || format != "coordinate" ||
+  if(banner != "%%matrixmarket" || object != "matrix" || format != "coordinate" ||
      (field != "real" && field != "integer") || (symmetry != "general" && symmetry != "symmetric"))
     refuse("it must begin with '%%MatrixMarket matrix coordinate real general' (or integer, or symmetric).");
 
@@ -43,6 +53,10 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path)
   if(!(std::istringstream(line) >> rows >> columns >> nonzeros) || rows < 1 || columns < 1 || nonzeros < 0 ||
      rows > largest || columns > largest || nonzeros > largest)
     refuse("line " + std::to_string(number) + " must give the numbers of rows, columns and nonzeros.");
+
+  const std::string wrong = objection(rows, columns, nonzeros);
+  if(!wrong.empty())
+    throw std::runtime_error("'" + path + "' " + wrong);
 
   std::vector<Eigen::Triplet<double>> entries;
   for(long long k = 0; k < nonzeros; ++k) {

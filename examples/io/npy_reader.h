@@ -136,14 +136,15 @@ inline Eigen::MatrixXd read_npy(const std::string& path)
     refuse(path, "its header announces " + std::to_string(header.rows) + " x " +
                      std::to_string(header.columns) + " numbers, but it holds " + std::to_string(numbers));
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(header.rows), static_cast<Eigen::Index>(header.columns));
-  for(std::size_t j = 0; j < header.columns; ++j)
-    for(std::size_t i = 0; i < header.rows; ++i) {
-      const std::size_t position = header.by_columns ? j * header.rows + i : i * header.columns + j;
-      const char* at = bytes.data() + header.length + position * header.size_of_number;
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          header.size_of_number == 8 ? number_at<double>(at, header.swapped)
-                                     : number_at<float>(at, header.swapped);
-    }
+  // By the numbers that are there: the header may promise rows or columns without any.
+  for(std::size_t k = 0; k < numbers; ++k) {
+    const char* at = bytes.data() + header.length + k * header.size_of_number;
+    const std::size_t i = header.by_columns ? k % header.rows : k / header.columns,
+                      j = header.by_columns ? k / header.rows : k % header.columns;
+    matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+        header.size_of_number == 8 ? number_at<double>(at, header.swapped)
+                                   : number_at<float>(at, header.swapped);
+  }
   return matrix;
 }
 

@@ -10,10 +10,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -44,7 +46,8 @@ private:
   struct Property
   {
     Type count_type = Type::none, type = Type::none; // no type of a count: a single value
-    std::string name;
+    std::size_t coordinate = 3;                      // 0 to 2 for x to z
+    bool vertices = false;                           // of a face
   };
   struct Element
   {
@@ -54,8 +57,24 @@ private:
   };
 
   explicit Ply_reader(const std::string& path)
-    : m_stream(path, std::ios::binary)
-  {}
+  {
+    std::ifstream stream(path, std::ios::binary);
+    m_bytes.resize(std::filesystem::file_size(path));
+    stream.read(m_bytes.data(), static_cast<std::streamsize>(m_bytes.size()));
+    m_bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    m_at = m_bytes.data();
+    m_end = m_at + m_bytes.size();
+  }
+
+  bool next_line(std::string& line)
+  {
+    if(m_at == m_end)
+      return false;
+    const char* const end = std::find(m_at, m_end, '\n');
+    line.assign(m_at, end);
+    m_at = end == m_end ? end : end + 1;
+    return true;
+  }
 
   [[noreturn]] static void refuse(const std::string& what) { throw std::runtime_error(what); }
 
@@ -73,9 +92,9 @@ private:
   void read_header()
   {
     std::string line, word;
-    if(!std::getline(m_stream, line) || line.compare(0, 3, "ply") != 0)
+    if(!next_line(line) || line.compare(0, 3, "ply") != 0)
       refuse("its first word is not ply");
-    while(std::getline(m_stream, line)) {
+    while(next_line(line)) {
       std::istringstream words(line);
       word.clear();
       words >> word;
@@ -109,7 +128,10 @@ private:
       words >> type;
     }
     property.type = type_of(type);
-    words >> property.name;
+    words >> type;
+    if(type == "x" || type == "y" || type == "z")
+      property.coordinate = std::size_t(type[0] - 'x');
+    property.vertices = type == "vertex_indices" || type == "vertex_index";
     return property;
   }
 
@@ -125,8 +147,7 @@ private:
         if(!(property.count_type == Type::none ? read_single(property, point) : read_list(property)))
           refuse("it is damaged or cut off at " + quoted(element.name) + " " + std::to_string(i) + " of " +
                  std::to_string(element.count) + " (counted from 0)");
-        else if(property.count_type != Type::none && faces &&
-                (property.name == "vertex_indices" || property.name == "vertex_index"))
+        else if(property.count_type != Type::none && faces && property.vertices)
           m_soup.polygons.push_back(m_list);
         else if(property.count_type != Type::none && strips)
           add_strip();
@@ -140,8 +161,8 @@ private:
     double value = 0;
     if(!read_value(property.type, value))
       return false;
-    if(property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
-      point[std::size_t(property.name[0] - 'x')] = value;
+    if(property.coordinate < 3)
+      point[property.coordinate] = value;
     return true;
   }
 
@@ -204,22 +225,24 @@ private:
     return false;
   }
 
-  // Streams do not read nan and inf, but they are to be diagnosed as what they are.
+  // The bytes end with a 0.
   bool read_word(double& value)
   {
-    if(!(m_stream >> m_word))
-      return false;
     char* end = nullptr;
-    value = std::strtod(m_word.c_str(), &end);
-    return *end == '\0';
+    value = std::strtod(m_at, &end);
+    const bool good = end != m_at && (*end == '\0' || std::isspace(static_cast<unsigned char>(*end)));
+    m_at = end;
+    return good;
   }
 
   template <class Number>
   bool read_as(double& value)
   {
     char bytes[sizeof(Number)];
-    if(!m_stream.read(bytes, sizeof(Number)))
+    if(static_cast<std::size_t>(m_end - m_at) < sizeof(Number))
       return false;
+    std::memcpy(bytes, m_at, sizeof(Number));
+    m_at += sizeof(Number);
     const std::uint16_t one = 1;
     const bool big_endian_machine = *reinterpret_cast<const unsigned char*>(&one) == 0;
     if(m_big_endian != big_endian_machine)
@@ -230,13 +253,13 @@ private:
     return true;
   }
 
-  std::ifstream m_stream;
+  std::string m_bytes; // of the file
+  const char *m_at = nullptr, *m_end = nullptr;
   bool m_text = false, m_big_endian = false;
   std::vector<Element> m_elements;
   std::vector<std::size_t> m_list;
   std::vector<std::vector<std::size_t>> m_triangles; // of strips
   Polygon_soup m_soup;
-  std::string m_word;
 };
 
 #endif // SPECTRAL_EXAMPLES_IO_PLY_READER_H

@@ -49,6 +49,9 @@ public:
     return *m_at != '\0';
   }
 
+  // The same for this line or a later one.
+  bool more_or_next() { return more() || next(); }
+
   // The first character of the next word.
   char peek() { return more() ? *m_at : '\0'; }
 

@@ -8,6 +8,7 @@
 #include "polygon_soup.h"
 #include "text_lines.h"
 
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <stdexcept>
@@ -71,7 +72,10 @@ inline Polygon_soup read_obj(const std::string& path)
   return soup;
 }
 
-inline Polygon_soup read_off(const std::string& path)
+namespace text_mesh_internal {
+
+// A line for each vertex and face, of which the end means nothing; or, `packed`, any number of them on a line and nothing else.
+inline Polygon_soup read_off(const std::string& path, const bool packed)
 {
   Polygon_soup soup;
   Text_lines file(path);
@@ -79,9 +83,9 @@ inline Polygon_soup read_off(const std::string& path)
     throw std::runtime_error("it is empty");
   bool homogeneous = false;
   const std::string keyword = file.word();
-  if(!text_mesh_internal::is_off_keyword(keyword, homogeneous))
+  if(!is_off_keyword(keyword, homogeneous))
     throw std::runtime_error("its first word is not OFF");
-  if(!file.more() && !file.next())
+  if(!file.more_or_next())
     throw std::runtime_error("nothing follows its first word");
   // Of binary OFF there are two kinds, which no header tells apart.
   if(std::isalpha(static_cast<unsigned char>(file.peek())))
@@ -90,31 +94,50 @@ inline Polygon_soup read_off(const std::string& path)
   if(points < 0 || polygons < 0)
     file.refuse("holds a negative number");
 
+  const auto go_on = [&](const long long done, const long long all, const char* what) {
+    if(!(packed ? file.more_or_next() : file.next()))
+      throw std::runtime_error("it ends after " + std::to_string(done) + " of " + std::to_string(all) + what);
+  };
+  if(packed && file.more())
+    file.integer(); // edges
   for(long long v = 0; v < points; ++v) {
-    if(!file.next())
-      throw std::runtime_error("it ends after " + std::to_string(v) + " of " + std::to_string(points) +
-                               " vertices");
-    const Kernel::Point_3 p = text_mesh_internal::read_point(file);
-    const double w = homogeneous ? file.number() : 1;
-    soup.points.emplace_back(p.x() / w, p.y() / w, p.z() / w);
+    std::array<double, 4> p = {0, 0, 0, 1};
+    for(std::size_t i = 0; i < (homogeneous ? 4 : 3); ++i) {
+      if(packed || i == 0)
+        go_on(v, points, " vertices");
+      p[i] = file.number();
+    }
+    soup.points.emplace_back(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
   }
   for(long long f = 0; f < polygons; ++f) {
-    const auto go_on = [&] {
-      if(!file.next())
-        throw std::runtime_error("it ends after " + std::to_string(f) + " of " + std::to_string(polygons) +
-                                 " faces");
-    };
-    go_on();
+    go_on(f, polygons, " faces");
     std::vector<std::size_t> polygon;
     for(long long left = file.integer(); left > 0; --left) {
       if(!file.more())
-        go_on();
+        go_on(f, polygons, " faces");
       const long long vertex = file.integer();
       polygon.push_back(vertex < 0 ? no_vertex : static_cast<std::size_t>(vertex));
     }
     soup.polygons.push_back(std::move(polygon));
   }
+  if(packed && file.more_or_next())
+    file.refuse("goes on after the last face");
   return soup;
+}
+
+} // namespace text_mesh_internal
+
+inline Polygon_soup read_off(const std::string& path)
+{
+  try {
+    return text_mesh_internal::read_off(path, false);
+  } catch(const std::runtime_error& fault) {
+    try {
+      return text_mesh_internal::read_off(path, true);
+    } catch(const std::runtime_error&) {
+      throw fault;
+    }
+  }
 }
 
 #endif // SPECTRAL_EXAMPLES_IO_TEXT_MESH_READERS_H

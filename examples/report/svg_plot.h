@@ -28,6 +28,8 @@ inline std::string escaped(const std::string& text)
       result += "&gt;";
     else if(c == '"')
       result += "&quot;";
+    else if(c == '\'')
+      result += "&#39;";
     else
       result += c;
   }
