@@ -14,8 +14,10 @@
 #include <CGAL/number_utils.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -183,6 +185,7 @@ private:
   struct Side // of a face, along an edge
   {
     std::size_t low, high, face;
+    std::uint32_t place; // in the face
     bool forward;
     bool operator<(const Side& other) const
     {
@@ -190,7 +193,7 @@ private:
     }
   };
 
-  bool finite(const std::size_t v) const { return m_V.row(Eigen::Index(v)).allFinite(); }
+  bool finite(const std::size_t v) const { return m_finite[v]; }
 
   bool same_position(const std::size_t v, const std::size_t w) const
   {
@@ -199,9 +202,11 @@ private:
 
   void examine_vertices()
   {
-    for(std::size_t v = 0; v < m_n; ++v)
-      if(!finite(v))
+    for(std::size_t v = 0; v < m_n; ++v) {
+      m_finite.push_back(m_V.row(Eigen::Index(v)).allFinite());
+      if(!m_finite[v])
         m_result.non_finite_vertices.add(v);
+    }
   }
 
   void examine_faces()
@@ -233,35 +238,70 @@ private:
         m_result.isolated_vertices.add(v);
   }
 
+  // Only faces with the same smallest vertex and the same sum can have the same vertices.
   void find_duplicates()
   {
-    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sets;
-    sets.reserve(m_polygons.size());
+    struct Key
+    {
+      std::size_t smallest, sum, face;
+      bool operator<(const Key& other) const
+      {
+        return std::tie(smallest, sum, face) < std::tie(other.smallest, other.sum, other.face);
+      }
+    };
+    std::vector<Key> keys;
+    keys.reserve(m_polygons.size());
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
       if(m_sound[f]) {
-        sets.emplace_back(m_polygons[f], f);
+        const std::vector<std::size_t>& p = m_polygons[f];
+        keys.push_back(
+            {*std::min_element(p.begin(), p.end()), std::accumulate(p.begin(), p.end(), std::size_t(0)), f});
+      }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::pair<std::size_t, std::size_t>> duplicates;
+    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sets;
+    for(std::size_t i = 0, j; i < keys.size(); i = j) {
+      for(j = i + 1; j < keys.size() && keys[j].smallest == keys[i].smallest && keys[j].sum == keys[i].sum;)
+        ++j;
+      if(j == i + 1)
+        continue;
+      sets.clear();
+      for(std::size_t k = i; k < j; ++k) {
+        sets.emplace_back(m_polygons[keys[k].face], keys[k].face);
         std::sort(sets.back().first.begin(), sets.back().first.end());
       }
-    std::sort(sets.begin(), sets.end());
-    std::vector<std::pair<std::size_t, std::size_t>> duplicates;
-    for(std::size_t i = 1, first = 0; i < sets.size(); ++i)
-      if(sets[i].first == sets[first].first)
-        duplicates.emplace_back(sets[i].second, sets[first].second);
-      else
-        first = i;
+      std::sort(sets.begin(), sets.end());
+      for(std::size_t k = 1, first = 0; k < sets.size(); ++k)
+        if(sets[k].first == sets[first].first)
+          duplicates.emplace_back(sets[k].second, sets[first].second);
+        else
+          first = k;
+    }
     add_sorted(duplicates, m_result.duplicate_faces);
   }
 
+  // Those of a vertex side by side by counting, then each vertex' own: they are few.
   void collect_sides()
   {
-    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
-      const std::vector<std::size_t>& polygon = m_polygons[f];
-      for(std::size_t i = 0; m_sound[f] && i < polygon.size(); ++i) {
-        const std::size_t v = polygon[i], w = polygon[(i + 1) % polygon.size()];
-        m_sides.push_back({(std::min)(v, w), (std::max)(v, w), f, v < w});
+    std::vector<std::size_t> begin(m_n + 2, 0);
+    const auto for_each_side = [&](const auto& f) {
+      for(std::size_t face = 0; face < m_polygons.size(); ++face) {
+        const std::vector<std::size_t>& polygon = m_polygons[face];
+        for(std::size_t i = 0; m_sound[face] && i < polygon.size(); ++i)
+          f(face, i, polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
       }
-    }
-    std::sort(m_sides.begin(), m_sides.end());
+    };
+    for_each_side([&](std::size_t, std::size_t, const std::size_t v, const std::size_t w) {
+      ++begin[(std::min)(v, w) + 2];
+    });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    m_sides.resize(begin.back());
+    for_each_side([&](const std::size_t face, const std::size_t i, const std::size_t v, const std::size_t w) {
+      m_sides[begin[(std::min)(v, w) + 1]++] = {(std::min)(v, w), (std::max)(v, w), face, std::uint32_t(i),
+                                                v < w};
+    });
+    for(std::size_t v = 0; v < m_n; ++v)
+      std::sort(m_sides.begin() + std::ptrdiff_t(begin[v]), m_sides.begin() + std::ptrdiff_t(begin[v + 1]));
   }
 
   void examine_edges()
@@ -287,34 +327,23 @@ private:
   // The corners of a vertex that edges join form one fan.
   void examine_fans()
   {
-    struct Arm
-    {
-      std::size_t vertex, neighbor, corner;
-      bool operator<(const Arm& other) const
-      {
-        return std::tie(vertex, neighbor, corner) < std::tie(other.vertex, other.neighbor, other.corner);
-      }
+    std::vector<std::size_t> first_corner(m_polygons.size() + 1, 0);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      first_corner[f + 1] = first_corner[f] + (m_sound[f] ? m_polygons[f].size() : 0);
+    const auto corner = [&](const Side& side, const bool of_low) {
+      const std::size_t next = side.place + 1 == m_polygons[side.face].size() ? 0 : side.place + 1;
+      return first_corner[side.face] + (of_low == side.forward ? side.place : next);
     };
-    std::vector<Arm> arms;
-    std::vector<std::size_t> vertex_of_corner;
-    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
-      const std::vector<std::size_t>& polygon = m_polygons[f];
-      const std::size_t size = polygon.size();
-      for(std::size_t i = 0; m_sound[f] && i < size; ++i) {
-        arms.push_back({polygon[i], polygon[(i + 1) % size], vertex_of_corner.size()});
-        arms.push_back({polygon[i], polygon[(i + size - 1) % size], vertex_of_corner.size()});
-        vertex_of_corner.push_back(polygon[i]);
-      }
-    }
-    std::sort(arms.begin(), arms.end());
-    Disjoint_sets corners(vertex_of_corner.size());
-    for(std::size_t i = 1; i < arms.size(); ++i)
-      if(arms[i].vertex == arms[i - 1].vertex && arms[i].neighbor == arms[i - 1].neighbor)
-        corners.unite(arms[i].corner, arms[i - 1].corner);
+    Disjoint_sets corners(first_corner.back());
+    for(std::size_t i = 1; i < m_sides.size(); ++i)
+      if(m_sides[i].low == m_sides[i - 1].low && m_sides[i].high == m_sides[i - 1].high)
+        for(const bool of_low : {true, false})
+          corners.unite(corner(m_sides[i], of_low), corner(m_sides[i - 1], of_low));
     std::vector<std::size_t> fans(m_n, 0);
-    for(std::size_t c = 0; c < vertex_of_corner.size(); ++c)
-      if(corners.find(c) == c)
-        ++fans[vertex_of_corner[c]];
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      for(std::size_t c = first_corner[f]; c < first_corner[f + 1]; ++c)
+        if(corners.find(c) == c)
+          ++fans[m_polygons[f][c - first_corner[f]]];
     for(std::size_t v = 0; v < m_n; ++v)
       if(fans[v] > 1)
         m_result.non_manifold_vertices.add(v, fans[v]);
@@ -349,37 +378,35 @@ private:
 
   void find_coincident_vertices()
   {
-    std::vector<std::size_t> order;
+    std::vector<std::pair<std::array<double, 3>, std::size_t>> order;
+    order.reserve(m_n);
     for(std::size_t v = 0; v < m_n; ++v)
       if(finite(v))
-        order.push_back(v);
-    const auto position = [&](const std::size_t v) {
-      return std::make_tuple(m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2));
-    };
-    std::sort(order.begin(), order.end(), [&](const std::size_t v, const std::size_t w) {
-      return position(v) != position(w) ? position(v) < position(w) : v < w;
-    });
+        order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
+    std::sort(order.begin(), order.end());
     const auto joined = [&](const std::size_t v, const std::size_t w) {
-      const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{v, w, 0, false});
+      const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{v, w, 0, 0, false});
       return side != m_sides.end() && side->low == v && side->high == w;
     };
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for(std::size_t i = 1, first = 0; i < order.size(); ++i)
-      if(position(order[i]) != position(order[first]))
+      if(order[i].first != order[first].first)
         first = i;
-      else if(!joined(order[first], order[i]) && !joined(order[i - 1], order[i]))
-        pairs.emplace_back(order[i], order[first]);
+      else if(!joined(order[first].second, order[i].second) && !joined(order[i - 1].second, order[i].second))
+        pairs.emplace_back(order[i].second, order[first].second);
     add_sorted(pairs, m_result.coincident_vertices);
   }
 
   void collect_components()
   {
     Disjoint_sets sets(m_n);
-    for(const Side& side : m_sides)
-      sets.unite(side.low, side.high);
     std::vector<std::size_t> component(m_n, std::size_t(-1));
-    for(const Side& side : m_sides)
-      component[sets.find(side.low)] = 0;
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      for(std::size_t i = 1; m_sound[f] && i < m_polygons[f].size(); ++i)
+        sets.unite(m_polygons[f][0], m_polygons[f][i]);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f])
+        component[sets.find(m_polygons[f][0])] = 0;
     for(std::size_t v = 0; v < m_n; ++v) {
       const std::size_t root = sets.find(v);
       if(component[root] == std::size_t(-1)) // isolated
@@ -408,7 +435,7 @@ private:
   const Eigen::MatrixXd& m_V;
   const Polygons& m_polygons;
   std::size_t m_n;
-  std::vector<bool> m_sound, m_border;
+  std::vector<bool> m_finite, m_sound, m_border;
   std::vector<Side> m_sides; // sorted
   Mesh_diagnosis m_result;
 };
