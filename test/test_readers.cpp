@@ -2,11 +2,17 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The readers of the programs: NumPy arrays and lists of indices, and what they say of files that are neither.
+// The readers of the programs, and what they say of files that are damaged; what they write, and what they show.
 
 #include "../examples/io/index_reader.h"
+#include "../examples/io/machine_memory.h"
 #include "../examples/io/matrix_io.h"
+#include "../examples/io/matrix_market_reader.h"
 #include "../examples/io/npy_reader.h"
+#include "../examples/io/output_files.h"
+#include "../examples/io/program.h"
+#include "../examples/io/text_mesh_readers.h"
+#include "../examples/report/svg_plot.h"
 
 #include "catch.h"
 
@@ -98,6 +104,8 @@ TEST_CASE("Arrays of both types, orders, byte orders and versions are read")
   CHECK(read(npy("<f8", "False", "6,", raw(numbers))) ==
         Eigen::Map<const Eigen::VectorXd>(numbers.data(), 6));
   CHECK(read(npy("<f8", "False", "0, 2", "")).cols() == 2);
+  CHECK(read(npy("<f8", "False", "0, 999999999999999", "")).rows() == 0);
+  CHECK(read(npy("<f8", "True", "999999999999999, 0", "")).cols() == 0);
 }
 
 TEST_CASE("What write_npy() writes is read again")
@@ -166,4 +174,166 @@ TEST_CASE("Indices are read one per line, and a bad line is named")
   CHECK_THROWS_WITH(indices("99999999999999999999999\n"), ContainsSubstring("100 vertices"));
   CHECK_THROWS_WITH(indices("\n\n"), ContainsSubstring("names no vertex"));
   CHECK_THROWS_WITH(read_indices("/no/such/list.txt", 5), ContainsSubstring("No such file"));
+}
+
+TEST_CASE(
+    "Headers of Matrix Market are read in any case, and their promises are judged before memory is taken")
+{
+  const std::string rest = " matrix coordinate Real General\n2 3 2\n1 1 0.5\n2 3 -2\n";
+  const auto no_objection = [](long long, long long, long long) { return std::string(); };
+  for(const std::string banner : {"%%MatrixMarket", "%%matrixmarket"}) {
+    const File file(banner + rest);
+    const Eigen::SparseMatrix<double> matrix = read_matrix_market(file.path(), no_objection);
+    CHECK(matrix.rows() == 2);
+    CHECK(matrix.coeff(1, 2) == -2);
+  }
+  const File file("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
+  const auto objection = [](long long rows, long long columns, long long nonzeros) {
+    CHECK(rows == 2000000000);
+    CHECK(columns == 2000000000);
+    return std::string(nonzeros < rows ? "is too large." : "");
+  };
+  CHECK_THROWS_WITH(read_matrix_market(file.path(), objection),
+                    ContainsSubstring("readers") && ContainsSubstring("' is too large."));
+}
+
+TEST_CASE("OFF files may have several vertices and faces on a line")
+{
+  const auto off = [](const std::string& text) {
+    const File file(text);
+    return read_off(file.path());
+  };
+  const Polygon_soup square = off("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  for(const std::string text : {"OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2 3\n",
+                                "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",
+                                "4OFF\n4 2\n0 0 0 2 1 0 0 1 1 1\n0 1 0 1 0 1 3 0 1 2\n3 0\n2 3\n"}) {
+    const Polygon_soup soup = off(text);
+    CHECK(soup.polygons == square.polygons);
+    CHECK(soup.points == square.points);
+  }
+  // What follows a vertex or a face on its line has no meaning.
+  CHECK(off("OFF\n4 2 0\n0 0 0 1 0 0\n1 0 0 9\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3\n").points ==
+        square.points);
+  // Neither reading: the error is that of the usual one.
+  CHECK_THROWS_WITH(off("OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2\n"),
+                    ContainsSubstring("it ends after 4 of 4 vertices") ||
+                        ContainsSubstring("it ends after 0 of 2 faces"));
+  CHECK_THROWS_WITH(off("OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2 3 4"),
+                    ContainsSubstring("it ends"));
+}
+
+TEST_CASE("Nothing that is shown controls a terminal, and nothing ends an attribute of a page")
+{
+  CHECK(printable("plain, \xC3\xA4, \xE2\x82\xAC, \xF0\x9F\x90\xB0") ==
+        "plain, \xC3\xA4, \xE2\x82\xAC, \xF0\x9F\x90\xB0");
+  CHECK(printable("\x1B[2J\r\n\x7F") == "?[2J???");
+  CHECK(printable("\xC2\x9B\x9B\xFF\xE2\x82") == "??????");
+  CHECK(escaped("'a' onerror=\"b\"") == "&#39;a&#39; onerror=&quot;b&quot;");
+}
+
+namespace {
+
+// An empty folder that lasts as long as the object.
+struct Folder
+{
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("spectral_folder_" + std::to_string(getpid()));
+
+  Folder() { std::filesystem::create_directory(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path); }
+
+  std::string file(const std::string& name) const { return (path / name).string(); }
+
+  void put(const std::string& name, const std::string& text) const
+  {
+    std::filesystem::create_directories((path / name).parent_path());
+    std::ofstream(path / name) << text;
+  }
+
+  std::string text(const std::string& name) const
+  {
+    std::ifstream stream(path / name);
+    return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  std::size_t size() const
+  {
+    return std::size_t(std::distance(std::filesystem::directory_iterator(path), {}));
+  }
+};
+
+} // namespace
+
+TEST_CASE("If one file cannot have its name, the others are what they were")
+{
+  const Folder folder;
+  folder.put("a", "old");
+  {
+    Output_files files({});
+    for(const std::string name : {"a", "b", "c"}) {
+      files.add(folder.file(name));
+      std::ofstream(files.temporary(folder.file(name))) << "new";
+    }
+    std::filesystem::create_directory(folder.path / "c"); // by somebody else, meanwhile
+    CHECK_THROWS_AS(files.commit(), Write_error);
+    CHECK(folder.text("a") == "old");
+    CHECK_FALSE(std::filesystem::exists(folder.path / "b"));
+  }
+  CHECK(folder.size() == 2); // a and c
+  std::filesystem::remove(folder.path / "c");
+  Output_files files({});
+  for(const std::string name : {"a", "b"}) {
+    files.add(folder.file(name));
+    std::ofstream(files.temporary(folder.file(name))) << "new";
+  }
+  files.commit();
+  CHECK(folder.text("a") == "new");
+  CHECK(folder.text("b") == "new");
+  CHECK(folder.size() == 2);
+}
+
+TEST_CASE("No output replaces an input, unless it may")
+{
+  const Folder folder;
+  folder.put("in.off", "input");
+  std::filesystem::create_symlink("in.off", folder.path / "link.off");
+  Output_files files({folder.file("in.off"), ""});
+  CHECK_THROWS_WITH(files.add(folder.file("in.off")), ContainsSubstring("read as an input"));
+  CHECK_THROWS_WITH(files.add(folder.file("link.off")), ContainsSubstring("read as an input"));
+  CHECK_THROWS_WITH(files.add(folder.file("./x/../in.off")), ContainsSubstring("read as an input"));
+  files.add(folder.file("in.off"), Output_files::Input::may_be_replaced);
+}
+
+TEST_CASE("The memory that is left is within the limits of control groups")
+{
+  const Folder folder;
+  folder.put("proc/meminfo", "MemTotal: 8000000 kB\nMemAvailable: 4000000 kB\nSwapFree: 1000000 kB\n");
+  CHECK(available_memory(folder.path) == 1024 * 5e6);
+  SECTION("of version 2")
+  {
+    folder.put("proc/self/cgroup", "0::/outer/inner\n");
+    folder.put("sys/fs/cgroup/outer/inner/memory.max", "max\n");
+    folder.put("sys/fs/cgroup/outer/inner/memory.current", "300000000\n");
+    CHECK(available_memory(folder.path) == 1024 * 5e6);
+    folder.put("sys/fs/cgroup/outer/memory.max", "1000000000\n");
+    folder.put("sys/fs/cgroup/outer/memory.current", "400000000\n");
+    folder.put("sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 100000000\nactive_file 7\n");
+    CHECK(available_memory(folder.path) == 7e8);
+  }
+  SECTION("of version 1, in a container that does not see its group's path")
+  {
+    folder.put("proc/self/cgroup", "3:cpuset:/\n4:cpu,memory:/docker/0123\n0::/\n");
+    folder.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "2000000000\n");
+    folder.put("sys/fs/cgroup/memory/memory.usage_in_bytes", "500000000\n");
+    folder.put("sys/fs/cgroup/memory/memory.stat", "inactive_file 1\ntotal_inactive_file 250000000\n");
+    CHECK(available_memory(folder.path) == 1.75e9);
+  }
+}
+
+TEST_CASE("No more threads are used than the machine runs at once")
+{
+  CHECK(usable_threads(1, true) == 1);
+  CHECK(usable_threads(100000, true) == (std::max)(1, int(std::thread::hardware_concurrency())));
 }

@@ -15,7 +15,6 @@
 #include <array>
 #include <cstddef>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,9 +84,7 @@ inline void write_coloured_ply(const std::string& file, const Mesh& mesh, const 
       stream << ' ' << position[v];
     stream << '\n';
   }
-  stream.close();
-  if(!stream)
-    throw std::runtime_error("cannot write '" + name + "': the disk refused it, is it full?");
+  finish_writing(stream, name);
 }
 
 #endif // SPECTRAL_EXAMPLES_COMPARE_COLOURED_MESH_H

@@ -5,27 +5,86 @@
 #ifndef SPECTRAL_EXAMPLES_IO_MACHINE_MEMORY_H
 #define SPECTRAL_EXAMPLES_IO_MACHINE_MEMORY_H
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
 #endif
 
-// Bytes that a program can still take: what Linux calls available, elsewhere all memory of the machine; 0 when unknown.
-inline double available_memory()
+namespace machine_memory_internal {
+
+// The first number of a file, or infinity: some say "max".
+inline double number_in(const std::filesystem::path& file)
 {
-  std::ifstream file("/proc/meminfo");
-  std::string name, unit;
-  double kilobytes, sum = 0;
-  while(file >> name >> kilobytes) {
-    std::getline(file, unit);
-    if(name == "MemAvailable:" || name == "SwapFree:")
-      sum += 1024 * kilobytes;
+  double number;
+  return std::ifstream(file) >> number ? number : std::numeric_limits<double>::infinity();
+}
+
+// The number beside `key` in a file of names and numbers, or 0.
+inline double number_beside(const std::string& key, const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  std::string name, rest;
+  for(double number; stream >> name >> number; std::getline(stream, rest))
+    if(name == key)
+      return number;
+  return 0;
+}
+
+// What is left in the control group at `path` below `mount` and in those around it, of which some may not be visible.
+inline double left_in_group(const std::filesystem::path& mount, const std::string& path, const char* limit,
+                            const char* usage, const char* idle)
+{
+  double left = std::numeric_limits<double>::infinity();
+  for(std::filesystem::path group = mount / std::filesystem::path(path).relative_path();;
+      group = group.parent_path()) {
+    const double most = number_in(group / limit), used = number_in(group / usage);
+    if(std::isfinite(most) && std::isfinite(used)) // idle pages of files are given up first
+      left = (std::min)(left, most - used + number_beside(idle, group / "memory.stat"));
+    if(group == mount || group == group.parent_path())
+      return (std::max)(left, 1.);
   }
+}
+
+// Of version 2 "0::/path", of version 1 "4:memory:/path".
+inline double left_in_groups(const std::filesystem::path& root)
+{
+  double left = std::numeric_limits<double>::infinity();
+  std::ifstream groups(root / "proc/self/cgroup");
+  const std::filesystem::path mount = root / "sys/fs/cgroup";
+  for(std::string line; std::getline(groups, line);) {
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if(second == std::string::npos)
+      continue;
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",",
+                      path = line.substr(second + 1);
+    if(controllers == ",,")
+      left = (std::min)(left, left_in_group(mount, path, "memory.max", "memory.current", "inactive_file"));
+    else if(controllers.find(",memory,") != std::string::npos)
+      left = (std::min)(left, left_in_group(mount / "memory", path, "memory.limit_in_bytes",
+                                            "memory.usage_in_bytes", "total_inactive_file"));
+  }
+  return left;
+}
+
+} // namespace machine_memory_internal
+
+// Bytes that a program can still take: what Linux calls available, within the limits of its control groups; elsewhere all
+// memory of the machine; 0 when unknown. The files of Linux are looked for below `root`.
+inline double available_memory(const std::filesystem::path& root = "/")
+{
+  using namespace machine_memory_internal;
+  const std::filesystem::path file = root / "proc/meminfo";
+  const double sum = 1024 * (number_beside("MemAvailable:", file) + number_beside("SwapFree:", file));
   if(sum > 0)
-    return sum;
+    return (std::min)(sum, left_in_groups(root));
 #if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
   return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
 #else

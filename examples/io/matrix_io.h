@@ -5,23 +5,17 @@
 #ifndef SPECTRAL_EXAMPLES_IO_MATRIX_IO_H
 #define SPECTRAL_EXAMPLES_IO_MATRIX_IO_H
 
+#include "output_files.h"
+
 #include <Eigen/SparseCore>
 
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 // Matrices for other programs. Each function writes the file `file`, which errors call `name`.
-
-inline void finish_writing(std::ofstream& stream, const std::string& name)
-{
-  stream.close();
-  if(!stream)
-    throw std::runtime_error("cannot write '" + name + "': the disk refused it, is it full?");
-}
 
 // Matrix Market, coordinate real general, indices from 1, 17 digits: scipy.io.mmread, MATLAB's mmread.
 inline void write_matrix_market(const std::string& file, const Eigen::SparseMatrix<double>& matrix,
@@ -65,13 +59,13 @@ void write_npy(const std::string& file, const Matrix& matrix, const std::string&
   finish_writing(stream, name);
 }
 
-// One index per line, counted from 0.
+// One index per line, counted from 0; what is no index, the largest of numbers, is -1.
 inline void write_indices(const std::string& file, const std::vector<std::size_t>& indices,
                           const std::string& name)
 {
   std::ofstream stream(file);
   for(const std::size_t index : indices)
-    stream << index << '\n';
+    stream << static_cast<long long>(index) << '\n';
   finish_writing(stream, name);
 }
 

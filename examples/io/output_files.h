@@ -12,20 +12,47 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+// A file could not be written.
+class Write_error : public std::runtime_error
+{
+public:
+  Write_error(const std::string& path, const std::string& reason)
+    : std::runtime_error("cannot write '" + path + "': " + reason)
+  {}
+};
+
+// Closes a stream to the file that errors call `name`.
+inline void finish_writing(std::ofstream& stream, const std::string& name)
+{
+  stream.close();
+  if(!stream)
+    throw Write_error(name, "the disk refused it, is it full?");
+}
+
 // The files that a program writes: either all of them appear, complete, or none.
 //
-// Each file is written under another name in the folder where it will be. `commit()` renames them at the end; if it is
-// never reached, the destructor removes them. Because they are made at the start, a name that cannot be
+// Each file is written under another name in the folder where it will be. `commit()` renames them at the end; what it is
+// never asked for, the destructor removes. Because they are made at the start, a name that cannot be
 // written is reported before the work, not after it.
 class Output_files
 {
 public:
-  Output_files() = default;
+  enum class Input { is_kept, may_be_replaced };
+
+  // The files `inputs`, of which those without a name are none, are not replaced.
+  explicit Output_files(const std::vector<std::string>& inputs)
+  {
+    std::error_code error; // reading them says what is wrong
+    for(const std::string& path : inputs)
+      if(!path.empty())
+        m_inputs.insert(resolved(path, error).string());
+  }
   Output_files(const Output_files&) = delete;
   Output_files& operator=(const Output_files&) = delete;
 
@@ -35,47 +62,37 @@ public:
     for(const File& file : m_files)
       std::filesystem::remove(file.temporary, ignored);
     for(auto folder = m_new_folders.rbegin(); folder != m_new_folders.rend(); ++folder)
-      std::filesystem::remove(*folder, ignored);
-  }
-
-  // The file `path` is an input that no output may replace; call it before `add()`.
-  void keep(const std::string& path)
-  {
-    std::error_code error;
-    const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-    if(!error)
-      m_inputs.insert(std::filesystem::weakly_canonical(absolute, error).string());
+      std::filesystem::remove(*folder, ignored); // not if there is anything in it
   }
 
   // Makes room for the file `path`.
-  void add(const std::string& path)
+  void add(const std::string& path, const Input input = Input::is_kept)
   {
     namespace fs = std::filesystem;
     std::error_code error;
-    // Following links replaces the file they lead to, not the link.
-    const fs::path target = fs::weakly_canonical(fs::absolute(path), error);
+    const fs::path target = resolved(path, error);
     if(error)
-      throw std::runtime_error("cannot write '" + path + "': " + error.message() + ".");
+      throw Write_error(path, error.message() + ".");
     const fs::path folder = target.parent_path();
     if(!fs::is_directory(folder, error))
-      throw std::runtime_error("cannot write '" + path + "': there is no folder '" + folder.string() + "'.");
+      throw Write_error(path, "there is no folder '" + folder.string() + "'.");
     if(target.filename().empty() || (fs::exists(target, error) && !fs::is_regular_file(target, error)))
-      throw std::runtime_error("cannot write '" + path + "': it is not an ordinary file.");
-    if(m_inputs.count(target.string()) > 0)
-      throw std::runtime_error("cannot write '" + path + "': it is read as an input, give another name.");
+      throw Write_error(path, "it is not an ordinary file.");
+    if(input == Input::is_kept && m_inputs.count(target.string()) > 0)
+      throw Write_error(path, "it is read as an input, give another name.");
     if(!m_targets.insert(target.string()).second)
-      throw std::runtime_error("cannot write '" + path + "' twice: two outputs have the same name.");
+      throw Write_error(path, "it would be written twice, two outputs have the same name.");
     if(fs::exists(target, error) && access(target.c_str(), W_OK) != 0)
-      throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno) + ".");
+      throw Write_error(path, std::strerror(errno) + std::string("."));
 
     // The extension stays: CGAL chooses the format by it.
     const fs::path temporary = folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + "-" +
                                          std::to_string(m_targets.size()) + target.extension().string());
     const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if(descriptor < 0)
-      throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno) + ".");
+      throw Write_error(path, std::strerror(errno) + std::string("."));
     close(descriptor);
-    m_files.push_back({path, target, temporary});
+    m_files.push_back({path, target, temporary, {}});
   }
 
   // The name under which the file `path`, which was added, is to be written meanwhile.
@@ -88,28 +105,7 @@ public:
     return file->temporary.string();
   }
 
-  // The file `path`, which was added, will not be written after all.
-  void drop(const std::string& path)
-  {
-    const auto file =
-        std::find_if(m_files.begin(), m_files.end(), [&](const File& f) { return f.path == path; });
-    if(file == m_files.end())
-      return;
-    std::error_code ignored;
-    std::filesystem::remove(file->temporary, ignored);
-    m_files.erase(file);
-  }
-
-  // Removes the folders that were made, if nothing is written into them after all.
-  void drop_new_folders()
-  {
-    std::error_code ignored;
-    for(auto folder = m_new_folders.rbegin(); folder != m_new_folders.rend(); ++folder)
-      std::filesystem::remove(*folder, ignored); // not if there is anything in it
-    m_new_folders.clear();
-  }
-
-  // Makes the folder `path` unless it exists; it is removed again if nothing is committed.
+  // Makes the folder `path` unless it exists; it is removed again if nothing is written into it.
   void add_folder(const std::string& path)
   {
     std::error_code error;
@@ -122,26 +118,15 @@ public:
     m_new_folders.push_back(path);
   }
 
-  // Gives the files their names, after their contents have reached the disk.
-  void commit()
+  // Gives all files their names.
+  void commit() { commit(m_files.begin()); }
+
+  // Gives the files `paths` their names; the others may follow later.
+  void commit(const std::vector<std::string>& paths)
   {
-    for(const File& file : m_files) {
-      const int descriptor = open(file.temporary.c_str(), O_RDONLY | O_CLOEXEC);
-      const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
-      const int reason = errno;
-      if(descriptor >= 0)
-        close(descriptor);
-      if(!synced)
-        throw std::runtime_error("cannot write '" + file.path + "': " + std::strerror(reason) + ".");
-    }
-    for(const File& file : m_files) {
-      std::error_code error;
-      std::filesystem::rename(file.temporary, file.target, error);
-      if(error)
-        throw std::runtime_error("cannot write '" + file.path + "': " + error.message() + ".");
-    }
-    m_files.clear();
-    m_new_folders.clear();
+    commit(std::stable_partition(m_files.begin(), m_files.end(), [&](const File& file) {
+      return std::find(paths.begin(), paths.end(), file.path) == paths.end();
+    }));
   }
 
 private:
@@ -149,7 +134,70 @@ private:
   {
     std::string path; // as the user wrote it
     std::filesystem::path target, temporary;
+    std::filesystem::path former; // a second name of the file that `target` was
   };
+
+  // Gives the files from `begin` on their names, after their contents have reached the disk. If one of them cannot have it,
+  // the files that were there before are back when the error is thrown.
+  void commit(const std::vector<File>::iterator begin)
+  {
+    for(auto file = begin; file != m_files.end(); ++file) {
+      const int descriptor = open(file->temporary.c_str(), O_RDONLY | O_CLOEXEC);
+      const bool synced = descriptor >= 0 && fsync(descriptor) == 0;
+      const int reason = errno;
+      if(descriptor >= 0)
+        close(descriptor);
+      if(!synced)
+        throw Write_error(file->path, std::strerror(reason) + std::string("."));
+    }
+    std::error_code ignored;
+    auto file = begin;
+    try {
+      for(; file != m_files.end(); ++file)
+        rename(*file);
+    } catch(...) {
+      while(file != begin)
+        if((--file)->former.empty())
+          std::filesystem::remove(file->target, ignored);
+        else
+          std::filesystem::rename(file->former, file->target, ignored);
+      throw;
+    }
+    for(file = begin; file != m_files.end(); ++file)
+      if(!file->former.empty())
+        std::filesystem::remove(file->former, ignored);
+    m_files.erase(begin, m_files.end());
+  }
+
+  // Following links replaces the file they lead to, not the link.
+  static std::filesystem::path resolved(const std::string& path, std::error_code& error)
+  {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  }
+
+  static void rename(File& file)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    if(fs::exists(file.target, error)) {
+      // The target never lacks a name: a process that is killed leaves the old file or the new one.
+      fs::path former = file.temporary;
+      former += ".old";
+      fs::create_hard_link(file.target, former, error);
+      if(error) // not every file system has them
+        fs::copy_file(file.target, former, error);
+      if(error)
+        throw Write_error(file.path, error.message() + ".");
+      file.former = former;
+    }
+    fs::rename(file.temporary, file.target, error);
+    if(!error)
+      return;
+    std::error_code ignored;
+    if(!file.former.empty())
+      fs::remove(file.former, ignored);
+    throw Write_error(file.path, error.message() + ".");
+  }
 
   std::vector<File> m_files;
   std::vector<std::filesystem::path> m_new_folders;

@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_REPORT_COMPARISON_TABLE_H
 #define SPECTRAL_EXAMPLES_REPORT_COMPARISON_TABLE_H
 
+#include "../io/program.h"
 #include "Comparison.h"
 #include "html_figures.h"
 
@@ -35,7 +36,7 @@ inline void print_block(const Comparison& c, std::size_t N, const std::string& m
   double floor_L = not_computed, floor_D = not_computed;
   for(const auto& [s, j] : html_internal::judged(c, N, mass)) {
     const Map_norms closest = j->closest ? *j->closest : Map_norms();
-    std::printf("%-40s %-8s %-8s %-5s %6zu %s %s %s %s %s %s %s %s %s %s\n", s->simplifier.c_str(),
+    std::printf("%-40s %-8s %-8s %-5s %6zu %s %s %s %s %s %s %s %s %s %s\n", printable(s->simplifier).c_str(),
                 s->placement.c_str(), s->metric_mass.c_str(), s->relocation.c_str(), s->vertices,
                 cell(j->norms().norm_L, 8, 2).c_str(), cell(j->norms().norm_D, 6, 2).c_str(),
                 cell(closest.norm_L, 9, 2).c_str(), cell(closest.norm_D, 8, 2).c_str(),
@@ -56,12 +57,12 @@ inline void print_comparison(const Comparison& c)
 {
   std::printf("%s, %zu vertices, K = %d; norms at unit area, not squared; closest: with the P of the closest "
               "points\n",
-              c.mesh.c_str(), c.vertices, static_cast<int>(c.K));
+              printable(c.mesh).c_str(), c.vertices, static_cast<int>(c.K));
   for(const std::size_t N : html_internal::sizes(c))
     for(const Fine_spectrum& f : c.fine)
       comparison_table_internal::print_block(c, N, f.mass);
   for(const std::string& note : html_internal::all_notes(c))
-    std::printf("\n%s\n", note.c_str());
+    std::printf("\n%s\n", printable(note).c_str());
 }
 
 #endif // SPECTRAL_EXAMPLES_REPORT_COMPARISON_TABLE_H
