@@ -17,8 +17,10 @@
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
+#include "io/program.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 
 #include <boost/program_options.hpp>
@@ -414,7 +416,7 @@ int run(int argc, char* argv[])
                              ", it must lie between 0 and 1000000000.");
 
   mesh_format(output);
-  Output_files files;
+  Output_files files({});
   files.add(output);
   if(!map.empty())
     files.add(map);
@@ -429,16 +431,11 @@ int run(int argc, char* argv[])
   if(!map.empty())
     write_indices(files.temporary(map), numbers, map);
   files.commit();
-  std::cout << output << ": " << num_vertices(mesh) << " vertices, " << num_faces(mesh) << " faces\n";
+  std::cout << printable(output) << ": " << num_vertices(mesh) << " vertices, " << num_faces(mesh) << " faces\n";
   return 0;
 }
 
 int main(int argc, char* argv[])
 {
-  try {
-    return run(argc, argv);
-  } catch(const std::exception& error) {
-    std::cerr << "make_demo_shape: " << error.what() << '\n';
-    return 1;
-  }
+  return run_program("make_demo_shape", [&] { return run(argc, argv); });
 }

@@ -5,7 +5,7 @@
 // check_outputs FOLDER INPUT OUTPUT: reads what spectral_simplify wrote into FOLDER (P.mtx, Q.mtx, map.txt, out.json and
 // the folder pairs) and checks every definition. Prints the first that does not hold.
 
-#include "io/mesh_io.h"
+#include "io/input_mesh.h"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -209,7 +209,8 @@ int main(int argc, char* argv[])
     const std::string folder = argv[1];
     const nlohmann::json json = nlohmann::json::parse(std::ifstream(folder + "/out.json"));
     check_json(json);
-    const Dense fine = positions(read_mesh(argv[2])), coarse = positions(read_mesh(argv[3]));
+    const Dense fine = positions(read_input_mesh(argv[2], Mending::none).mesh),
+                coarse = positions(read_input_mesh(argv[3], Mending::none).mesh);
     require(json.at("input_vertices") == fine.rows() && json.at("output_vertices") == coarse.rows(),
             "the JSON file counts the vertices");
     const Sparse P = read_mtx(folder + "/P.mtx"), Q = read_mtx(folder + "/Q.mtx");

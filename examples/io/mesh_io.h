@@ -13,7 +13,6 @@
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <CGAL/IO/STL.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
@@ -117,29 +116,6 @@ inline CGAL::Spectral_geometry::Mesh_diagnosis diagnose(const Polygon_soup& soup
   return CGAL::Spectral_geometry::diagnose_polygon_soup(V, soup.polygons);
 }
 
-// Makes a mesh of what was read from `path`; throws with the first obstacle and with `help`, what to do about it.
-inline Mesh to_mesh(const Polygon_soup& soup, const std::string& path, const std::string& help)
-{
-  const CGAL::Spectral_geometry::Mesh_diagnosis diagnosis = diagnose(soup);
-  const std::vector<std::string> obstacles = diagnosis.obstacles();
-  // Such a mesh is told to be scaled, and no repair does that.
-  const bool help_applies = !diagnosis.out_of_scale() || diagnosis.non_finite_vertices.count != 0;
-  if(!obstacles.empty())
-    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() +
-                             (help_applies ? help : std::string()) + ".");
-  if(diagnosis.number_of_faces == 0)
-    throw std::runtime_error("'" + path + "' has no faces left" + help + ".");
-  Mesh mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
-  return mesh;
-}
-
-// Reads a triangle mesh; its vertices have the order of the file (of first appearance for STL).
-inline Mesh read_mesh(const std::string& path)
-{
-  return to_mesh(read_polygon_soup(path), path, ", or let spectral_simplify --repair do it");
-}
-
 // Writes a mesh, its vertices in the order of `vertices(mesh)`, to the file `file`, which errors call `name`.
 inline void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name)
 {
@@ -154,7 +130,7 @@ inline void write_mesh(const std::string& file, const Mesh& mesh, const std::str
                     : format == ".obj" ? CGAL::IO::write_OBJ(stream, mesh)
                                        : CGAL::IO::write_OFF(stream, mesh);
   if(!good)
-    throw std::runtime_error("cannot write '" + name + "': the disk refused it, is it full?");
+    throw Write_error(name, "the disk refused it, is it full?");
   finish_writing(stream, name);
 }
 

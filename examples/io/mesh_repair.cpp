@@ -18,10 +18,16 @@
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/utility.h>
 #include <CGAL/version.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
 
 namespace {
 
@@ -146,18 +152,64 @@ Exact_soup to_soup(const Exact_mesh& mesh)
   return soup;
 }
 
+// The triangles of one polygon as the minimal surface that it bounds, or as a fan: there is always something.
+std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
+                                                   const std::vector<std::size_t>& polygon)
+{
+  std::vector<Exact_predicates::Point_3> boundary;
+  for(const std::size_t v : polygon)
+    boundary.push_back(soup.points[v]);
+  std::vector<CGAL::Triple<int, int, int>> triples;
+  PMP::triangulate_hole_polyline(boundary, std::back_inserter(triples));
+  if(triples.size() != polygon.size() - 2) {
+    triples.clear();
+    for(int i = 2; i < int(polygon.size()); ++i)
+      triples.emplace_back(0, i - 1, i);
+  }
+  std::vector<std::vector<std::size_t>> triangles;
+  for(const auto& t : triples)
+    triangles.push_back(
+        {polygon[std::size_t(t.first)], polygon[std::size_t(t.second)], polygon[std::size_t(t.third)]});
+  return triangles;
+}
+
+// Each polygon apart from the others, which may share diagonals with it.
 void triangulate(Exact_soup& soup, Repair_log& log)
 {
-  const auto polygons = std::count_if(soup.polygons.begin(), soup.polygons.end(),
-                                      [](const auto& polygon) { return polygon.size() > 3; });
+  Exact_mesh mesh;
+  std::vector<std::size_t> vertex; // of the soup for each of the mesh
+  std::vector<std::vector<std::size_t>> triangles;
+  std::size_t polygons = 0;
+  for(const std::vector<std::size_t>& polygon : soup.polygons) {
+    if(polygon.size() == 3) {
+      triangles.push_back(polygon);
+      continue;
+    }
+    ++polygons;
+    std::vector<Exact_mesh::Vertex_index> corners;
+    for(const std::size_t v : polygon) {
+      corners.push_back(mesh.add_vertex(soup.points[v]));
+      vertex.push_back(v);
+    }
+    mesh.add_face(corners);
+  }
   if(polygons == 0)
     return;
-  Exact_mesh mesh = to_mesh(soup);
-  PMP::triangulate_faces(mesh);
-  soup = to_soup(mesh);
-  log.add("polygon triangulated", "polygons triangulated", std::size_t(polygons));
-  // Two polygons may have got the same diagonal.
-  orient(soup, log);
+  PMP::triangulate_faces(mesh); // leaves some that are not plane
+  for(const auto f : mesh.faces()) {
+    std::vector<std::size_t> polygon;
+    for(const auto v : vertices_around_face(mesh.halfedge(f), mesh))
+      polygon.push_back(vertex[v]);
+    if(polygon.size() == 3)
+      triangles.push_back(polygon);
+    else
+      for(const auto& triangle : triangles_of(soup, polygon))
+        triangles.push_back(triangle);
+  }
+  soup.polygons = std::move(triangles);
+  log.add("polygon triangulated", "polygons triangulated", polygons);
+  log.add("copy of a face removed", "copies of faces removed",
+          PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
 }
 
 // Needles are collapsed, caps flipped; thresholds: edges of a ratio of a million, an angle of 179.9999 degrees.
@@ -174,15 +226,55 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
+// The result in the order of `input`, and how the vertices of both belong together: by their positions, as repair moves
+// no vertex, and leaves one where several had been.
+Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input, const std::vector<bool>& used,
+                      std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin)
+{
+  std::map<std::array<double, 3>, std::size_t> places; // and the first vertex of the input there
+  const auto position = [](const auto& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
+  for(std::size_t v = 0; v < input.points.size(); ++v)
+    if(used[v])
+      places.emplace(position(input.points[v]), v);
+  std::vector<std::pair<std::size_t, std::size_t>> order;
+  for(std::size_t w = 0; w < result.points.size(); ++w)
+    order.emplace_back(places.at(position(result.points[w])), w);
+  std::sort(order.begin(), order.end());
+
+  Polygon_soup soup;
+  std::vector<std::size_t> rank(order.size()), first(input.points.size(), no_vertex);
+  origin.clear();
+  for(const auto& [v, w] : order) {
+    rank[w] = soup.points.size();
+    first[v] = (std::min)(first[v], rank[w]);
+    soup.points.emplace_back(result.points[w].x(), result.points[w].y(), result.points[w].z());
+    origin.push_back(v);
+  }
+  soup.polygons = result.polygons;
+  for(auto& polygon : soup.polygons)
+    for(std::size_t& w : polygon)
+      w = rank[w];
+  vertex.assign(input.points.size(), no_vertex);
+  for(std::size_t v = 0; v < vertex.size(); ++v)
+    if(used[v])
+      vertex[v] = first[places.at(position(input.points[v]))];
+  return soup;
+}
+
 } // namespace
 
-Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log)
+Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log, std::vector<std::size_t>& vertex,
+                           std::vector<std::size_t>& origin)
 {
   const Silence silence; // what CGAL warns of, the diagnosis says better
   Exact_soup soup = usable_part(input, log);
+  std::vector<bool> used(input.points.size(), false);
+  for(const auto& polygon : soup.polygons)
+    for(const std::size_t v : polygon)
+      used[v] = true;
   clean(soup, log);
-  orient(soup, log);
   triangulate(soup, log);
+  orient(soup, log);
   Exact_mesh mesh = to_mesh(soup);
   log.add("pair of border edges stitched", "pairs of border edges stitched", PMP::stitch_borders(mesh));
   mesh.collect_garbage();
@@ -194,10 +286,5 @@ Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log)
   log.add("isolated vertex removed", "isolated vertices removed", PMP::remove_isolated_vertices(mesh));
   mesh.collect_garbage();
 
-  const Exact_soup result = to_soup(mesh);
-  Polygon_soup repaired;
-  for(const Exact_predicates::Point_3& p : result.points)
-    repaired.points.emplace_back(p.x(), p.y(), p.z());
-  repaired.polygons = result.polygons;
-  return repaired;
+  return in_order(to_soup(mesh), input, used, vertex, origin);
 }

@@ -43,8 +43,9 @@ private:
 };
 
 // Makes what can be made an oriented 2-manifold of triangles with area out of the polygons of a file, with CGAL's own repair
-// functions. Vertices keep their order as far as they stay. What is still wrong afterwards is for
-// `diagnose_polygon_soup()` to say.
-Polygon_soup repaired_soup(const Polygon_soup& soup, Repair_log& log);
+// functions. Vertices keep their order as far as they stay: `vertex` says which is each of the file, or `no_vertex`, and
+// `origin` which of the file each is. What is still wrong afterwards is for `diagnose_polygon_soup()` to say.
+Polygon_soup repaired_soup(const Polygon_soup& soup, Repair_log& log, std::vector<std::size_t>& vertex,
+                           std::vector<std::size_t>& origin);
 
 #endif // SPECTRAL_EXAMPLES_IO_MESH_REPAIR_H

@@ -4,7 +4,7 @@
 
 #include "subjects.h"
 
-#include "../../examples/io/mesh_io.h"
+#include "../../examples/io/input_mesh.h"
 #include "generated_shape.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -34,7 +34,7 @@ Mesh load(const std::string& name)
 {
   const std::string prefix = "generated:";
   if(name.compare(0, prefix.size(), prefix) != 0)
-    return read_mesh(name);
+    return read_input_mesh(name, Mending::none).mesh;
   Mesh mesh;
   shapes::make_mesh(mesh, generated_shape(std::stoul(name.substr(prefix.size()))));
   return mesh;
@@ -47,9 +47,8 @@ SG::Mass mass(const Setting& setting)
 
 SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int threads)
 {
-  SMS::Spectral_edge_collapse_options options = setting.paper
-                                                    ? SMS::Spectral_edge_collapse_options::paper()
-                                                    : SMS::Spectral_edge_collapse_options::best();
+  SMS::Spectral_edge_collapse_options options = setting.paper ? SMS::Spectral_edge_collapse_options::paper()
+                                                              : SMS::Spectral_edge_collapse_options::best();
   options.number_of_eigenvectors = setting.eigenvectors;
   options.pre_simplify = setting.pre_simplify;
   options.threads = threads;

@@ -1,0 +1,249 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "input_mesh.h"
+
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+namespace {
+
+using CGAL::Spectral_geometry::Mesh_diagnosis;
+using Polygons = std::vector<std::vector<std::size_t>>;
+
+// Polygons with vertices of the file, and which of these have become one.
+struct Mended
+{
+  Polygons polygons;
+  std::vector<std::size_t> vertex; // the one that stands for each
+  Repair_log log;
+};
+
+// Merges the ends of edges without length; what is no polygon then goes.
+void close_edges(const Polygon_soup& soup, Mended& mended)
+{
+  CGAL::Spectral_geometry::internal::Disjoint_sets sets(soup.points.size());
+  for(const auto& p : mended.polygons)
+    for(std::size_t i = 0; i < p.size(); ++i) {
+      const std::size_t v = p[i], w = p[(i + 1) % p.size()];
+      if(soup.points[v] == soup.points[w])
+        sets.unite(v, w);
+    }
+  std::size_t merged = 0;
+  for(std::size_t v = 0; v < mended.vertex.size(); ++v) {
+    mended.vertex[v] = sets.find(v);
+    merged += mended.vertex[v] != v;
+  }
+  for(auto& p : mended.polygons) {
+    for(std::size_t& v : p)
+      v = mended.vertex[v];
+    p.erase(std::unique(p.begin(), p.end()), p.end());
+    while(p.size() > 1 && p.front() == p.back())
+      p.pop_back();
+  }
+  mended.polygons.erase(std::remove_if(mended.polygons.begin(), mended.polygons.end(),
+                                       [](const auto& p) { return p.size() < 3; }),
+                        mended.polygons.end());
+  mended.log.add("edge without length closed", "edges without length closed", merged);
+}
+
+void remove_copies(Mended& mended)
+{
+  const std::size_t before = mended.polygons.size();
+  std::set<std::vector<std::size_t>> known;
+  mended.polygons.erase(std::remove_if(mended.polygons.begin(), mended.polygons.end(),
+                                       [&](std::vector<std::size_t> p) {
+                                         std::sort(p.begin(), p.end());
+                                         return !known.insert(std::move(p)).second;
+                                       }),
+                        mended.polygons.end());
+  mended.log.add("copy of a face removed", "copies of faces removed", before - mended.polygons.size());
+}
+
+// Turns the smaller part of each component round where its faces then agree along all edges, and no faces otherwise.
+void orient(Mended& mended)
+{
+  struct Side
+  {
+    std::size_t face;
+    bool forward;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<Side>> sides;
+  for(std::size_t f = 0; f < mended.polygons.size(); ++f) {
+    const auto& p = mended.polygons[f];
+    for(std::size_t i = 0; i < p.size(); ++i) {
+      const std::size_t v = p[i], w = p[(i + 1) % p.size()];
+      sides[std::minmax(v, w)].push_back({f, v < w});
+    }
+  }
+  std::vector<std::vector<std::pair<std::size_t, bool>>> neighbours(
+      mended.polygons.size()); // and whether they differ
+  for(const auto& [edge, both] : sides) {
+    if(both.size() > 2)
+      return;
+    if(both.size() == 2)
+      for(const std::size_t k : {0, 1})
+        neighbours[both[k].face].push_back({both[1 - k].face, both[0].forward == both[1].forward});
+  }
+  enum State : char { unseen, as_it_is, turned };
+  std::vector<State> state(mended.polygons.size(), unseen);
+  std::vector<std::size_t> to_turn;
+  for(std::size_t seed = 0; seed < state.size(); ++seed) {
+    if(state[seed] != unseen)
+      continue;
+    std::vector<std::size_t> component = {seed};
+    state[seed] = as_it_is;
+    for(std::size_t i = 0; i < component.size(); ++i)
+      for(const auto& [g, differs] : neighbours[component[i]]) {
+        const State wanted = (state[component[i]] == turned) != differs ? turned : as_it_is;
+        if(state[g] == unseen) {
+          state[g] = wanted;
+          component.push_back(g);
+        } else if(state[g] != wanted)
+          return; // one-sided
+      }
+    const auto count = [&](const State s) {
+      return std::count_if(component.begin(), component.end(),
+                           [&](const std::size_t f) { return state[f] == s; });
+    };
+    const State fewer = count(turned) <= count(as_it_is) ? turned : as_it_is;
+    for(const std::size_t f : component)
+      if(state[f] == fewer)
+        to_turn.push_back(f);
+  }
+  for(const std::size_t f : to_turn)
+    std::reverse(mended.polygons[f].begin(), mended.polygons[f].end());
+  mended.log.add("face turned round", "faces turned round", to_turn.size());
+}
+
+Mended mended(const Polygon_soup& soup, const bool merge)
+{
+  Mended result;
+  result.polygons = soup.polygons;
+  result.vertex.resize(soup.points.size());
+  std::iota(result.vertex.begin(), result.vertex.end(), std::size_t(0));
+  if(merge)
+    close_edges(soup, result);
+  remove_copies(result);
+  orient(result);
+  return result;
+}
+
+std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
+{
+  // Such a mesh is told to be scaled, and no repair does that.
+  if(diagnosis.out_of_scale() && diagnosis.non_finite_vertices.count == 0)
+    return "";
+  return mending == Mending::full ? ", which --repair could not do" : ", or add --repair";
+}
+
+// Makes the mesh of a soup without what `diagnosis` calls isolated vertices. `vertex` says which vertex of the soup stands for
+// each vertex of the file, or is `no_vertex`; `origin` says where each vertex of the soup is in the file.
+void build(Input_mesh& input, const std::string& path, const Mending mending, Polygon_soup soup,
+           const std::vector<std::size_t>& vertex, const std::vector<std::size_t>& origin)
+{
+  Mesh_diagnosis& diagnosis = input.diagnosis;
+  const std::vector<std::string> obstacles = diagnosis.obstacles();
+  if(!obstacles.empty())
+    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() +
+                             help_with(diagnosis, mending) + ".");
+  if(diagnosis.number_of_faces == 0)
+    throw std::runtime_error("'" + path + "' has no faces left" + help_with(diagnosis, mending) + ".");
+  std::vector<std::size_t> place(soup.points.size(), no_vertex), file_vertices;
+  for(const auto& p : soup.polygons)
+    for(const std::size_t v : p)
+      place[v] = 0;
+  std::size_t n = 0;
+  for(std::size_t v = 0; v < place.size(); ++v)
+    if(place[v] == 0) {
+      place[v] = n;
+      soup.points[n++] = soup.points[v];
+      file_vertices.push_back(origin[v]);
+    }
+  if(n < soup.points.size()) {
+    soup.points.resize(n);
+    for(auto& p : soup.polygons)
+      for(std::size_t& v : p)
+        v = place[v];
+  }
+  std::vector<std::size_t> mesh_vertices;
+  for(const std::size_t v : vertex)
+    mesh_vertices.push_back(v == no_vertex ? no_vertex : place[v]);
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, input.mesh);
+  input.numbering = Vertex_numbering(std::move(mesh_vertices), std::move(file_vertices));
+  for(CGAL::Spectral_geometry::Mesh_component& c : diagnosis.components)
+    c.first = origin[c.first];
+}
+
+} // namespace
+
+std::string Input_mesh::changes_of(const std::string& path) const
+{
+  std::string list;
+  for(const Repair& change : changes)
+    list += (list.empty() ? " " : ", ") + std::to_string(change.count) + " " + change.what();
+  return list.empty() ? "" : "'" + path + "':" + list + ".";
+}
+
+Input_mesh read_input_mesh(const std::string& path, const Mending mending)
+{
+  Polygon_soup soup = read_polygon_soup(path);
+  Input_mesh input;
+  Repair_log log;
+  std::vector<std::size_t> vertex(soup.points.size()), origin;
+  std::iota(vertex.begin(), vertex.end(), std::size_t(0));
+  if(mending == Mending::full) {
+    Polygon_soup repaired = repaired_soup(soup, log, vertex, origin);
+    input.diagnosis = diagnose(repaired);
+    soup = std::move(repaired);
+  } else {
+    input.diagnosis = diagnose(soup);
+    origin = vertex;
+    // Not before every face is one.
+    const Mesh_diagnosis& d = input.diagnosis;
+    if(mending == Mending::plain &&
+       d.non_finite_vertices.count + d.foreign_indices.count + d.repeated_vertices.count == 0) {
+      const bool merge = d.zero_length_edges.count != 0;
+      if(merge || d.duplicate_faces.count + d.misoriented_edges.count != 0) {
+        for(const bool merging : {true, false}) {
+          if(merging && !merge)
+            continue;
+          Mended candidate = mended(soup, merging);
+          Polygon_soup changed{soup.points, candidate.polygons};
+          Mesh_diagnosis diagnosis = diagnose(changed);
+          diagnosis.isolated_vertices = {};
+          // Where merging leaves an obstacle, the simplification deals with such edges.
+          if(!merging || diagnosis.usable()) {
+            soup = std::move(changed);
+            vertex = std::move(candidate.vertex);
+            input.diagnosis = std::move(diagnosis);
+            log = std::move(candidate.log);
+            break;
+          }
+        }
+      }
+      input.diagnosis.isolated_vertices = {};
+      std::vector<bool> used(soup.points.size(), false);
+      for(const auto& p : soup.polygons)
+        for(const std::size_t v : p)
+          used[v] = true;
+      std::size_t isolated = 0;
+      for(std::size_t& v : vertex)
+        if(!used[v]) {
+          v = no_vertex;
+          ++isolated;
+        }
+      log.add("isolated vertex left out", "isolated vertices left out", isolated);
+    }
+  }
+  input.changes = log.changes();
+  build(input, path, mending, std::move(soup), vertex, origin);
+  return input;
+}

@@ -1,0 +1,46 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_IO_INPUT_MESH_H
+#define SPECTRAL_EXAMPLES_IO_INPUT_MESH_H
+
+#include "mesh_io.h"
+#include "mesh_repair.h"
+#include "vertex_numbering.h"
+
+#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// A mesh that a program reads, with what was changed so that it can be used.
+struct Input_mesh
+{
+  Mesh mesh;
+  Vertex_numbering numbering;
+  CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
+  std::vector<Repair> changes;
+
+  // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was changed.
+  std::string changes_of(const std::string& path) const;
+};
+
+// What may be changed: nothing; what leaves the surface as it is, that is isolated vertices, copies of faces, edges
+// without length, faces turned the other way than their neighbours; or anything, see `repaired_soup()`.
+enum class Mending { none, plain, full };
+
+// What the options --strict and --repair ask for.
+inline Mending mending(const bool strict, const bool repair)
+{
+  if(strict && repair)
+    throw std::runtime_error("--strict and --repair cannot both be given.");
+  return strict ? Mending::none : repair ? Mending::full : Mending::plain;
+}
+
+// Reads a triangle mesh, its vertices in the order of the file (of first appearance for STL). Throws with the first
+// obstacle that is left.
+Input_mesh read_input_mesh(const std::string& path, Mending mending);
+
+#endif // SPECTRAL_EXAMPLES_IO_INPUT_MESH_H
