@@ -4,9 +4,11 @@
 
 // Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows the options.
 
+#include "io/input_mesh.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
+#include "io/program.h"
 #include "matching/geodesic_error.h"
 #include "matching/matching_arguments.h"
 #include "matching/matching_report.h"
@@ -14,13 +16,11 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 
 #include <chrono>
-#include <csignal>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <iostream>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -28,14 +28,6 @@
 #include <vector>
 
 namespace SG = CGAL::Spectral_geometry;
-
-// Set by Ctrl-C. The callbacks look at it, so that the program ends by its own way and leaves no file behind.
-volatile std::sig_atomic_t interrupted = 0;
-
-extern "C" void interrupt(int)
-{
-  interrupted = 1;
-}
 
 namespace {
 
@@ -64,19 +56,21 @@ class Run
 public:
   explicit Run(const Matching_arguments& arguments)
     : m_arguments(arguments)
-    , m_X(read_mesh(arguments.X))
-    , m_Y(read_mesh(arguments.Y))
+    , m_input_X(read_input_mesh(arguments.X, mending(arguments.strict, arguments.repair)))
+    , m_input_Y(read_input_mesh(arguments.Y, mending(arguments.strict, arguments.repair)))
     , m_mass(arguments.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped)
+    , m_files({arguments.X, arguments.Y, arguments.landmarks, arguments.ground_truth})
   {
-    for(const std::string& path :
-        {m_arguments.X, m_arguments.Y, m_arguments.landmarks, m_arguments.ground_truth})
-      if(!path.empty())
-        m_files.keep(path);
+    m_arguments.threads = usable_threads(arguments.threads, arguments.quiet);
     for(const std::string& path : {m_arguments.output, m_arguments.report})
       if(!path.empty())
         m_files.add(path);
     check_sizes();
     read_correspondences();
+    for(const auto& [input, path] :
+        {std::make_pair(&m_input_X, &m_arguments.X), std::make_pair(&m_input_Y, &m_arguments.Y)})
+      if(!m_arguments.quiet && !input->changes.empty())
+        std::cout << printable(input->changes_of(*path)) << "\n" << std::flush;
   }
 
   void run()
@@ -112,18 +106,29 @@ private:
 
   void read_correspondences()
   {
-    const std::size_t n_X = m_X.number_of_vertices(), n_Y = m_Y.number_of_vertices();
+    const Vertex_numbering &X = m_input_X.numbering, &Y = m_input_Y.numbering;
+    const std::size_t n_X = X.number_of_file_vertices(), n_Y = Y.number_of_file_vertices();
     if(!m_arguments.landmarks.empty())
-      for(const auto& line : read_vertex_lines(m_arguments.landmarks, {n_X, n_Y}))
-        m_landmarks.emplace_back(line[0], line[1]);
+      for(const auto& line : read_vertex_lines(m_arguments.landmarks, {n_X, n_Y}, false))
+        m_landmarks.emplace_back(mesh_vertex(X, line[0]), mesh_vertex(Y, line[1]));
     if(m_arguments.ground_truth.empty())
       return;
-    for(const auto& line : read_vertex_lines(m_arguments.ground_truth, {n_Y}))
-      m_truth.push_back(line[0]);
-    if(m_truth.size() != n_X)
-      throw std::runtime_error("'" + m_arguments.ground_truth + "' has " + std::to_string(m_truth.size()) +
+    const auto truth = read_vertex_lines(m_arguments.ground_truth, {n_Y}, true);
+    if(truth.size() != n_X)
+      throw std::runtime_error("'" + m_arguments.ground_truth + "' has " + std::to_string(truth.size()) +
                                " lines, it must have one for each of the " + std::to_string(n_X) +
                                " vertices of X.");
+    for(std::size_t w = 0; w < X.number_of_mesh_vertices(); ++w) {
+      const Eigen::Index v = truth[X.file_vertex(w)][0];
+      const std::size_t there = v < 0 ? no_vertex : Y.mesh_vertex(static_cast<std::size_t>(v));
+      m_truth.push_back(there == no_vertex ? Eigen::Index(-1) : static_cast<Eigen::Index>(there));
+    }
+  }
+
+  Eigen::Index mesh_vertex(const Vertex_numbering& numbering, const Eigen::Index v) const
+  {
+    return static_cast<Eigen::Index>(
+        numbering.vertices_of_mesh({static_cast<std::size_t>(v)}, m_arguments.landmarks).front());
   }
 
   void compute_fine_shapes()
@@ -174,10 +179,7 @@ private:
     for(const Matching_result& r : results)
       maps.push_back(&r.match.map);
     Geodesic_error error(m_Y, m_shape_Y.area, m_truth, static_cast<std::size_t>(m_arguments.samples));
-    const auto columns = error.measure(maps, [](double) {
-      if(interrupted)
-        throw SG::Cancelled();
-    });
+    const auto columns = error.measure(maps, [](double) { stop_if_interrupted(); });
     for(std::size_t i = 0; i < results.size(); ++i)
       results[i].errors = columns[i];
   }
@@ -185,8 +187,10 @@ private:
   void write(const Matching_comparison& c)
   {
     if(!m_arguments.output.empty()) {
-      const std::vector<Eigen::Index>& map = c.results.front().match.map;
-      write_indices(m_files.temporary(m_arguments.output), std::vector<std::size_t>(map.begin(), map.end()),
+      std::vector<std::size_t> map;
+      for(const Eigen::Index w : c.results.front().match.map)
+        map.push_back(m_input_Y.numbering.file_vertex(static_cast<std::size_t>(w)));
+      write_indices(m_files.temporary(m_arguments.output), m_input_X.numbering.map_of_file(map, no_vertex),
                     m_arguments.output);
     }
     if(!m_arguments.report.empty()) {
@@ -194,13 +198,13 @@ private:
       stream << matching_page(c);
       finish_writing(stream, m_arguments.report);
     }
-    if(interrupted)
-      throw SG::Cancelled();
+    stop_if_interrupted();
     m_files.commit();
   }
 
   Matching_arguments m_arguments;
-  Mesh m_X, m_Y;
+  Input_mesh m_input_X, m_input_Y;
+  const Mesh &m_X = m_input_X.mesh, &m_Y = m_input_Y.mesh;
   SG::Mass m_mass;
   Output_files m_files;
   Landmarks m_landmarks;
@@ -213,23 +217,12 @@ private:
 
 int main(int argc, char* argv[])
 {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  try {
+  return run_program("shape_matching", [&] {
     const Matching_arguments arguments = parse_matching_arguments(argc, argv);
     if(!arguments.help.empty())
       std::cout << arguments.help;
     else
       Run(arguments).run();
     return 0;
-  } catch(const SG::Cancelled&) {
-    std::cerr << "shape_matching: interrupted, nothing was written.\n";
-    return 130;
-  } catch(const std::bad_alloc&) {
-    std::cerr
-        << "shape_matching: the memory does not suffice for these meshes and this number of eigenvectors.\n";
-  } catch(const std::exception& error) {
-    std::cerr << "shape_matching: " << error.what() << '\n';
-  }
-  return 1;
+  });
 }

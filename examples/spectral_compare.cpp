@@ -10,13 +10,16 @@
 #include "compare/evaluation.h"
 #include "compare/shape_measures.h"
 #include "io/Progress_bar.h"
+#include "io/input_mesh.h"
 #include "io/matrix_io.h"
 #include "io/matrix_market_reader.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
+#include "io/program.h"
 #include "report/comparison_json.h"
 #include "report/comparison_table.h"
 #include "report/html_report.h"
+#include "report/json_text.h"
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
@@ -25,10 +28,8 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
-#include <csignal>
 #include <fstream>
 #include <iostream>
-#include <new>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -37,22 +38,7 @@
 
 namespace SG = CGAL::Spectral_geometry;
 
-// Set by Ctrl-C. The loops and callbacks look at it, so that the program ends by its own way and leaves no
-// file behind.
-volatile std::sig_atomic_t interrupted = 0;
-
-extern "C" void interrupt(int)
-{
-  interrupted = 1;
-}
-
 namespace {
-
-void stop_if_interrupted()
-{
-  if(interrupted)
-    throw SG::Cancelled();
-}
 
 double seconds_since(std::chrono::steady_clock::time_point begin)
 {
@@ -65,10 +51,14 @@ class Run
 public:
   explicit Run(const Compare_arguments& arguments, const std::string& command)
     : m_arguments(arguments)
+    , m_files({arguments.fine, arguments.coarse, arguments.operator_file, arguments.mass_file,
+               arguments.restriction})
     , m_bar(!arguments.quiet)
-    , m_fine(read_mesh(arguments.fine))
+    , m_input(read(arguments.fine))
+    , m_fine(m_input.mesh)
   {
     m_comparison.command = command;
+    m_arguments.threads = usable_threads(arguments.threads, arguments.quiet);
     for(const std::string& path : {m_arguments.report, m_arguments.json})
       if(!path.empty())
         m_files.add(path);
@@ -91,6 +81,14 @@ public:
   }
 
 private:
+  Input_mesh read(const std::string& path)
+  {
+    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));
+    if(!input.changes.empty())
+      m_comparison.notes.push_back(input.changes_of(path));
+    return input;
+  }
+
   std::function<bool(double)> progress(const std::string& phase)
   {
     return [this, phase](double fraction) {
@@ -204,6 +202,8 @@ private:
       throw;
     } catch(const std::bad_alloc&) {
       throw;
+    } catch(const Write_error&) {
+      throw;
     } catch(const std::exception& error) {
       m_comparison.notes.push_back(row.name() + ", N = " + std::to_string(N) +
                                    ", is missing: " + error.what());
@@ -228,17 +228,19 @@ private:
     }
   }
 
-  Eigen::SparseMatrix<double> given_restriction(Eigen::Index rows) const
+  // For `rows` coarse vertices and those of the file of the fine mesh.
+  Eigen::SparseMatrix<double> given_restriction(std::size_t rows) const
   {
-    Eigen::SparseMatrix<double> P = read_matrix_market(m_arguments.restriction);
-    const Eigen::Index n = static_cast<Eigen::Index>(m_fine.number_of_vertices());
-    if(P.rows() != rows || P.cols() != n)
-      throw std::runtime_error("'" + m_arguments.restriction + "' is " + std::to_string(P.rows()) + " x " +
-                               std::to_string(P.cols()) + " where " + std::to_string(rows) + " x " +
-                               std::to_string(n) + " is needed, coarse x fine.");
-    if(P.nonZeros() == 0)
-      throw std::runtime_error("'" + m_arguments.restriction + "' holds nothing but zeros.");
-    return P;
+    const std::size_t n = m_input.numbering.number_of_file_vertices();
+    const Eigen::SparseMatrix<double> P = read_matrix_market(
+        m_arguments.restriction, [&](long long given_rows, long long columns, long long nonzeros) {
+          return nonzeros == 0 ? std::string("holds nothing but zeros.")
+                 : given_rows == static_cast<long long>(rows) && columns == static_cast<long long>(n)
+                     ? std::string()
+                     : "is " + std::to_string(given_rows) + " x " + std::to_string(columns) + " where " +
+                           std::to_string(rows) + " x " + std::to_string(n) + " is needed, coarse x fine.";
+        });
+    return m_input.numbering.columns_of_mesh(P);
   }
 
   void judge_other()
@@ -246,11 +248,13 @@ private:
     Simplified row;
     if(m_arguments.operator_file.empty()) {
       Coarse_mesh coarse;
-      coarse.mesh = read_mesh(m_arguments.coarse);
+      Input_mesh input = read(m_arguments.coarse);
+      coarse.mesh = std::move(input.mesh);
       row.simplifier = std::filesystem::path(m_arguments.coarse).filename().string();
       row.requested_vertices = coarse.mesh.number_of_vertices();
       if(!m_arguments.restriction.empty())
-        coarse.carried = given_restriction(static_cast<Eigen::Index>(row.requested_vertices));
+        coarse.carried =
+            input.numbering.rows_of_mesh(given_restriction(input.numbering.number_of_file_vertices()));
       judge_mesh(coarse, row);
     } else
       judge_operator(row);
@@ -261,7 +265,7 @@ private:
   {
     Coarse_candidate candidate;
     candidate.op = given_operator();
-    candidate.carried = given_restriction(candidate.op.L.rows());
+    candidate.carried = given_restriction(static_cast<std::size_t>(candidate.op.L.rows()));
     row.simplifier = std::filesystem::path(m_arguments.operator_file).filename().string();
     row.requested_vertices = row.vertices = static_cast<std::size_t>(candidate.op.L.rows());
     // Symmetric matrices, as in appendix D of the paper: half of L and M with its indices.
@@ -282,14 +286,17 @@ private:
   SG::Laplace_operator given_operator() const
   {
     SG::Laplace_operator op;
-    op.L = read_matrix_market(m_arguments.operator_file);
-    op.B = read_matrix_market(m_arguments.mass_file);
+    const auto square = [](long long rows, long long columns, long long nonzeros) -> std::string {
+      if(rows != columns)
+        return "is not square.";
+      return nonzeros < rows ? "has rows without a nonzero." : "";
+    };
+    op.L = read_matrix_market(m_arguments.operator_file, square);
+    op.B = read_matrix_market(m_arguments.mass_file, square);
     const auto refuse = [](const std::string& path, const std::string& why) {
       throw std::runtime_error("'" + path + "' " + why);
     };
-    if(op.L.rows() != op.L.cols())
-      refuse(m_arguments.operator_file, "is not square.");
-    if(op.B.rows() != op.L.rows() || op.B.cols() != op.L.cols())
+    if(op.B.rows() != op.L.rows())
       refuse(m_arguments.mass_file, "must have the size of the operator.");
     for(const auto* matrix : {&op.L, &op.B}) {
       const Eigen::SparseMatrix<double> skew = *matrix - Eigen::SparseMatrix<double>(matrix->transpose());
@@ -351,7 +358,7 @@ private:
   void write()
   {
     if(!m_arguments.json.empty())
-      write_text(m_arguments.json, to_json(m_comparison).dump(1) + "\n");
+      write_text(m_arguments.json, json_text(to_json(m_comparison), 1));
     if(!m_arguments.report.empty())
       write_text(m_arguments.report, html_report(m_comparison));
     stop_if_interrupted();
@@ -363,11 +370,12 @@ private:
   Compare_arguments m_arguments;
   Output_files m_files;
   Progress_bar m_bar;
-  Mesh m_fine;
+  Comparison m_comparison;
+  Input_mesh m_input;
+  const Mesh& m_fine;
   SG::Mesh_matrices m_matrices;
   std::vector<SG::Mass> m_masses;
   std::vector<Fine_reference> m_references;
-  Comparison m_comparison;
   Colour_scale m_colours;
   bool m_colours_known = false;
 };
@@ -376,9 +384,7 @@ private:
 
 int main(int argc, char* argv[])
 {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  try {
+  return run_program("spectral_compare", [&] {
     const Compare_arguments arguments = parse_compare_arguments(argc, argv);
     std::string command = "spectral_compare";
     for(int i = 1; i < argc; ++i)
@@ -388,14 +394,5 @@ int main(int argc, char* argv[])
     else
       Run(arguments, command).run();
     return 0;
-  } catch(const SG::Cancelled&) {
-    std::cerr << "spectral_compare: interrupted, nothing was written.\n";
-    return 130;
-  } catch(const std::bad_alloc&) {
-    std::cerr
-        << "spectral_compare: the memory does not suffice for this mesh and this number of eigenvectors.\n";
-  } catch(const std::exception& error) {
-    std::cerr << "spectral_compare: " << error.what() << '\n';
-  }
-  return 1;
+  });
 }

@@ -6,8 +6,11 @@
 // those of the input (section 5.1 of Lescoat et al. 2020); --help shows the options.
 
 #include "compare/heaviest_vertices.h"
+#include "io/input_mesh.h"
+#include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
+#include "io/program.h"
 #include "report/html_report.h"
 #include "report/mesh_picture.h"
 
@@ -26,7 +29,6 @@
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <new>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -43,6 +45,7 @@ struct Distance_arguments
 {
   std::string mesh, report, mass = "averaged", command, help;
   long vertices = 0, eigenvectors = 100, sources = 10;
+  bool repair = false, strict = false;
 };
 
 using Sources = std::vector<Eigen::Index>;
@@ -69,7 +72,9 @@ struct Unit_shape
     area = op.mass.sum();
     op.B /= area;
     op.mass /= area;
-    seconds = seconds_of([&] { pairs = SG::eigenpairs(op, K); });
+    SG::Eigenpairs_options options;
+    options.progress = [](double) { return !interrupted; };
+    seconds = seconds_of([&] { pairs = SG::eigenpairs(op, K, options); });
   }
 };
 
@@ -123,15 +128,19 @@ constexpr const char* ways[] = {"prolongation", "through the spectrum", "vertex 
 
 Pair simplify(const Distance_arguments& a)
 {
-  Mesh mesh = read_mesh(a.mesh);
+  Input_mesh input = read_input_mesh(a.mesh, mending(a.strict, a.repair));
+  Mesh& mesh = input.mesh;
   const long n = static_cast<long>(mesh.number_of_vertices());
   if(a.vertices > n)
     throw std::runtime_error("--vertices is " + std::to_string(a.vertices) + ", but '" + a.mesh + "' has " +
                              std::to_string(n) + " vertices.");
+  if(!input.changes.empty())
+    std::cout << printable(input.changes_of(a.mesh)) << "\n" << std::flush;
   const SG::Mass mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
   Unit_shape fine(SG::mesh_matrices(mesh), a.eigenvectors, mass);
   SMS::Spectral_edge_collapse_options options;
   options.mass = mass;
+  options.cancel = &interrupted;
   SG::Eigenpairs pairs = fine.pairs; // at the scale of the mesh
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
@@ -139,6 +148,7 @@ Pair simplify(const Distance_arguments& a)
   SMS::Spectral_edge_collapse_result result;
   const double seconds = seconds_of(
       [&] { result = SMS::spectral_edge_collapse(mesh, static_cast<std::size_t>(a.vertices), options); });
+  stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);
   Pair pair{std::move(fine),
@@ -318,7 +328,10 @@ Distance_arguments parse(int argc, char* argv[])
       "of both meshes")("sources", po::value(&a.sources)->value_name("S")->default_value(a.sources),
                         "random vertices to measure distances from")(
       "mass", po::value(&a.mass)->value_name("lumped|averaged")->default_value(a.mass), "the mass matrix")(
-      "report", po::value(&a.report)->value_name("report.html"), "write a page with pictures");
+      "report", po::value(&a.report)->value_name("report.html"), "write a page with pictures")(
+      "repair", po::bool_switch(&a.repair), "change a mesh that cannot be used, as spectral_simplify does")(
+      "strict", po::bool_switch(&a.strict),
+      "change nothing of it, not even what leaves the surface as it is");
   po::positional_options_description positions;
   positions.add("mesh", 1);
   po::variables_map values;
@@ -352,8 +365,7 @@ Distance_arguments parse(int argc, char* argv[])
 
 void run(const Distance_arguments& a)
 {
-  Output_files files;
-  files.keep(a.mesh);
+  Output_files files({a.mesh});
   if(!a.report.empty())
     files.add(a.report);
   const Pair pair = simplify(a);
@@ -362,15 +374,16 @@ void run(const Distance_arguments& a)
   for(long s = 0; s < a.sources; ++s)
     sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(pair.fine.op.mass.size())));
   Summary summary;
-  for(const Distance& distance : distances(pair.fine.pairs))
+  for(const Distance& distance : distances(pair.fine.pairs)) {
+    stop_if_interrupted();
     summary.rows.push_back(compare(distance, pair, sources));
+  }
   summary.signatures = signature_errors(pair);
   if(!a.report.empty()) {
     std::ofstream stream(files.temporary(a.report), std::ios::binary);
     stream << page(a, pair, summary);
-    stream.close();
-    if(!stream)
-      throw std::runtime_error("cannot write '" + a.report + "': the disk refused it, is it full?");
+    finish_writing(stream, a.report);
+    stop_if_interrupted();
     files.commit();
   }
   print(pair, summary);
@@ -380,17 +393,12 @@ void run(const Distance_arguments& a)
 
 int main(int argc, char* argv[])
 {
-  try {
+  return run_program("spectral_distances_on_proxy", [&] {
     const Distance_arguments arguments = parse(argc, argv);
     if(!arguments.help.empty())
       std::cout << arguments.help;
     else
       run(arguments);
     return 0;
-  } catch(const std::bad_alloc&) {
-    std::cerr << "spectral_distances_on_proxy: the memory does not suffice for this mesh.\n";
-  } catch(const std::exception& error) {
-    std::cerr << "spectral_distances_on_proxy: " << error.what() << '\n';
-  }
-  return 1;
+  });
 }

@@ -6,13 +6,15 @@
 
 #include "io/Progress_bar.h"
 #include "io/index_reader.h"
+#include "io/input_mesh.h"
 #include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
-#include "io/mesh_repair.h"
 #include "io/npy_reader.h"
 #include "io/output_files.h"
+#include "io/program.h"
 #include "report/html_report.h"
+#include "report/json_text.h"
 #include "report/single_run.h"
 #include "spectral_simplify_arguments.h"
 #include "spectral_simplify_report.h"
@@ -25,9 +27,7 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -40,17 +40,6 @@
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
-
-// Set by Ctrl-C. The run looks at it, so that the program ends by its own way and leaves no file behind; the second time
-// the signal does what it does to any program.
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-extern "C" void interrupt(int signal)
-{
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
 
 // The files of --eigenpairs.
 constexpr const char* eigenpairs_files[] = {
@@ -66,29 +55,17 @@ std::string level_name(const std::string& path, const std::size_t level)
       .string();
 }
 
-// The files that are written for each of --levels.
-std::vector<std::string> files_of_level(const Arguments& a, const std::size_t level)
-{
-  std::vector<std::string> files;
-  for(const std::string& path : {a.output, a.restriction, a.map})
-    if(!path.empty())
-      files.push_back(level_name(path, level));
-  return files;
-}
-
 // Makes room for every output, so that what cannot be written is known before the work.
 void announce(Output_files& files, const Arguments& a)
 {
-  files.add(a.output); // which may be INPUT itself
-  for(const std::string& path : {a.input, a.keep, a.signals})
-    if(!path.empty())
-      files.keep(path);
+  files.add(a.output, Output_files::Input::may_be_replaced);
   for(const std::string& path : {a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired})
     if(!path.empty())
       files.add(path);
   for(const std::size_t level : a.levels)
-    for(const std::string& path : files_of_level(a, level))
-      files.add(path);
+    for(const std::string& path : {a.output, a.restriction, a.map})
+      if(!path.empty())
+        files.add(level_name(path, level));
   if(!a.eigenpairs.empty()) {
     files.add_folder(a.eigenpairs);
     for(const std::string name : eigenpairs_files)
@@ -149,7 +126,8 @@ SMS::Spectral_edge_collapse_options preset_options(const Arguments& a)
   return options;
 }
 
-SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std::size_t n, Progress_bar& bar)
+SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Vertex_numbering& numbering,
+                                                   Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options = preset_options(a);
   options.number_of_eigenvectors = a.eigenvectors;
@@ -171,9 +149,10 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   if(a.max_error)
     options.maximum_error = *a.max_error;
   if(!a.keep.empty())
-    options.kept_vertices = read_indices(a.keep, n);
+    options.kept_vertices =
+        numbering.vertices_of_mesh(read_indices(a.keep, numbering.number_of_file_vertices()), a.keep);
   if(!a.signals.empty())
-    options.signals = read_signals(a.signals, n);
+    options.signals = numbering.rows_of_mesh(read_signals(a.signals, numbering.number_of_file_vertices()));
   return options;
 }
 
@@ -218,9 +197,10 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
                                meshes.coarse_pairs, result.restriction, K);
 }
 
-// Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors holds between the files.
+// Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors holds between the files
+// unless vertices of INPUT were doubled.
 void write_eigenpairs(const Output_files& files, const std::string& folder, const Both_meshes& meshes,
-                      const SMS::Spectral_edge_collapse_result& result)
+                      const Vertex_numbering& numbering, const SMS::Spectral_edge_collapse_result& result)
 {
   const auto npy = [&](const std::string& name, const auto& matrix) {
     const std::string path = folder + "/" + name + ".npy";
@@ -234,12 +214,12 @@ void write_eigenpairs(const Output_files& files, const std::string& folder, cons
   const Eigen::MatrixXd coarse_vectors = meshes.coarse_pairs.vectors.leftCols(fine.size());
   const Eigen::VectorXd coarse_values = meshes.coarse_pairs.values.head(fine.size());
   npy("fine_eigenvalues", fine.values);
-  npy("fine_eigenvectors", fine.vectors);
+  npy("fine_eigenvectors", numbering.rows_of_file(fine.vectors));
   npy("coarse_eigenvalues", coarse_values);
   npy("coarse_eigenvectors", coarse_vectors);
   npy("C", SG::functional_map(coarse_vectors, meshes.coarse_operator.B, result.restriction, fine.vectors));
-  mtx("fine_L", meshes.fine_operator.L);
-  mtx("fine_mass", meshes.fine_operator.B);
+  mtx("fine_L", numbering.operator_of_file(meshes.fine_operator.L));
+  mtx("fine_mass", numbering.operator_of_file(meshes.fine_operator.B));
   mtx("coarse_L", meshes.coarse_operator.L);
   mtx("coarse_mass", meshes.coarse_operator.B);
 }
@@ -276,21 +256,13 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   return html_report(comparison);
 }
 
-// The evaluation was interrupted: what it would have made does not appear.
-void drop_evaluation(Output_files& files, const Arguments& a)
-{
-  files.drop(a.report);
-  for(const std::string name : eigenpairs_files)
-    files.drop(a.eigenpairs + "/" + name);
-  files.drop_new_folders();
-}
-
 // What the evaluation makes.
-void write_evaluation(Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
+void write_evaluation(const Output_files& files, const Arguments& a, const Mesh& mesh,
+                      const Both_meshes& meshes, const Vertex_numbering& numbering,
                       const Simplification_report& report)
 {
   if(!a.eigenpairs.empty())
-    write_eigenpairs(files, a.eigenpairs, meshes, report.result);
+    write_eigenpairs(files, a.eigenpairs, meshes, numbering, report.result);
   if(!a.report.empty()) {
     std::ofstream stream(files.temporary(a.report));
     stream << page(a, mesh, meshes, report);
@@ -298,78 +270,64 @@ void write_evaluation(Output_files& files, const Arguments& a, const Mesh& mesh,
   }
 }
 
-void write_outputs(Output_files& files, const Arguments& a, const Mesh& mesh, const Both_meshes& meshes,
-                   const Simplification_report& report)
+void write_json(const Output_files& files, const Arguments& a, const Simplification_report& report)
 {
-  write_mesh(files.temporary(a.output), mesh, a.output);
+  if(a.json.empty())
+    return;
+  std::ofstream stream(files.temporary(a.json));
+  stream << json_text(to_json(report), 2);
+  finish_writing(stream, a.json);
+}
+
+// Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called.
+template <class Name>
+void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Vertex_numbering& numbering,
+                         const Mesh& mesh, const Eigen::SparseMatrix<double>& P,
+                         const std::vector<std::size_t>& map, const Name& name,
+                         std::vector<std::string>& written)
+{
+  const auto file = [&](const std::string& path) {
+    written.push_back(name(path));
+    return files.temporary(name(path));
+  };
+  write_mesh(file(a.output), mesh, name(a.output));
   if(!a.restriction.empty())
-    write_matrix_market(files.temporary(a.restriction), report.result.restriction, a.restriction);
-  if(!a.prolongation.empty())
-    write_matrix_market(files.temporary(a.prolongation),
-                        SG::closest_point_interpolation(meshes.fine.V, meshes.coarse), a.prolongation);
+    write_matrix_market(file(a.restriction), numbering.columns_of_file(P, a.binary), name(a.restriction));
   if(!a.map.empty())
-    write_indices(files.temporary(a.map), report.result.vertex_map, a.map);
-  if(report.evaluation)
-    write_evaluation(files, a, mesh, meshes, report);
-  else
-    drop_evaluation(files, a);
-  if(!a.json.empty()) {
-    std::ofstream stream(files.temporary(a.json));
-    stream << to_json(report).dump(2) << '\n';
-    finish_writing(stream, a.json);
-  }
-}
-
-Mesh input_mesh(const Arguments& a, Repair_log& log)
-{
-  if(!a.repair)
-    return to_mesh(read_polygon_soup(a.input), a.input, ", or add --repair");
-  return to_mesh(repaired_soup(read_polygon_soup(a.input), log), a.input, ", which --repair could not do");
-}
-
-// What the mesh does not allow, apart from what the simplification itself warns of.
-std::vector<std::string> warnings_of_input(const Arguments& a, const Mesh& mesh, const std::size_t target)
-{
-  return SG::diagnose_mesh(mesh).warnings(static_cast<std::size_t>(a.eigenvectors), target);
+    write_indices(file(a.map), numbering.map_of_file(map, no_vertex), name(a.map));
 }
 
 // Writes the levels that the run has reached, from its log and a copy of the input, and returns them.
-std::vector<std::size_t> write_levels(Output_files& files, const Arguments& a, Mesh& copy,
-                                      const SMS::Collapse_log& log)
+std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a,
+                                      const Vertex_numbering& numbering, Mesh& copy,
+                                      const SMS::Collapse_log& log, std::vector<std::string>& written)
 {
-  std::vector<std::size_t> written;
+  std::vector<std::size_t> levels;
   SMS::Collapse_replay<Mesh> replay(copy, log);
   for(const std::size_t level : a.levels) {
-    if(level < log.number_of_vertices_left()) {
-      for(const std::string& path : files_of_level(a, level))
-        files.drop(path);
-      continue;
-    }
+    if(level < log.number_of_vertices_left())
+      break;
     replay.collapse_to(level);
-    const auto name = [level](const std::string& path) { return level_name(path, level); };
-    write_mesh(files.temporary(name(a.output)), copy, name(a.output));
-    if(!a.restriction.empty())
-      write_matrix_market(files.temporary(name(a.restriction)), replay.restriction(), name(a.restriction));
-    if(!a.map.empty())
-      write_indices(files.temporary(name(a.map)), replay.vertex_map(), name(a.map));
-    written.push_back(level);
+    write_mesh_and_maps(
+        files, a, numbering, copy, replay.restriction(), replay.vertex_map(),
+        [level](const std::string& path) { return level_name(path, level); }, written);
+    levels.push_back(level);
   }
-  return written;
+  return levels;
 }
 
-// How well the spectrum was kept, unless nobody wants to know or it takes the user too long.
+double seconds_since(const std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// How well the spectrum was kept.
 void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, SG::Mass mass,
               Progress_bar& bar)
 {
-  if(a.no_evaluation || interrupted)
-    return;
   const auto begin = std::chrono::steady_clock::now();
-  try {
-    report.evaluation = evaluate(meshes, mass, a.eigenvectors, report.result, bar);
-  } catch(const SG::Cancelled&) {
-    return;
-  }
-  report.seconds_evaluation = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  report.evaluation = evaluate(meshes, mass, a.eigenvectors, report.result, bar);
+  report.seconds_evaluation = seconds_since(begin);
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
   if(area < 0.25)
@@ -381,9 +339,6 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
 
 void say(const Arguments& a, const Simplification_report& report)
 {
-  const auto warn = [](const std::string& sentence) {
-    std::cerr << "spectral_simplify: warning: " << sentence << '\n';
-  };
   if(!a.quiet) {
     for(const std::string& warning : report.result.warnings)
       warn(warning);
@@ -396,74 +351,122 @@ void say(const Arguments& a, const Simplification_report& report)
          " vertices was not reached, so that it and smaller ones are not written.");
 }
 
-void run(const Arguments& a)
+// Writes what the run made and gives it its names: nothing that fails later may lose it.
+void write_result(Output_files& files, const Arguments& a, const Input_mesh& input, const Mesh& mesh,
+                  Mesh& copy, Both_meshes& meshes, Simplification_report& report)
 {
-  Repair_log repairs;
-  Mesh mesh = input_mesh(a, repairs);
-  const std::size_t target = checked_target(a, num_vertices(mesh));
-  const std::vector<std::string> warnings = warnings_of_input(a, mesh, target);
+  std::vector<std::string> written;
+  const auto begin = std::chrono::steady_clock::now();
+  write_mesh_and_maps(
+      files, a, input.numbering, mesh, report.result.restriction, report.result.vertex_map,
+      [](const std::string& path) { return path; }, written);
+  if(!a.levels.empty())
+    report.levels = write_levels(files, a, input.numbering, copy, report.result.log, written);
+  if(!a.prolongation.empty()) {
+    write_matrix_market(
+        files.temporary(a.prolongation),
+        input.numbering.rows_of_file(SG::closest_point_interpolation(meshes.fine.V, meshes.coarse)),
+        a.prolongation);
+    written.push_back(a.prolongation);
+  }
+  written.push_back(a.repaired); // from before the run
+  if(interrupted && a.on_interrupt != "write")
+    throw SG::Cancelled();
+  files.commit(written);
+  report.seconds_writing = seconds_since(begin);
+}
+
+// Evaluates and writes what is said about the result; returns the exit status. Whatever fails here leaves the result where it is.
+int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh& input, const Mesh& mesh,
+                       Both_meshes& meshes, SG::Mass mass, Progress_bar& bar, Simplification_report& report)
+{
+  std::string failure;
+  std::vector<std::string> written = {a.json};
+  try {
+    if(!a.no_evaluation && !interrupted) {
+      evaluate(report, a, meshes, mass, bar);
+      write_evaluation(files, a, mesh, meshes, input.numbering, report);
+      written.push_back(a.report);
+      for(const std::string name : eigenpairs_files)
+        written.push_back(a.eigenpairs + "/" + name);
+    }
+    write_json(files, a, report);
+    files.commit(written);
+    return interrupted ? 130 : 0;
+  } catch(const SG::Cancelled&) {
+  } catch(const std::bad_alloc&) {
+    failure = "the memory does not suffice.";
+  } catch(const std::exception& error) {
+    failure = error.what();
+  }
+  bar.clear();
+  if(!failure.empty())
+    complain("'" + a.output + "' is written, but its evaluation failed: " + failure);
+  try {
+    write_json(files, a, report);
+    files.commit({a.json});
+  } catch(const std::exception& error) {
+    if(failure.empty())
+      complain(error.what());
+  }
+  return failure.empty() ? 130 : evaluation_failed;
+}
+
+int run(Arguments a)
+{
+  a.threads = usable_threads(a.threads, a.quiet);
   Progress_bar bar(!a.quiet);
-  const SMS::Spectral_edge_collapse_options options = options_of_run(a, num_vertices(mesh), bar);
-  Output_files files;
+  const auto begin = std::chrono::steady_clock::now();
+  bar.show("reading", 0);
+  Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair));
+  bar.clear();
+  Simplification_report report;
+  report.seconds_reading = seconds_since(begin);
+  const std::size_t target = checked_target(a, num_vertices(input.mesh));
+  const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, bar);
+  Output_files files({a.input, a.keep, a.signals});
   announce(files, a);
-  check_memory(a, num_vertices(mesh), options);
+  check_memory(a, num_vertices(input.mesh), options);
+  if(!a.quiet && !input.changes.empty())
+    std::cout << printable(input.changes_of(a.input)) << "\n\n" << std::flush;
+  Mesh mesh = std::move(input.mesh), copy;
   if(!a.repaired.empty())
     write_mesh(files.temporary(a.repaired), mesh, a.repaired);
-  Mesh copy;
   if(!a.levels.empty())
     copy = mesh;
   Both_meshes meshes;
   if(!a.no_evaluation || !a.prolongation.empty())
     meshes.fine = SG::mesh_matrices(mesh);
 
-  Simplification_report report;
   report.result = SMS::spectral_edge_collapse(mesh, target, options);
-  const auto check_interrupted = [&a] {
-    if(interrupted && a.on_interrupt != "write")
-      throw SG::Cancelled();
-  };
-  check_interrupted();
+  if(interrupted && a.on_interrupt != "write")
+    throw SG::Cancelled();
+  const std::vector<std::string> warnings =
+      input.diagnosis.warnings(static_cast<std::size_t>(a.eigenvectors), target);
   report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
-  report.repairs = repairs.changes();
+  report.repairs = input.changes;
   report.input = a.input;
   report.output = a.output;
   report.preset = a.preset;
   report.options = options;
   meshes.coarse = SG::mesh_matrices(mesh);
-  evaluate(report, a, meshes, options.mass, bar);
-  check_interrupted();
+  bar.show("writing", 0);
+  write_result(files, a, input, mesh, copy, meshes, report);
+  const int status = evaluate_and_write(files, a, input, mesh, meshes, options.mass, bar, report);
   bar.clear();
-
-  if(!a.levels.empty())
-    report.levels = write_levels(files, a, copy, report.result.log);
-  write_outputs(files, a, mesh, meshes, report);
-  check_interrupted();
-  files.commit();
   say(a, report);
+  if(status == 130)
+    complain("interrupted, what had been done is written.");
+  return status;
 }
 
 int main(int argc, char* argv[])
 {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
-  try {
+  return run_program("spectral_simplify", [&] {
     const Arguments arguments = parse_arguments(argc, argv);
-    if(!arguments.help.empty())
-      std::cout << arguments.help;
-    else
-      run(arguments);
-    if(!interrupted)
-      return 0;
-    std::cerr << "spectral_simplify: interrupted, what had been done is written.\n";
-    return 130;
-  } catch(const SG::Cancelled&) {
-    std::cerr << "spectral_simplify: interrupted, nothing was written.\n";
-    return 130;
-  } catch(const std::bad_alloc&) {
-    std::cerr
-        << "spectral_simplify: the memory does not suffice for this mesh and this number of eigenvectors.\n";
-  } catch(const std::exception& error) {
-    std::cerr << "spectral_simplify: " << error.what() << '\n';
-  }
-  return 1;
+    if(arguments.help.empty())
+      return run(arguments);
+    std::cout << arguments.help;
+    return 0;
+  });
 }

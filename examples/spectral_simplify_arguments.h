@@ -18,6 +18,9 @@
 #include <string>
 #include <vector>
 
+// The exit status of a run whose result is written, but not what was to be said about it.
+constexpr int evaluation_failed = 3;
+
 // The command line of spectral_simplify.
 struct Arguments
 {
@@ -32,7 +35,8 @@ struct Arguments
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
   int threads = 1;
-  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false;
+  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
+       strict = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
@@ -60,7 +64,12 @@ inline boost::program_options::options_description described(Arguments& a)
       "spectral_simplify INPUT OUTPUT --vertices N [options]\n\n"
       "Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of its Laplace-Beltrami\n"
       "operator as well as it can (Lescoat et al., Spectral Mesh Simplification, 2020).\n"
-      "INPUT and OUTPUT end in .off, .obj, .ply or .stl. All outputs appear at the end, or none.\n\nOptions",
+      "INPUT and OUTPUT end in .off, .obj, .ply or .stl. The meshes, matrices and maps appear together at "
+      "the\n"
+      "end, before the evaluation begins, and what that writes appears together after it.\n"
+      "Exit status: 0 all is written; 1 nothing is; 3 OUTPUT is, but the evaluation failed; 130 "
+      "interrupted.\n\n"
+      "Options",
       100, 60);
   auto add = options.add_options();
   add("help", "show this text");
@@ -112,21 +121,28 @@ inline boost::program_options::options_description described(Arguments& a)
       "degrees together; --levels are written without");
   add("repair", po::bool_switch(&a.repair),
       "make INPUT an oriented manifold of triangles first and say what was changed: polygons are "
-      "triangulated, vertices of "
-      "equal position merged, copies of faces, isolated vertices and degenerate faces removed, faces "
-      "oriented, "
-      "sheets that share an edge or a vertex separated, borders stitched");
+      "triangulated, "
+      "vertices of equal position merged, degenerate faces removed, sheets that share an edge or a vertex "
+      "separated, borders stitched. What leaves the surface as it is needs no option: isolated vertices are "
+      "left "
+      "out, copies of faces removed, edges without length closed, faces turned round to agree with their "
+      "neighbours");
+  add("strict", po::bool_switch(&a.strict), "change nothing of INPUT: refuse what cannot be used as it is");
   add("repaired", text(a.repaired, "mesh.ply"),
-      "write the repaired mesh; with --repair the matrices and maps number its vertices, not INPUT's");
+      "write the repaired mesh; the matrices and maps number INPUT's vertices all the same");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
       "threads for eigenpairs, costs and relocation; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),
-      "write the matrix (OUTPUT's vertices x INPUT's, Matrix Market) that carries functions to OUTPUT");
+      "write the matrix (OUTPUT's vertices x INPUT's, Matrix Market) that carries functions to OUTPUT; "
+      "columns "
+      "of vertices that were left out are empty");
   add("prolongation", text(a.prolongation, "Q.mtx"),
       "write the matrix (INPUT's vertices x OUTPUT's) that carries them back: barycentric coordinates of the "
       "closest points");
   add("map", text(a.map, "map.txt"),
-      "write for each vertex of INPUT the vertex of OUTPUT it went to, one per line, counted from 0");
+      "write for each vertex of INPUT the vertex of OUTPUT it went to, one per line, counted from 0; -1 for "
+      "one "
+      "that was left out");
   add("eigenpairs", text(a.eigenpairs, "DIR"),
       "write {fine,coarse}_{eigenvalues,eigenvectors}.npy, {fine,coarse}_{L,mass}.mtx and C.npy, all at the "
       "scale "

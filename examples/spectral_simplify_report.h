@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_REPORT_H
 
 #include "io/mesh_repair.h"
+#include "io/program.h"
 
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -25,11 +26,11 @@ struct Simplification_report
 {
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result result;
   std::optional<CGAL::Spectral_geometry::Spectral_evaluation> evaluation;
-  double seconds_evaluation = 0;
+  double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset;
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
-  std::vector<Repair> repairs;     // what --repair did, and how often
+  std::vector<Repair> repairs;     // what was changed in the input, and how often
   std::vector<std::size_t> levels; // those that were written
 };
 
@@ -52,14 +53,9 @@ inline void print_norm(const char* name, double norm, double floor)
 
 inline void print_table(const Simplification_report& r)
 {
-  if(!r.repairs.empty()) {
-    std::printf("repaired:\n");
-    for(const Repair& repair : r.repairs)
-      std::printf("  %8zu %s\n", repair.count, repair.what().c_str());
-    std::printf("\n");
-  }
-  std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", r.input.c_str(), r.result.input_vertices,
-              r.output.c_str(), r.result.output_vertices, r.result.stop_reason_name());
+  std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", printable(r.input).c_str(),
+              r.result.input_vertices, printable(r.output).c_str(), r.result.output_vertices,
+              r.result.stop_reason_name());
   if(r.evaluation) {
     const auto& e = *r.evaluation;
     std::printf("  %d eigenvectors, %s mass, unit area\n", static_cast<int>(e.judged_modes), e.mass.c_str());
@@ -84,6 +80,7 @@ inline void print_table(const Simplification_report& r)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
                 r.result.relocation.moved_vertices, r.result.relocation.steps,
                 r.result.relocation.stop_reason_name());
+  std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
   if(r.options.pre_simplify != 0)
     std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
@@ -92,7 +89,9 @@ inline void print_table(const Simplification_report& r)
     std::printf("  edge flips                %8.2f s\n", r.result.seconds_flips);
   if(r.options.relocate)
     std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
-  std::printf("  total                     %8.2f s\n", r.result.seconds_total);
+  std::printf("  writing                   %8.2f s\n", r.seconds_writing);
+  std::printf("  total                     %8.2f s\n",
+              r.seconds_reading + r.result.seconds_total + r.seconds_writing);
   if(r.evaluation)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
 }
@@ -142,6 +141,8 @@ inline nlohmann::json to_json(const Simplification_report& r)
       {"relocation", relocation_json(r)},
       {"levels", r.levels},
       {"relative_error", number(r.result.relative_error)},
+      {"seconds_reading", r.seconds_reading},
+      {"seconds_writing", r.seconds_writing},
       {"seconds_pre_simplification", r.result.seconds_pre_simplification},
       {"seconds_eigenpairs", r.result.seconds_eigenpairs},
       {"seconds_collapse", r.result.seconds_collapse},

@@ -301,7 +301,7 @@ bad()
   file=$1
   pattern=$2
   cat >"$file"
-  refuses "$file" "$pattern" "$file" out.off --vertices 3 --eigenvectors 2
+  refuses "$file" "$pattern" "$file" out.off --vertices 3 --eigenvectors 2 --strict
 }
 printf '' | bad empty.off "not a valid off file"
 echo "this is no mesh" | bad words.off "not a valid off file"
@@ -339,13 +339,13 @@ printf 'OFF\n4 1 0\n0 0 0\n1e70 0 0\n1e70 1e70 0\n0 1e70 0\n4 0 1 2 3\n' | bad h
 
 # --- repair -----------------------------------------------------------------------------------------------------------
 
-# repairs FILE PATTERN: refused as it is, usable after the repair, which says PATTERN and writes a mesh that needs none.
+# repairs FILE PATTERN: refused as it is by --strict, usable after the repair, which says PATTERN and writes a mesh that needs none.
 repairs()
 {
   broken=$1
   change=$2
   cat >"$broken"
-  refuses "$broken without --repair" "add --repair" "$broken" out.off --vertices 4 --eigenvectors 2
+  refuses "$broken without --repair" "add --repair" "$broken" out.off --vertices 4 --eigenvectors 2 --strict
   set -- --ratio 1 --eigenvectors 2 --no-evaluation --quiet
   runs "repair of $broken" "$broken" out.off --repair --repaired fixed.off --json repair.json "$@"
   grep -q -e "$change" repair.json || fail "repair of $broken: '$change' is not in $(cat repair.json)"
@@ -372,6 +372,7 @@ runs "a copy" shape.off copy.off --ratio 1 --eigenvectors 2
 cmp -s same.off copy.off || fail "--repair changed a mesh without faults"
 grep -q '"repairs": {}' no.json || fail "--repair of a mesh without faults says $(cat no.json)"
 refuses "beyond repair" "which --repair could not do" line.off out.off --repair --vertices 3 --eigenvectors 2
+refuses "repair and its contrary" "cannot both" shape.off out.off --repair --strict --vertices 200
 refuses "a repaired mesh without repair" "add --repair" shape.off out.off --vertices 200 --repaired new.off
 "$program" tetrahedra.off stuck.off --vertices 6 --eigenvectors 1 --no-evaluation >said 2>complained ||
   fail "two components and one eigenvector: $(cat complained)"

@@ -95,5 +95,46 @@ done
 runs "anybody's mesh without P" --fine shape.off --coarse coarse.off -k 20 --judge averaged
 refuses "P of another mesh" "coarse x fine" --fine coarse.off --coarse coarse.off --restriction P.mtx -k 5
 
+# No input is replaced, whatever it is read for.
+set -- --fine shape.off --coarse coarse.off --restriction P.mtx -k 20 --judge lumped
+for input in shape.off coarse.off P.mtx; do
+  cp "$input" kept
+  refuses "$input as an output" "read as an input" "$@" --json "$input"
+  cmp -s kept "$input" || fail "$input was replaced"
+done
+
+# Isolated vertices: P numbers those of the files.
+awk 'NF' shape.off | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
+  { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated.off
+awk '/^%/ { print; next } !header { header = 1; print $1, $2 + 1, $3; next } { print $1, $2 + 1, $3 }' P.mtx >isolated.mtx
+runs "isolated vertices" --fine isolated.off --coarse coarse.off --restriction isolated.mtx -k 20 --judge lumped \
+  --json isolated.json
+[ "$(number mesh.json norm_L)" = "$(number isolated.json norm_L)" ] || fail "isolated vertices change norm_L"
+grep -q "1 isolated vertex left out" isolated.json || fail "isolated vertices are not in the notes"
+refuses "isolated vertices with --strict" "isolated" --fine isolated.off --coarse coarse.off -k 20 --strict
+
+# A name that is no UTF-8 does not lose the run.
+name=$(printf 'n\377me.off')
+cp coarse.off "$name"
+runs "a name that is no UTF-8" --fine shape.off --coarse "$name" -k 20 --judge lumped --json name.json
+grep -q '"simplifier": "n.*me.off"' name.json || fail "a name that is no UTF-8 is missing in the JSON file"
+
+# A small file promises a large matrix.
+printf '%%%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n' >promise.mtx
+(ulimit -v 4000000
+  refuses "a promised matrix" "2000000000 x 2000000000" --fine shape.off --coarse coarse.off --restriction promise.mtx -k 20
+  refuses "a promised operator" "rows without a nonzero" --fine shape.off --operator promise.mtx --mass promise.mtx \
+    --restriction P.mtx -k 20
+  exit "$failures")
+failures=$?
+
+# A coloured mesh that does not fit on the disk.
+if (trap '' XFSZ; ulimit -f 64; "$compare" shape.off --vertices 100 -k 10 --only "edge length" --coloured full --json full.json \
+  >said 2>complained); then
+  fail "a coloured mesh on a full disk: the exit status is 0"
+fi
+grep -q "cannot write 'full/" complained || fail "a coloured mesh on a full disk: $(cat complained)"
+[ ! -e full ] && [ ! -e full.json ] || fail "a coloured mesh on a full disk left something"
+
 [ "$failures" -eq 0 ] && echo "all passed"
 exit "$failures"

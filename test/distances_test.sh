@@ -44,6 +44,15 @@ refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --v
 refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full
 refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red
 
+cp "$shape" input.off
+"$distances" input.off --vertices 300 --report input.off >said 2>complained && fail "the input is replaced"
+grep -q "read as an input" complained || fail "the input as a report: $(cat complained)"
+awk 'NF' "$shape" | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
+  { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated.off
+"$distances" isolated.off --vertices 300 --eigenvectors 20 >said 2>complained || fail "an isolated vertex: $(cat complained)"
+grep -q "^'isolated.off': 1 isolated vertex left out.$" said || fail "an isolated vertex: $(cat said)"
+refuses "an isolated vertex with --strict" "isolated" isolated.off --vertices 300 --strict
+
 # within NAME COLUMN LARGEST: the error of that row is positive and at most LARGEST per cent.
 within()
 {

@@ -80,6 +80,23 @@ for threads in 1 2; do
     2>complained || fail "$threads threads: $(cat complained)"
 done
 cmp -s 1.txt 2.txt || fail "one thread and two find different maps"
+"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --threads 100000 --output many.txt >said 2>complained ||
+  fail "100000 threads: $(cat complained)"
+cmp -s 1.txt many.txt || fail "100000 threads find a different map"
+[ "$(wc -l <complained)" -eq 1 ] && grep -q "this machine runs .*--threads 100000" complained ||
+  fail "100000 threads: $(cat complained)"
+
+# An isolated vertex in front of each mesh: the map numbers those of the files.
+for mesh in X Y; do
+  awk 'NF' $mesh.off | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
+    { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated$mesh.off
+done
+{ echo -1; awk '{ print $1 + 1 }' 1.txt; } >isolated.txt
+{ echo -1; awk '{ print $1 + 1 }' truth.txt; } >isolated_truth.txt
+"$matching" isolatedX.off isolatedY.off --vertices 300 --eigenvectors 50 --ground-truth isolated_truth.txt --output found.txt \
+  >said 2>complained || fail "isolated vertices: $(cat complained)"
+cmp -s isolated.txt found.txt || fail "isolated vertices change the map"
+grep -q "^'isolatedY.off': 1 isolated vertex left out.$" said || fail "isolated vertices: $(cat said)"
 
 # An ellipsoid of three different axes has four rotations onto itself, which no signature can tell apart: landmarks
 # decide for one of them.

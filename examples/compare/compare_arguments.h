@@ -7,6 +7,7 @@
 
 #include <boost/program_options.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -25,7 +26,7 @@ struct Compare_arguments
   std::string report, json, coloured;
   long eigenvectors = 100, sources = 20, seed = 1;
   int threads = 1;
-  bool quiet = false;
+  bool quiet = false, repair = false, strict = false;
   std::string help; // the text, if it was asked for
 
   bool judges_others() const { return !coarse.empty() || !operator_file.empty(); }
@@ -71,6 +72,9 @@ inline boost::program_options::options_description described(Compare_arguments& 
   add("mass", text(a.mass_file, "M.mtx"), "with this mass matrix");
   add("restriction", text(a.restriction, "P.mtx"),
       "and this restriction, coarse x fine; without it, closest points");
+  add("repair", po::bool_switch(&a.repair), "change meshes that cannot be used, as spectral_simplify does");
+  add("strict", po::bool_switch(&a.strict),
+      "change nothing of them, not even what leaves the surface as it is");
   add("quiet", po::bool_switch(&a.quiet), "no table, no progress bar");
   return options;
 }
@@ -156,7 +160,9 @@ inline std::vector<std::size_t> target_sizes(const Compare_arguments& a, std::si
     if(value < 4 || value > static_cast<double>(n))
       throw std::runtime_error("--vertices asks for " + item + ", but '" + a.fine + "' has " +
                                std::to_string(n) + " vertices and fewer than 4 are no mesh.");
-    result.push_back(static_cast<std::size_t>(value));
+    const std::size_t size = static_cast<std::size_t>(value);
+    if(std::find(result.begin(), result.end(), size) == result.end())
+      result.push_back(size);
   }
   return result;
 }

@@ -22,7 +22,7 @@
 #include <vector>
 
 // How far a map from X to Y leads from the true one: geodesic distances on Y in square roots of its area, at the
-// vertices of X that were drawn.
+// vertices of X that were drawn. A vertex whose true one is negative has none.
 class Geodesic_error
 {
 public:
@@ -32,9 +32,10 @@ public:
     , m_truth(std::move(truth))
   {
     std::mt19937 random(1);
-    std::vector<std::size_t> all(m_truth.size());
-    for(std::size_t i = 0; i < all.size(); ++i)
-      all[i] = i;
+    std::vector<std::size_t> all;
+    for(std::size_t i = 0; i < m_truth.size(); ++i)
+      if(m_truth[i] >= 0)
+        all.push_back(i);
     for(std::size_t i = 0; i < all.size() && i < samples; ++i) {
       std::swap(all[i], all[i + random() % (all.size() - i)]);
       m_samples.push_back(all[i]);

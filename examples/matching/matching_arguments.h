@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H
 #define SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H
 
+#include "../io/text_lines.h"
 #include "matcher.h"
 
 #include <boost/program_options.hpp>
@@ -27,7 +28,7 @@ struct Matching_arguments
   long samples = 300;
   double local_weight = 4;
   int threads = 2;
-  bool quiet = false;
+  bool quiet = false, repair = false, strict = false;
   std::string command, help;
 
   std::vector<Proxy_kind> kinds() const
@@ -71,7 +72,8 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("vertices", number(a.vertices, "N"), "of the simplified meshes");
   add("landmarks", text(a.landmarks, "file"),
       "pairs of vertices that correspond, one of X and one of Y on each line, counted from 0");
-  add("output", text(a.output, "map.txt"), "write for each vertex of X the vertex of Y, one per line");
+  add("output", text(a.output, "map.txt"),
+      "write for each vertex of X the vertex of Y, one per line, -1 for one that no face uses");
   add("report", text(a.report, "report.html"), "write a page with pictures, times and errors");
   add("ground-truth", text(a.ground_truth, "map.txt"),
       "the true map, as of --output: geodesic errors are measured");
@@ -91,6 +93,9 @@ inline boost::program_options::options_description described(Matching_arguments&
       "of curvature in these, at most; 0: the modes alone");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads), "at most");
+  add("repair", po::bool_switch(&a.repair), "change meshes that cannot be used, as spectral_simplify does");
+  add("strict", po::bool_switch(&a.strict),
+      "change nothing of them, not even what leaves the surface as it is");
   add("quiet", po::bool_switch(&a.quiet), "no table");
   return options;
 }
@@ -164,10 +169,10 @@ inline Matching_arguments parse_matching_arguments(int argc, const char* const* 
   return a;
 }
 
-// Reads lines of `columns` vertices each; `sizes` says how many vertices there are for each column. Throws at the
-// first line that is wrong.
-inline std::vector<std::vector<Eigen::Index>> read_vertex_lines(const std::string& path,
-                                                                const std::vector<std::size_t>& sizes)
+// Reads lines of one vertex for each of `sizes`, which say how many vertices there are, or of -1 where `none` is allowed.
+// Throws at the first line that is wrong.
+inline std::vector<std::vector<Eigen::Index>>
+read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes, const bool none)
 {
   std::ifstream stream(path);
   if(!stream)
@@ -182,10 +187,11 @@ inline std::vector<std::vector<Eigen::Index>> read_vertex_lines(const std::strin
     std::vector<Eigen::Index> row(sizes.size());
     bool good = true;
     for(std::size_t c = 0; c < sizes.size(); ++c)
-      good = good && numbers >> row[c] && row[c] >= 0 && row[c] < static_cast<Eigen::Index>(sizes[c]);
+      good = good && numbers >> row[c] && row[c] >= (none ? -1 : 0) &&
+             row[c] < static_cast<Eigen::Index>(sizes[c]);
     std::string rest;
     if(!good || numbers >> rest)
-      throw std::runtime_error("'" + path + "' has '" + line + "' in line " + std::to_string(number) +
+      throw std::runtime_error("'" + path + "' has " + quoted(line) + " in line " + std::to_string(number) +
                                ", where it must have " + (sizes.size() == 1 ? "one vertex" : "two vertices") +
                                ", counted from 0 and below the number of vertices of the mesh.");
     lines.push_back(row);
