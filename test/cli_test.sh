@@ -177,7 +177,7 @@ for level in 800 400 200; do
   cmp -s direct.txt fine-$level.txt || fail "the map of level $level is not that of a direct run"
 done
 cmp -s direct.off fine.off || fail "without a target the smallest level is not OUTPUT"
-"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.16 --eigenvectors 25 --relocate none --json levels.json \
+"$program" shape.off fine.off --levels 800,150 --vertices 100 --max-error 0.16 --eigenvectors 25 --preset paper --json levels.json \
   >said 2>complained || fail "levels and an error: $(cat complained)"
 grep -q "error bound reached" levels.json || fail "the error bound did not end the run"
 grep -q "150 vertices was not reached" complained || fail "a level that was not reached is not warned of"
@@ -382,7 +382,7 @@ grep -q 'constant on each of the 2 components' complained || fail "no warning of
 awk 'BEGIN { print "OFF"; print 225, 392, 0
   for(j = 0; j < 15; ++j) for(i = 0; i < 15; ++i) { s = 2 ^ (-2.5 * i); print s, j * s, 0 }
   for(j = 0; j < 14; ++j) for(i = 0; i < 14; ++i) { a = j * 15 + i; print 3, a, a + 1, a + 16; print 3, a, a + 16, a + 15 } }' >graded.off
-"$program" graded.off out.off --vertices 90 --eigenvectors 10 >said 2>complained || fail "a graded mesh: $(cat complained)"
+"$program" graded.off out.off --vertices 90 --eigenvectors 10 --preset paper >said 2>complained || fail "a graded mesh: $(cat complained)"
 grep -q '% of the area is left' complained || fail "no warning of lost area: $(cat complained)"
 
 # --- outputs that cannot be written -----------------------------------------------------------------------------------
@@ -422,7 +422,7 @@ done
 for option in restriction prolongation map; do # larger than the mesh, which fits in
   echo "precious" >whole.off
   (trap '' XFSZ; ulimit -f 4; "$program" shape.off whole.off --vertices 12 --eigenvectors 2 --$option "new.$option" \
-    --no-evaluation --quiet >../said 2>../complained) && fail "--$option, full disk: the exit status is 0"
+    --preset paper --no-evaluation --quiet >../said 2>../complained) && fail "--$option, full disk: the exit status is 0"
   grep -q "cannot write 'new.$option'" ../complained || fail "--$option, full disk: $(cat ../complained)"
   [ "$(cat whole.off)" = "precious" ] && [ ! -e "new.$option" ] || fail "--$option, full disk: something was left"
 done
