@@ -14,7 +14,7 @@ shift
 folder=$(mktemp -d) || exit 1
 trap 'rm -rf "$folder"' EXIT
 
-# What a run ended with: the sentence, or the size of the result and what was repaired.
+# What a run ended with: the sentence, or the size of the result and what was changed.
 outcome()
 {
   if "$program" "$@" --json "$folder/out.json" >"$folder/said" 2>"$folder/complained"; then
@@ -25,7 +25,7 @@ outcome()
              printf "%s -> %s vertices, %s", v["input_vertices"], v["output_vertices"], v["stop_reason"]
              if(v["norm_L"] != "null" && v["norm_L"] != "") printf ", \\|C\\|_L %.3g", v["norm_L"]
            }'
-    sed -n '/^repaired:$/,/^$/ s/^ *\([0-9].*\)/; \1/p' "$folder/said" | tr -d '\n'
+    sed -n "s/^'.*': \([0-9].*\)\.\$/; \1/p" "$folder/said" | tr -d '\n'
   else
     sed 's/^spectral_simplify: //; s/|/\\|/g' "$folder/complained" | sed "s|$folder/||g; s|'/[^']*/|'|g" | tr -d '\n'
   fi

@@ -431,7 +431,8 @@ int run(int argc, char* argv[])
   if(!map.empty())
     write_indices(files.temporary(map), numbers, map);
   files.commit();
-  std::cout << printable(output) << ": " << num_vertices(mesh) << " vertices, " << num_faces(mesh) << " faces\n";
+  std::cout << printable(output) << ": " << num_vertices(mesh) << " vertices, " << num_faces(mesh)
+            << " faces\n";
   return 0;
 }
 

@@ -6,11 +6,13 @@
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
+#include <boost/functional/hash.hpp>
+
 #include <algorithm>
-#include <map>
 #include <numeric>
-#include <set>
 #include <stdexcept>
+#include <tuple>
+#include <unordered_set>
 #include <utility>
 
 namespace {
@@ -57,7 +59,7 @@ void close_edges(const Polygon_soup& soup, Mended& mended)
 void remove_copies(Mended& mended)
 {
   const std::size_t before = mended.polygons.size();
-  std::set<std::vector<std::size_t>> known;
+  std::unordered_set<std::vector<std::size_t>, boost::hash<std::vector<std::size_t>>> known;
   mended.polygons.erase(std::remove_if(mended.polygons.begin(), mended.polygons.end(),
                                        [&](std::vector<std::size_t> p) {
                                          std::sort(p.begin(), p.end());
@@ -67,63 +69,89 @@ void remove_copies(Mended& mended)
   mended.log.add("copy of a face removed", "copies of faces removed", before - mended.polygons.size());
 }
 
+// Sets of faces that agree with one of them, or are contrary to it.
+class Orientations
+{
+public:
+  explicit Orientations(const std::size_t n)
+    : m_parent(n)
+    , m_contrary(n, 0)
+  {
+    std::iota(m_parent.begin(), m_parent.end(), std::size_t(0));
+  }
+
+  // The face that stands for the set of f, and whether f is contrary to it.
+  std::pair<std::size_t, bool> find(std::size_t f)
+  {
+    bool contrary = false;
+    while(m_parent[f] != f) {
+      const std::size_t p = m_parent[f];
+      m_contrary[f] ^= m_contrary[p];
+      m_parent[f] = m_parent[p];
+      contrary ^= m_contrary[f] != 0;
+      f = m_parent[f];
+    }
+    return {f, contrary};
+  }
+
+  // False if it is known to be otherwise.
+  bool unite(const std::size_t f, const std::size_t g, const bool contrary)
+  {
+    const auto a = find(f), b = find(g);
+    const bool differs = (a.second != b.second) != contrary;
+    if(a.first == b.first)
+      return !differs;
+    m_parent[(std::max)(a.first, b.first)] = (std::min)(a.first, b.first);
+    m_contrary[(std::max)(a.first, b.first)] = differs;
+    return true;
+  }
+
+private:
+  std::vector<std::size_t> m_parent;
+  std::vector<char> m_contrary; // to its parent
+};
+
 // Turns the smaller part of each component round where its faces then agree along all edges, and no faces otherwise.
 void orient(Mended& mended)
 {
-  struct Side
-  {
-    std::size_t face;
-    bool forward;
-  };
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<Side>> sides;
+  std::vector<std::tuple<std::size_t, std::size_t, std::size_t, bool>> sides; // ends, face, direction
   for(std::size_t f = 0; f < mended.polygons.size(); ++f) {
     const auto& p = mended.polygons[f];
     for(std::size_t i = 0; i < p.size(); ++i) {
-      const std::size_t v = p[i], w = p[(i + 1) % p.size()];
-      sides[std::minmax(v, w)].push_back({f, v < w});
+      const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
+      sides.emplace_back((std::min)(v, w), (std::max)(v, w), f, v < w);
     }
   }
-  std::vector<std::vector<std::pair<std::size_t, bool>>> neighbours(
-      mended.polygons.size()); // and whether they differ
-  for(const auto& [edge, both] : sides) {
-    if(both.size() > 2)
-      return;
-    if(both.size() == 2)
-      for(const std::size_t k : {0, 1})
-        neighbours[both[k].face].push_back({both[1 - k].face, both[0].forward == both[1].forward});
+  std::sort(sides.begin(), sides.end());
+  const auto same_edge = [&](const std::size_t i, const std::size_t j) {
+    return j < sides.size() && std::get<0>(sides[i]) == std::get<0>(sides[j]) &&
+           std::get<1>(sides[i]) == std::get<1>(sides[j]);
+  };
+  Orientations faces(mended.polygons.size());
+  for(std::size_t i = 0; i < sides.size(); ++i)
+    if(same_edge(i, i + 1)) {
+      const bool contrary = std::get<3>(sides[i]) == std::get<3>(sides[i + 1]);
+      if(same_edge(i, i + 2) || !faces.unite(std::get<2>(sides[i]), std::get<2>(sides[i + 1]), contrary))
+        return; // branched, or one-sided
+      ++i;
+    }
+  std::vector<std::ptrdiff_t> majority(mended.polygons.size(), 0); // those that agree less those that do not
+  for(std::size_t f = 0; f < majority.size(); ++f) {
+    const auto [first, contrary] = faces.find(f);
+    majority[first] += contrary ? -1 : 1;
   }
-  enum State : char { unseen, as_it_is, turned };
-  std::vector<State> state(mended.polygons.size(), unseen);
-  std::vector<std::size_t> to_turn;
-  for(std::size_t seed = 0; seed < state.size(); ++seed) {
-    if(state[seed] != unseen)
-      continue;
-    std::vector<std::size_t> component = {seed};
-    state[seed] = as_it_is;
-    for(std::size_t i = 0; i < component.size(); ++i)
-      for(const auto& [g, differs] : neighbours[component[i]]) {
-        const State wanted = (state[component[i]] == turned) != differs ? turned : as_it_is;
-        if(state[g] == unseen) {
-          state[g] = wanted;
-          component.push_back(g);
-        } else if(state[g] != wanted)
-          return; // one-sided
-      }
-    const auto count = [&](const State s) {
-      return std::count_if(component.begin(), component.end(),
-                           [&](const std::size_t f) { return state[f] == s; });
-    };
-    const State fewer = count(turned) <= count(as_it_is) ? turned : as_it_is;
-    for(const std::size_t f : component)
-      if(state[f] == fewer)
-        to_turn.push_back(f);
+  std::size_t turned = 0;
+  for(std::size_t f = 0; f < majority.size(); ++f) {
+    const auto [first, contrary] = faces.find(f);
+    if(contrary == (majority[first] >= 0)) {
+      std::reverse(mended.polygons[f].begin(), mended.polygons[f].end());
+      ++turned;
+    }
   }
-  for(const std::size_t f : to_turn)
-    std::reverse(mended.polygons[f].begin(), mended.polygons[f].end());
-  mended.log.add("face turned round", "faces turned round", to_turn.size());
+  mended.log.add("face turned round", "faces turned round", turned);
 }
 
-Mended mended(const Polygon_soup& soup, const bool merge)
+Mended mended(const Polygon_soup& soup, const bool merge, const bool copies)
 {
   Mended result;
   result.polygons = soup.polygons;
@@ -131,7 +159,8 @@ Mended mended(const Polygon_soup& soup, const bool merge)
   std::iota(result.vertex.begin(), result.vertex.end(), std::size_t(0));
   if(merge)
     close_edges(soup, result);
-  remove_copies(result);
+  if(merge || copies) // merging makes some
+    remove_copies(result);
   orient(result);
   return result;
 }
@@ -215,7 +244,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending)
         for(const bool merging : {true, false}) {
           if(merging && !merge)
             continue;
-          Mended candidate = mended(soup, merging);
+          Mended candidate = mended(soup, merging, d.duplicate_faces.count != 0);
           Polygon_soup changed{soup.points, candidate.polygons};
           Mesh_diagnosis diagnosis = diagnose(changed);
           diagnosis.isolated_vertices = {};
