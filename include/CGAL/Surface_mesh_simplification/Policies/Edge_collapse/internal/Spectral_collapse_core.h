@@ -62,6 +62,7 @@ public:
       set_Z(Z);
     m_fields.theta = theta;
     m_fields.area_scale = area_scale;
+    m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
     m_parameters = parameters;
     m_shape = Spectral_shape_term();
     m_pool = std::make_unique<Pool>(parameters.threads);
@@ -89,11 +90,17 @@ public:
       m_fields.rings.find_back(Spectral_slot(w));
       m_fields.rings.update_triangles(Spectral_slot(w), position());
       update_row(Spectral_slot(w), workspace.row);
-      workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+      if(m_fields.has_products(Spectral_slot(w)))
+        workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+      else
+        m_products[w].clear();
     });
-    m_number_of_vertices = 0;
-    for(std::size_t w = 0; w < std::size_t(n); ++w)
-      m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
+    m_number_of_vertices = m_fields.largest_degree = 0;
+    for(std::size_t w = 0; w < std::size_t(n); ++w) {
+      const std::size_t degree = m_fields.rings[Spectral_slot(w)].size();
+      m_number_of_vertices += degree == 0 ? 0 : 1;
+      m_fields.largest_degree = (std::max)(m_fields.largest_degree, degree);
+    }
     if(m_parameters.shape > 0)
       m_shape.set_geometry(m_fields.points, m_fields.rings, m_fields.area_scale);
     if(m_parameters.keep_free_of_self_intersections)
@@ -273,6 +280,7 @@ public:
     m_total.add(-m_fields.E[removed]);
     m_fields.E[removed] = m_fields.mass[removed] = 0;
     m_fields.points[kept] = point;
+    m_fields.largest_degree = (std::max)(m_fields.largest_degree, ring.size());
     m_fields.rings.merge(removed, kept, std::move(ring));
     m_fields.rings.update_triangles(kept, position());
     m_candidates.merge(removed);
@@ -426,7 +434,7 @@ private:
       const Spectral_slot w = rings[kept][i].vertex;
       m_lost[i] = rings.follow(removed, kept, i);
       if(m_lost[i] != Spectral_rings::none)
-        rings.link_back(w);
+        rings.link_back(w, m_lost[i]);
       m_candidates.forget(w, removed);
     }
   }
@@ -446,7 +454,11 @@ private:
       const Spectral_slot c = kept_or_neighbor(kept, i);
       const Spectral_rings& rings = m_fields.rings;
       update_row(c, workspace.row);
-      if(i != 0 && m_lost[i - 1] != Spectral_rings::none)
+      if(!m_fields.has_products(c)) {
+        m_products[c].clear();
+        return;
+      }
+      if(i != 0 && m_lost[i - 1] != Spectral_rings::none && m_products[c].degree() == rings[c].size() + 1)
         m_products[c].erase(m_lost[i - 1]);
       if(i == 0 || rings[c].size() != m_products[c].degree())
         workspace.builder.compute(m_fields, c, m_products[c]);

@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -36,6 +37,7 @@ struct Spectral_cost_parameters
   double shape = 0;          ///< see `Spectral_options::shape`
   double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
   int threads = 1;
+  std::size_t largest_degree_with_products = Spectral_fields().largest_degree_with_products;
 };
 
 /// The shape term and what it weighs beside E; `term` is null where there is none.
@@ -78,6 +80,36 @@ public:
                           m_shape.weight * m_shape.term->change(m_fields->points, u, v, samples[s].point);
   }
 
+  /// The same where only the cheapest is of interest: a cost that exceeds another one may be infinite. Beside an end of many
+  /// neighbours that is nearly always found out from a few of them: to move it changes all of their triangles.
+  void evaluate_for_cheapest(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
+                             Spectral_sample* samples, const int count) const
+  {
+    if(!kernel.is_by_rows())
+      return evaluate(u, v, kernel, samples, count);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Spectral_slot more = m_fields->rings[u].size() >= m_fields->rings[v].size() ? u : v;
+    double largest = infinity, least = infinity;
+    if(m_shape.term != nullptr)
+      largest = m_shape.largest_loss * (m_fields->mass[u] + m_fields->mass[v]);
+    for(const bool at_more : {true, false})
+      for(int s = 0; s < count; ++s) {
+        Spectral_sample& sample = samples[s];
+        if((sample.point == m_fields->points[more]) != at_more)
+          continue;
+        const double shape =
+            m_shape.term == nullptr
+                ? 0.
+                : m_shape.weight * m_shape.term->change(m_fields->points, u, v, sample.point);
+        // A change of E beyond `largest` counts for no more than that.
+        const double ceiling = least - shape;
+        kernel.evaluate_below(sample, ceiling < largest ? ceiling : infinity);
+        if(std::isfinite(sample.cost))
+          sample.cost = (std::min)(sample.cost, largest) + shape;
+        least = (std::min)(least, sample.cost);
+      }
+  }
+
   bool is_kept(const Spectral_slot s) const { return !m_kept->empty() && (*m_kept)[s] != 0; }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
@@ -111,11 +143,15 @@ public:
       return best_by_shape(u, v, kernel);
     for(int s = 0; s < 3; ++s)
       samples[s] = sample_at(u, v, s / 2.);
+    Spectral_sample best;
+    if(kernel.is_by_rows() && bound < std::numeric_limits<double>::infinity()) {
+      evaluate_for_cheapest(u, v, kernel, samples, 3);
+      best = *cheapest(samples, 3);
+      if(best.cost > bound)
+        return best;
+    }
     evaluate(u, v, kernel, samples, 3);
-    Spectral_sample best = samples[0];
-    for(int s = 1; s < 3; ++s)
-      if(samples[s].cost < best.cost)
-        best = samples[s];
+    best = *cheapest(samples, 3);
     if(best.cost > bound)
       return best;
 
@@ -229,7 +265,7 @@ private:
     constexpr int n = Spectral_collapse_kernel::max_samples;
     Spectral_sample samples[n] = {sample_at(u, v, 0), sample_at(u, v, 0.5), sample_at(u, v, 1),
                                   sample_off_edge(u, v, x.allFinite() ? x : middle)};
-    evaluate(u, v, kernel, samples, n);
+    evaluate_for_cheapest(u, v, kernel, samples, n);
     return *cheapest(samples, n);
   }
 
