@@ -50,40 +50,24 @@ public:
     return change;
   }
 
-  /// The same; infinity where a triangle without area would arise, or where the sum exceeds `ceiling`: E_w is never negative, so
-  /// that a few vertices often tell.
+  /// The same; infinity where a triangle without area would arise.
   double cost(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
-              const double weight, const Eigen::Vector3d& point, const double ceiling)
+              const double weight, const Eigen::Vector3d& point)
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     set_collapse(fields, u, v, weight, point);
     // The end with more neighbours, o the other one.
     const bool more_at_u = fields.rings[u].size() >= fields.rings[v].size();
     const Spectral_slot c = more_at_u ? u : v, o = more_at_u ? v : u;
     const bool stays = point == fields.points[c] && weight == (more_at_u ? 0. : 1.);
-    double before = fields.E[u] + fields.E[v];
-    if(!stays)
-      for(const Spectral_ring_entry& e : fields.rings[c])
-        before += e.vertex == o ? 0. : fields.E[e.vertex];
+    double change = (stays ? energy_after_few(c, o) : merged_energy()) - fields.E[u] - fields.E[v];
     for(const Spectral_ring_entry& e : fields.rings[o])
       if(e.vertex != c && (stays || !fields.rings.are_adjacent(c, e.vertex)))
-        before += fields.E[e.vertex];
-    double after = 0;
-    for(const Spectral_ring_entry& e : fields.rings[o])
-      if(e.vertex != c) {
-        after += energy_after(e.vertex);
-        if(m_invalid || after - before > ceiling)
-          return infinity;
-      }
+        change += energy_after(e.vertex) - fields.E[e.vertex];
     if(!stays)
       for(const Spectral_ring_entry& e : fields.rings[c])
-        if(e.vertex != o && !fields.rings.are_adjacent(o, e.vertex)) {
-          after += energy_after(e.vertex);
-          if(m_invalid || after - before > ceiling)
-            return infinity;
-        }
-    after += stays ? energy_after_few(c, o) : merged_energy();
-    return m_invalid || after - before > ceiling ? infinity : after - before;
+        if(e.vertex != o)
+          change += energy_after(e.vertex) - fields.E[e.vertex];
+    return m_invalid ? std::numeric_limits<double>::infinity() : change;
   }
 
 private:

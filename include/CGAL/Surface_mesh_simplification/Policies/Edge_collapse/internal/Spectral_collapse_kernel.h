@@ -78,26 +78,14 @@ public:
     return topology;
   }
 
-  /// Whether each sample is evaluated on its own, by whole rows: a ring is so large that its inner products are not kept.
-  bool is_by_rows() const
-  {
-    return m_by_rows;
-  }
-
-  /// Fills `cost` of one sample where is_by_rows(); infinity also where it is above `ceiling`.
-  void evaluate_below(Spectral_sample& sample, const double ceiling)
-  {
-    CGAL_precondition(m_by_rows);
-    sample.cost = m_change.cost(*m_fields, m_link.u(), m_link.v(), sample.weight, sample.point, ceiling);
-  }
-
   /// Fills `cost` of up to four samples; infinity where a triangle without area would arise.
   void evaluate(Spectral_sample* samples, const int count)
   {
     CGAL_precondition(count >= 1 && count <= max_samples);
     if(m_by_rows) {
       for(int s = 0; s < count; ++s)
-        evaluate_below(samples[s], std::numeric_limits<double>::infinity());
+        samples[s].cost =
+            m_change.cost(*m_fields, m_link.u(), m_link.v(), samples[s].weight, samples[s].point);
       return;
     }
 #ifdef CGAL_SPECTRAL_DISPATCH
@@ -432,7 +420,7 @@ private:
 
   const Spectral_fields* m_fields = nullptr;
   const Spectral_ring_products* m_products = nullptr;
-  bool m_by_rows = false;
+  bool m_by_rows = false; // a ring is too large to keep its inner products
   Spectral_link m_link;
   // Scratch memory that only grows; the first entries are those of the link.
   std::vector<Gram> m_gram;

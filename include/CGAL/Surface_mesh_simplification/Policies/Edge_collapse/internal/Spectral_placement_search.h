@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -80,36 +79,6 @@ public:
                           m_shape.weight * m_shape.term->change(m_fields->points, u, v, samples[s].point);
   }
 
-  /// The same where only the cheapest is of interest: a cost that exceeds another one may be infinite. Beside an end of many
-  /// neighbours that is nearly always found out from a few of them: to move it changes all of their triangles.
-  void evaluate_for_cheapest(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                             Spectral_sample* samples, const int count) const
-  {
-    if(!kernel.is_by_rows())
-      return evaluate(u, v, kernel, samples, count);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    const Spectral_slot more = m_fields->rings[u].size() >= m_fields->rings[v].size() ? u : v;
-    double largest = infinity, least = infinity;
-    if(m_shape.term != nullptr)
-      largest = m_shape.largest_loss * (m_fields->mass[u] + m_fields->mass[v]);
-    for(const bool at_more : {true, false})
-      for(int s = 0; s < count; ++s) {
-        Spectral_sample& sample = samples[s];
-        if((sample.point == m_fields->points[more]) != at_more)
-          continue;
-        const double shape =
-            m_shape.term == nullptr
-                ? 0.
-                : m_shape.weight * m_shape.term->change(m_fields->points, u, v, sample.point);
-        // A change of E beyond `largest` counts for no more than that.
-        const double ceiling = least - shape;
-        kernel.evaluate_below(sample, ceiling < largest ? ceiling : infinity);
-        if(std::isfinite(sample.cost))
-          sample.cost = (std::min)(sample.cost, largest) + shape;
-        least = (std::min)(least, sample.cost);
-      }
-  }
-
   bool is_kept(const Spectral_slot s) const { return !m_kept->empty() && (*m_kept)[s] != 0; }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
@@ -143,15 +112,8 @@ public:
       return best_by_shape(u, v, kernel);
     for(int s = 0; s < 3; ++s)
       samples[s] = sample_at(u, v, s / 2.);
-    Spectral_sample best;
-    if(kernel.is_by_rows() && bound < std::numeric_limits<double>::infinity()) {
-      evaluate_for_cheapest(u, v, kernel, samples, 3);
-      best = *cheapest(samples, 3);
-      if(best.cost > bound)
-        return best;
-    }
     evaluate(u, v, kernel, samples, 3);
-    best = *cheapest(samples, 3);
+    Spectral_sample best = *cheapest(samples, 3);
     if(best.cost > bound)
       return best;
 
@@ -168,6 +130,24 @@ public:
     if(free)
       return best_free_sample(u, v, samples, best, kernel);
     return best;
+  }
+
+  /// The end of more neighbours stays where it is, where that is what nearly always costs least: where their number is too large to
+  /// keep inner products, any other point changes all of the triangles there. Infinite cost elsewhere.
+  Spectral_sample at_large_end(const Spectral_slot u, const Spectral_slot v,
+                               Spectral_collapse_kernel& kernel) const
+  {
+    Spectral_sample sample;
+    if((m_fields->has_products(u) && m_fields->has_products(v)) ||
+       m_parameters->placement == Spectral_placement_strategy::midpoint)
+      return sample;
+    const bool more_at_u = m_fields->rings[u].size() >= m_fields->rings[v].size();
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(more_at_u ? fixed.v : fixed.u)
+      return sample;
+    sample = sample_at(u, v, more_at_u ? 0. : 1.);
+    evaluate(u, v, kernel, &sample, 1);
+    return sample;
   }
 
   /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true.
@@ -265,7 +245,7 @@ private:
     constexpr int n = Spectral_collapse_kernel::max_samples;
     Spectral_sample samples[n] = {sample_at(u, v, 0), sample_at(u, v, 0.5), sample_at(u, v, 1),
                                   sample_off_edge(u, v, x.allFinite() ? x : middle)};
-    evaluate_for_cheapest(u, v, kernel, samples, n);
+    evaluate(u, v, kernel, samples, n);
     return *cheapest(samples, n);
   }
 
