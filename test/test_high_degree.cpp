@@ -8,11 +8,16 @@
 #include "core_helpers.h"
 
 #include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -209,4 +214,28 @@ TEST_CASE("Triangles around a vertex that cross are found, few or many")
   }
   CHECK(crossing > 0);
   CHECK(apart > 0);
+}
+
+TEST_CASE("The memory estimate knows fans, the shape term and the tree of boxes")
+{
+  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+  SMS::Spectral_edge_collapse_options options = SMS::Spectral_edge_collapse_options::paper();
+  Mesh sphere, small, large;
+  shapes::make_mesh(sphere, shapes::icosphere_matrices(3));
+  shapes::make_mesh(small, shapes::gear_matrices(250, 3));
+  shapes::make_mesh(large, shapes::gear_matrices(300, 3));
+  CHECK(SMS::estimated_memory(sphere, 10, options) ==
+        SMS::estimated_memory(sphere.number_of_vertices(), 10, options));
+  CHECK(SMS::estimated_memory(small, 10, options) >
+        SMS::estimated_memory(small.number_of_vertices(), 10, options) + 2 * 2 * 250 * 250 * 8.);
+  CHECK(SMS::estimated_memory(large, 10, options) ==
+        SMS::estimated_memory(large.number_of_vertices(), 10, options));
+  const double plain = SMS::estimated_memory(100000, 200, options);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(); // the loop alone
+  const double loop = SMS::estimated_memory(100000, 200, options);
+  CHECK(loop <= plain);
+  options.shape = 3;
+  CHECK(SMS::estimated_memory(100000, 200, options) == Catch::Approx(loop + 100000 * 104.));
+  options.keep_free_of_self_intersections = true;
+  CHECK(SMS::estimated_memory(100000, 200, options) > loop + 100000 * 200.);
 }

@@ -9,6 +9,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
+#include <CGAL/Spectral_geometry/internal/for_each_task.h>
+
 #include "catch.h"
 #include "collapse_helpers.h"
 
@@ -209,4 +211,15 @@ TEST_CASE("A pool does with the threads it gets, and ends them if its constructi
   CHECK(Pool(6, start(std::bad_alloc())).number_of_threads() == 2);
   left = 2;
   CHECK_THROWS_AS(Pool(6, start(std::runtime_error("something else"))), std::runtime_error);
+}
+
+TEST_CASE("What one of the tasks of a loop throws reaches the caller")
+{
+  for(const int threads : {1, 2, 4})
+    CHECK_THROWS_AS(CGAL::Spectral_geometry::internal::for_each_task(100, threads,
+                                                                     [](const int i) {
+                                                                       if(i == 50)
+                                                                         throw std::bad_alloc();
+                                                                     }),
+                    std::bad_alloc);
 }
