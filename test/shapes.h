@@ -216,6 +216,45 @@ inline Matrices torus_matrices(int nu, int nv, double major = 1., double minor =
   return matrices(points, triangles);
 }
 
+// A wavy disc: the centre, vertex 0, has d neighbours.
+inline Matrices disc_matrices(int d)
+{
+  std::vector<Eigen::Vector3d> points = {{0, 0, 0.1}};
+  std::vector<Eigen::Vector3i> triangles;
+  for(int i = 0; i < d; ++i) {
+    const double a = 2. * pi * i / d, r = 1. + 0.1 * std::cos(5. * a) + 0.02 * std::sin(17. * a + 1.);
+    points.emplace_back(r * std::cos(a), r * std::sin(a), 0.05 * std::sin(3. * a));
+    triangles.emplace_back(0, 1 + i, 1 + (i + 1) % d);
+  }
+  return matrices(points, triangles);
+}
+
+// A closed gear: a cylinder of `rings` rings of d vertices; the centres of its two caps, the last vertices, have d neighbours.
+inline Matrices gear_matrices(int d, int rings)
+{
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for(int j = 0; j < rings; ++j)
+    for(int i = 0; i < d; ++i) {
+      const double a = 2. * pi * (i + 0.5 * j) / d;
+      const double r = 1. + 0.1 * std::cos(5. * a) + 0.02 * std::sin(17. * a + 1.);
+      points.emplace_back(r * std::cos(a), r * std::sin(a), 0.5 * j + 0.05 * std::sin(3. * a));
+    }
+  points.emplace_back(0, 0, -0.1);
+  points.emplace_back(0, 0, 0.5 * (rings - 1) + 0.1);
+  const int bottom = rings * d, top = bottom + 1, last = (rings - 1) * d;
+  for(int i = 0; i < d; ++i) {
+    const int next = (i + 1) % d;
+    for(int j = 0; j + 1 < rings; ++j) {
+      triangles.emplace_back(j * d + i, j * d + next, (j + 1) * d + i);
+      triangles.emplace_back(j * d + next, (j + 1) * d + next, (j + 1) * d + i);
+    }
+    triangles.emplace_back(bottom, next, i);
+    triangles.emplace_back(top, last + i, last + next);
+  }
+  return matrices(points, triangles);
+}
+
 // `copies` of a mesh as connected components, side by side.
 inline Matrices components_matrices(const Matrices& mesh, int copies)
 {

@@ -36,6 +36,7 @@ struct Arguments
   std::string json, scaling;
   std::string scaling_vertices = "12000,25000,50000,100000,200000,400000,1000000";
   std::string scaling_eigenvectors = "50,100,200,400";
+  std::string scaling_shape = "generated";
   std::string help;
 };
 
@@ -45,8 +46,8 @@ Arguments parse_arguments(int argc, char* argv[])
   Arguments a;
   po::options_description visible(
       "spectral_benchmark MESH... [options]\nspectral_benchmark --scaling CSV [options]\n\n"
-      "Measures the spectral simplification of each MESH (a file, or generated:N for a shape of about N "
-      "vertices) beside "
+      "Measures the spectral simplification of each MESH (a file, generated:N for a shape of about N "
+      "vertices, disc:D or gear:D for fans of D faces) beside "
       "CGAL's Garland-Heckbert (plane) and Lindstrom-Turk costs.\n\nOptions",
       100, 60);
   auto add = visible.add_options();
@@ -65,6 +66,9 @@ Arguments parse_arguments(int argc, char* argv[])
   add("json", po::value(&a.json)->value_name("FILE"), "write the main figures of each mesh");
   add("scaling", po::value(&a.scaling)->value_name("CSV"),
       "measure generated shapes down to 1 % of their vertices, and write a table");
+  add("scaling-shape",
+      po::value(&a.scaling_shape)->value_name("generated|disc|gear")->default_value(a.scaling_shape),
+      "which; discs and gears have vertices of many neighbours, and --scaling-vertices is their number");
   add("scaling-vertices",
       po::value(&a.scaling_vertices)->value_name("LIST")->default_value(a.scaling_vertices), "their sizes");
   add("scaling-eigenvectors",
@@ -87,6 +91,9 @@ Arguments parse_arguments(int argc, char* argv[])
     throw std::runtime_error("name a mesh, or --scaling CSV; --help shows everything.");
   if(a.preset != "best" && a.preset != "paper")
     throw std::runtime_error("--preset is '" + a.preset + "', it must be best or paper.");
+  if(a.scaling_shape != "generated" && a.scaling_shape != "disc" && a.scaling_shape != "gear")
+    throw std::runtime_error("--scaling-shape is '" + a.scaling_shape +
+                             "', it must be generated, disc or gear.");
   if(a.runs < 1 || a.threads < 1 || a.eigenvectors < 1)
     throw std::runtime_error("--runs, --threads and --eigenvectors must be positive.");
   return a;
@@ -263,7 +270,7 @@ void measure_scaling(const Arguments& a)
   csv << "vertices,target,eigenvectors,threads,us_per_collapse,us_per_collapse_garland_heckbert,"
          "evaluations_per_collapse,seconds_eigenpairs,seconds_collapse,seconds_total,peak_rss_mb\n";
   for(const long n : numbers(a.scaling_vertices)) {
-    const std::string mesh = "generated:" + std::to_string(n);
+    const std::string mesh = a.scaling_shape + ":" + std::to_string(n);
     double peak = 0;
     const Mesh_size size = in_child([&] { return measure_mesh(mesh); }, peak);
     Setting setting;

@@ -32,11 +32,15 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
 
 Mesh load(const std::string& name)
 {
-  const std::string prefix = "generated:";
-  if(name.compare(0, prefix.size(), prefix) != 0)
+  const std::size_t colon = name.find(':');
+  const std::string kind = name.substr(0, colon);
+  if(colon == std::string::npos || (kind != "generated" && kind != "disc" && kind != "gear"))
     return read_input_mesh(name, Mending::none).mesh;
+  const std::size_t size = std::stoul(name.substr(colon + 1));
   Mesh mesh;
-  shapes::make_mesh(mesh, generated_shape(std::stoul(name.substr(prefix.size()))));
+  shapes::make_mesh(mesh, kind == "disc"   ? shapes::disc_matrices(int(size))
+                          : kind == "gear" ? shapes::gear_matrices(int(size), 4)
+                                           : generated_shape(size));
   return mesh;
 }
 

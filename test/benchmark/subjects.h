@@ -9,7 +9,8 @@
 #include <string>
 
 // What is measured, apart from the program around it because CGAL's templates take their time to compile. A mesh is given by
-// the name of its file, or as "generated:N": a closed shape without symmetry of about N vertices.
+// the name of its file, or as "generated:N": a closed shape without symmetry of about N
+// vertices, or as "disc:D" and "gear:D", with one vertex of D neighbours in 1 + D, and two in 2 + 4 D.
 
 struct Setting
 {

@@ -7,6 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Vertex_slot_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
@@ -185,27 +186,28 @@ public:
 
   /*!
    * @param mesh a copy of the input of the log, as it was before the run; must outlive this object
-   * @param log must outlive this object
+   * @param log is kept; move it here if it is needed no more
    * @param np `vertex_point_map`, and `edge_is_constrained_map` if the run had one: both those of the copy
    *
    * @throws std::invalid_argument if the mesh has another number of vertices than the input of the log
    */
-  Collapse_replay(Triangle_mesh& mesh, const Collapse_log& log,
+  Collapse_replay(Triangle_mesh& mesh, Collapse_log log,
                   const NamedParameters& np = parameters::default_values())
     : m_mesh(&mesh)
-    , m_log(&log)
+    , m_log(std::move(log))
     , m_np(np)
     , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                          get_property_map(vertex_point, mesh)))
-    , m_slots(get(dynamic_vertex_property_t<Index>(), mesh))
+    , m_slots(mesh)
   {
     Index n = 0;
     for(const vertex_descriptor v : vertices(mesh))
-      put(m_slots, v, n++);
-    if(std::size_t(n) != log.number_of_vertices())
-      throw std::invalid_argument(
-          "Collapse_replay: the mesh has " + std::to_string(n) + " vertices, but the log starts at " +
-          std::to_string(log.number_of_vertices()) + "; pass a copy of the input as it was before the run.");
+      m_slots.set(v, n++);
+    if(std::size_t(n) != m_log.number_of_vertices())
+      throw std::invalid_argument("Collapse_replay: the mesh has " + std::to_string(n) +
+                                  " vertices, but the log starts at " +
+                                  std::to_string(m_log.number_of_vertices()) +
+                                  "; pass a copy of the input as it was before the run.");
   }
 
   /*!
@@ -217,33 +219,34 @@ public:
    */
   void collapse_to(const std::size_t N)
   {
-    const Index end = m_log->number_of_merges(N);
+    const Index end = m_log.number_of_merges(N);
     if(end < m_done)
       throw std::invalid_argument("Collapse_replay: a level of " + std::to_string(N) +
                                   " vertices is asked for, but the mesh has only " +
                                   std::to_string(number_of_vertices()) +
                                   " left; go from fine to coarse, or begin again with another copy.");
+    check_slots();
     // Afresh: garbage may have been collected meanwhile.
-    m_vertices.resize(m_log->number_of_vertices());
+    m_vertices.resize(m_log.number_of_vertices());
     for(const vertex_descriptor v : vertices(*m_mesh))
-      m_vertices[std::size_t(get(m_slots, v))] = v;
+      m_vertices[std::size_t(m_slots[v])] = v;
     for(; m_done < end; ++m_done)
-      merge(m_log->forest().merges()[std::size_t(m_done)], m_log->points()[std::size_t(m_done)]);
+      merge(m_log.forest().merges()[std::size_t(m_done)], m_log.points()[std::size_t(m_done)]);
   }
 
   /// Number of vertices of the mesh as it is.
-  std::size_t number_of_vertices() const { return m_log->number_of_vertices() - std::size_t(m_done); }
+  std::size_t number_of_vertices() const { return m_log.number_of_vertices() - std::size_t(m_done); }
 
   /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
   Eigen::SparseMatrix<double> restriction() const
   {
-    return m_log->forest().restriction(current_slots(), m_done);
+    return m_log.forest().restriction(current_slots(), m_done);
   }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Index> map = m_log->forest().vertex_map(current_slots(), m_done);
+    const std::vector<Index> map = m_log.forest().vertex_map(current_slots(), m_done);
     return std::vector<std::size_t>(map.begin(), map.end());
   }
 
@@ -260,11 +263,20 @@ private:
     return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
+  void check_slots() const
+  {
+    if(!m_slots.attach(*m_mesh))
+      throw std::logic_error(
+          "Collapse_replay: another mesh has been assigned to the one that it was made for; begin again "
+          "with another copy.");
+  }
+
   std::vector<Index> current_slots() const
   {
+    check_slots();
     std::vector<Index> slots;
     for(const vertex_descriptor v : vertices(*m_mesh))
-      slots.push_back(get(m_slots, v));
+      slots.push_back(m_slots[v]);
     return slots;
   }
 
@@ -293,7 +305,7 @@ private:
     const vertex_descriptor left = collapse(h);
     // The other of the two, should the halfedges of the copy lie otherwise.
     m_vertices[std::size_t(m.kept)] = left;
-    put(m_slots, left, m.kept);
+    m_slots.set(left, m.kept);
     put(m_vpm, left, point);
   }
 
@@ -307,10 +319,10 @@ private:
   }
 
   Triangle_mesh* m_mesh;
-  const Collapse_log* m_log;
+  Collapse_log m_log;
   NamedParameters m_np;
   Vertex_point_map m_vpm;
-  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Index>>::type m_slots;
+  mutable internal::Vertex_slot_map<Triangle_mesh> m_slots;
   std::vector<vertex_descriptor> m_vertices; // of each slot that is left
   Index m_done = 0;
 };

@@ -54,6 +54,7 @@ public:
       throw std::invalid_argument(
           "Restriction_visitor: edge_collapse() was called with another mesh than the "
           "one that the visitor was made for; make a visitor for that mesh.");
+    m_slots.check();
     m_open = false; // left so by an exception during a collapse
   }
 

@@ -7,6 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
+
 #include <memory>
 #include <utility>
 
@@ -20,6 +22,10 @@ namespace Surface_mesh_simplification {
  * A handle on a `Spectral_state`: the change of E (Eq. 2 of the paper) that the collapse
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
  *
+ * What CGAL's queue holds, and hands to a stop predicate, may be of before some collapses nearby: an edge that cost much more
+ * than the collapses of late is evaluated again when its turn comes, and not before. A predicate that needs the error
+ * itself asks the policies, as `Spectral_error_stop_predicate` does.
+ *
  * \cgalModels{GetCost}
  *
  * Made by `Spectral_policies::get_cost()`. Throws `std::logic_error` unless the visitor of the same policies
@@ -29,7 +35,7 @@ template <class State>
 class Spectral_cost
 {
 public:
-  /// a handle on nothing, to be assigned to
+  /// a handle on nothing, to be assigned to; a call throws `std::logic_error`
   Spectral_cost() = default;
   /// a handle on `state`
   explicit Spectral_cost(std::shared_ptr<State> state)
@@ -41,7 +47,7 @@ public:
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const
   {
-    return m_state->cost(profile, placement);
+    return internal::state_of_handle(m_state, "Spectral_cost").cost(profile, placement);
   }
 
 private:

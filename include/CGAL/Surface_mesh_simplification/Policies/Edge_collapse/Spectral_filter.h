@@ -8,6 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
 
 #include <memory>
 #include <utility>
@@ -56,7 +57,7 @@ public:
   operator()(const Profile& profile,
              const internal::Spectral_optional<typename Profile::Point>& placement) const
   {
-    if(!m_state->lets_through(profile, placement))
+    if(!internal::state_of_handle(m_state, "Spectral_filter").lets_through(profile, placement))
       return internal::Spectral_optional<typename Profile::Point>();
     return m_user(profile, placement);
   }

@@ -7,6 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
+
 #include <memory>
 #include <utility>
 
@@ -30,7 +32,7 @@ template <class State>
 class Spectral_placement
 {
 public:
-  /// a handle on nothing, to be assigned to
+  /// a handle on nothing, to be assigned to; a call throws `std::logic_error`
   Spectral_placement() = default;
   /// a handle on `state`
   explicit Spectral_placement(std::shared_ptr<State> state)
@@ -41,7 +43,7 @@ public:
   template <class Profile>
   auto operator()(const Profile& profile) const
   {
-    return m_state->placement(profile);
+    return internal::state_of_handle(m_state, "Spectral_placement").placement(profile);
   }
 
 private:

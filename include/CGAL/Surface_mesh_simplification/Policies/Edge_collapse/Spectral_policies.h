@@ -17,6 +17,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -60,7 +61,7 @@ namespace Surface_mesh_simplification {
  * \endcode
  *
  * All three must be passed; without the visitor the first cost throws `std::logic_error`. The object is a
- * handle: copies share one state. The mesh must outlive it, and must not be given new vertices. A
+ * handle: copies share one state; one that has been moved from throws `std::logic_error` when it is used. The mesh must outlive it, and must not be given new vertices. A
  * second `edge_collapse()` with the same policies continues, and P still starts at the original
  * input.
  *
@@ -114,71 +115,74 @@ public:
   {}
 
   /// The cost that `edge_collapse()` must get, a model of `GetCost`.
-  Get_cost get_cost() const { return Get_cost(m_state); }
+  Get_cost get_cost() const { return Get_cost(shared_state()); }
 
   /// The placement that `edge_collapse()` must get, a model of `GetPlacement`; it may be wrapped.
-  Get_placement get_placement() const { return Get_placement(m_state); }
+  Get_placement get_placement() const { return Get_placement(shared_state()); }
 
   /// The visitor that `edge_collapse()` must get.
-  Spectral_visitor<State> visitor() const { return Spectral_visitor<State>(m_state); }
+  Spectral_visitor<State> visitor() const { return Spectral_visitor<State>(shared_state()); }
 
   /// The same, which also calls yours; `std::ref(v)` is called itself, anything else is copied.
   template <class Visitor>
   Spectral_visitor<State, Visitor> visitor(Visitor user_visitor) const
   {
-    return Spectral_visitor<State, Visitor>(m_state, std::move(user_visitor));
+    return Spectral_visitor<State, Visitor>(shared_state(), std::move(user_visitor));
   }
 
   /// Where there are vertices to keep and the placement is wrapped, in `Constrained_placement` for instance: the
   /// filter that `edge_collapse()` must get.
-  Spectral_filter<State> filter() const { return Spectral_filter<State>(m_state); }
+  Spectral_filter<State> filter() const { return Spectral_filter<State>(shared_state()); }
 
   /// The same, which also asks yours; it is copied.
   template <class Filter>
   Spectral_filter<State, Filter> filter(Filter user_filter) const
   {
-    return Spectral_filter<State, Filter>(m_state, std::move(user_filter));
+    return Spectral_filter<State, Filter>(shared_state(), std::move(user_filter));
   }
 
   /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call, columns in that
   /// at construction. Rows sum to 1 and columns have at most one nonzero.
-  Eigen::SparseMatrix<double> restriction() const { return m_state->restriction(); }
+  Eigen::SparseMatrix<double> restriction() const { return state().restriction(); }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
-  std::vector<std::size_t> vertex_map() const { return m_state->vertex_map(); }
+  std::vector<std::size_t> vertex_map() const { return state().vertex_map(); }
 
   /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every level of detail
   /// between the input and the current mesh.
-  Collapse_log log() const { return m_state->log(); }
+  Collapse_log log() const { return state().log(); }
 
   /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric coordinates of the
   /// closest point of the current mesh. Rows sum to 1.
   Eigen::SparseMatrix<double> prolongation() const
   {
     return Spectral_geometry::closest_point_interpolation(
-        m_state->fine_points(),
-        Spectral_geometry::mesh_matrices(m_state->mesh(),
-                                         parameters::vertex_point_map(m_state->vertex_point_map())));
+        state().fine_points(), Spectral_geometry::mesh_matrices(
+                                   state().mesh(), parameters::vertex_point_map(state().vertex_point_map())));
   }
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
   /// `Spectral_options::eigenpairs` to simplify the same input again.
-  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_state->eigenpairs(); }
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return state().eigenpairs(); }
 
   /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
-  double error() const { return m_state->error(); }
+  double error() const { return state().error(); }
 
   /// sqrt(E / sum_k lambda_k^2), which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
   /// the signals are constant (K = 1 for instance): P carries constants over exactly.
-  double relative_error() const { return m_state->relative_error(); }
+  double relative_error() const { return state().relative_error(); }
 
   /// The same, shared.
-  std::shared_ptr<State> shared_state() const { return m_state; }
+  std::shared_ptr<State> shared_state() const
+  {
+    internal::state_of_handle(m_state, "Spectral_policies");
+    return m_state;
+  }
 
   /// What the three handles share.
-  State& state() { return *m_state; }
+  State& state() { return internal::state_of_handle(m_state, "Spectral_policies"); }
   /// What the three handles share.
-  const State& state() const { return *m_state; }
+  const State& state() const { return internal::state_of_handle(m_state, "Spectral_policies"); }
 
 private:
   std::shared_ptr<State> m_state;

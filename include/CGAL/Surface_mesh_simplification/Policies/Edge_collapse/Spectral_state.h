@@ -80,7 +80,8 @@ public:
   /// Why candidates were given up when their turn came.
   struct Refusals
   {
-    std::size_t topology = 0; ///< CGAL's link condition and the like
+    std::size_t topology =
+        0; ///< CGAL's link condition and the like; a filter that is not in `Spectral_policies::filter()`, where a wrapper does not ask our placement
     std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
     std::size_t filter = 0;   ///< the `filter` named parameter
     /// no position without a degenerate triangle, or none that leaves kept vertices where they are
@@ -151,6 +152,7 @@ public:
     m_seconds_first_costs = seconds_since(begin);
     std::shared_ptr<void> token = std::make_shared<int>(0);
     m_run = token;
+    ++m_number_of_runs;
     return token;
   }
 
@@ -336,6 +338,8 @@ public:
   const Refusals& refusals() const { return m_refusals; }
   /// Of the mesh as it is now.
   std::size_t number_of_vertices() const { return m_number_of_vertices; }
+  /// Runs that were started so far.
+  std::size_t number_of_runs() const { return m_number_of_runs; }
   /// Of the input, in its own unit.
   double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
@@ -455,6 +459,7 @@ private:
 
   void read_geometry()
   {
+    m_slots.check();
     const std::size_t n = std::size_t(m_fine_points.rows());
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
     internal::Spectral_rings rings;
@@ -486,8 +491,12 @@ private:
   {
     m_pending.kept = kept;
     m_pending.removed = internal::null_spectral_slot;
+    std::vector<Slot> left;
+    for(const internal::Spectral_ring_entry& e : ring)
+      left.push_back(e.vertex);
+    std::sort(left.begin(), left.end());
     for(const internal::Spectral_ring_entry& old : m_core.fields().rings[kept])
-      if(std::none_of(ring.begin(), ring.end(), [&](const auto& e) { return e.vertex == old.vertex; }))
+      if(!std::binary_search(left.begin(), left.end(), old.vertex))
         m_pending.removed = old.vertex;
     CGAL_assertion(m_pending.removed != internal::null_spectral_slot);
     m_pending.weight =
@@ -531,6 +540,7 @@ private:
   std::size_t m_number_of_vertices = 0;
 
   std::weak_ptr<void> m_run;
+  std::size_t m_number_of_runs = 0;
   Answer m_answer;
   Pending m_pending;
   bool m_positions_checked = false;

@@ -31,7 +31,8 @@ namespace Surface_mesh_simplification {
  *
  * \cgalModels{StopPredicate}
  *
- * It needs the visitor of the policies.
+ * It needs the visitor of the policies. What the functions below say is of the last run that asked it: a second
+ * `edge_collapse()` with the same predicate begins anew.
  *
  * @tparam Policies a `Spectral_policies`; deduced
  * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
@@ -56,7 +57,6 @@ public:
     , m_bound(maximum_error)
     , m_count_stop(number_of_vertices, m_state->mesh())
     , m_error_stop(policies, maximum_error, placement)
-    , m_begin(m_state->number_of_vertices())
   {}
 
   /// whether to stop before the collapse of the selected candidate
@@ -64,6 +64,8 @@ public:
   bool operator()(const Cost& cost, const Profile& profile, const std::size_t initial,
                   const std::size_t current) const
   {
+    if(m_state->number_of_runs() != m_run)
+      begin_run();
     if(m_count_stop(cost, profile, initial, current)) {
       m_reached = true;
       return true;
@@ -88,6 +90,14 @@ public:
   bool cancelled() const { return m_cancelled; }
 
 private:
+  void begin_run() const
+  {
+    m_run = m_state->number_of_runs();
+    m_begin = m_state->number_of_vertices();
+    m_next_report = m_fraction = 0;
+    m_reached = m_error_reached = m_cancelled = false;
+  }
+
   // Of the way to whichever end is nearer. The error may fall again: the caller keeps the largest.
   double fraction() const
   {
@@ -102,7 +112,9 @@ private:
   double m_bound;
   Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
-  std::size_t m_begin;
+  mutable std::size_t m_run = 0,
+                      m_begin =
+                          0; // the run that the rest is of, and its number of vertices at the first call
   mutable double m_next_report = 0, m_fraction = 0;
   mutable bool m_reached = false, m_error_reached = false, m_cancelled = false;
 };

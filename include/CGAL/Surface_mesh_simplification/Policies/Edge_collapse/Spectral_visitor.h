@@ -7,6 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
+
 #include <functional>
 #include <memory>
 #include <utility>
@@ -88,7 +90,7 @@ public:
   void OnStarted(TriangleMesh& mesh)
   {
     user().OnStarted(mesh);
-    m_run = m_state->on_started(mesh);
+    m_run = internal::state_of_handle(m_state, "Spectral_visitor").on_started(mesh);
   }
 
   template <class TriangleMesh>

@@ -44,6 +44,9 @@ public:
     , m_mesh(&mesh)
   {}
 
+  /// a temporary would be gone when it is counted
+  Vertex_count_stop_predicate(std::size_t, const Triangle_mesh&&) = delete;
+
   /// whether the mesh, after the collapses so far, has at most N vertices
   template <class Cost, class Profile>
   bool operator()(const Cost&, const Profile&, const std::size_t initial_edge_count,

@@ -7,6 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Vertex_slot_map.h>
+
 #include <CGAL/boost/graph/properties.h>
 
 #include <Eigen/Core>
@@ -47,10 +49,10 @@ public:
   Fine_vertex_slots(Triangle_mesh& mesh, const std::string& owner)
     : m_mesh(&mesh)
     , m_owner(owner)
-    , m_slots(get(dynamic_vertex_property_t<Eigen::Index>(), mesh))
+    , m_slots(mesh)
   {
     for(const vertex_descriptor v : vertices(mesh))
-      put(m_slots, v, ++m_size);
+      m_slots.set(v, ++m_size);
   }
 
   Eigen::Index size() const { return m_size; } ///< number of vertices at construction
@@ -60,7 +62,7 @@ public:
   Eigen::Index slot(const vertex_descriptor v) const
   {
     // The map holds slot + 1: a vertex that appeared after construction reads as 0.
-    const Eigen::Index s = get(m_slots, v);
+    const Eigen::Index s = m_slots[v];
     if(s == 0)
       throw std::logic_error(m_owner +
                              ": a vertex of the mesh was not there when it was made; make a new one "
@@ -68,9 +70,18 @@ public:
     return s - 1;
   }
 
-  /// The slots of `vertices(mesh)`, in that order.
+  /// Throws `std::logic_error` where the mesh has been assigned to and its vertices are others.
+  void check() const
+  {
+    if(!m_slots.attach(*m_mesh))
+      throw std::logic_error(
+          m_owner + ": another mesh has been assigned to the one that it was made for; make a new one.");
+  }
+
+  /// The slots of `vertices(mesh)`, in that order. Throws what check() throws.
   std::vector<Eigen::Index> current() const
   {
+    check();
     std::vector<Eigen::Index> slots;
     for(const vertex_descriptor v : vertices(*m_mesh))
       slots.push_back(slot(v));
@@ -81,7 +92,7 @@ private:
   const Triangle_mesh* m_mesh;
   std::string m_owner;
   Eigen::Index m_size = 0;
-  typename boost::property_map<Triangle_mesh, dynamic_vertex_property_t<Eigen::Index>>::type m_slots;
+  mutable Vertex_slot_map<Triangle_mesh> m_slots; // mutable: where the mesh keeps them is looked up
 };
 
 } // namespace internal

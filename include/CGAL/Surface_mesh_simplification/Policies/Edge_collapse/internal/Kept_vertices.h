@@ -110,23 +110,52 @@ Shared_positions positions_of_several(const TriangleMesh& mesh, const VertexPoin
   return shared;
 }
 
+/// No vertex is at a constrained edge.
+struct No_constrained_vertices
+{
+  template <class TriangleMesh, class Vertex>
+  bool operator()(const TriangleMesh&, const Vertex&) const
+  {
+    return false;
+  }
+};
+
+/// Whether a vertex is at a constrained edge, so that `Constrained_placement` leaves it where it is.
+template <class EdgeIsConstrainedMap>
+struct Ends_of_constrained_edges
+{
+  EdgeIsConstrainedMap map;
+
+  template <class TriangleMesh, class Vertex>
+  bool operator()(const TriangleMesh& mesh, const Vertex v) const
+  {
+    for(const auto h : halfedges_around_target(halfedge(v, mesh), mesh))
+      if(get(map, edge(h, mesh)))
+        return true;
+    return false;
+  }
+};
+
 /*!
  * A placement that keeps vertices and is wrapped around one that knows nothing of them, that of
  * `Constrained_placement` included: the vertex to be kept, or none between two of them. For the first stage of
- * `Spectral_options::pre_simplify`. `Tracker::is_kept(v)` says which they are.
+ * `Spectral_options::pre_simplify`. `Tracker::is_kept(v)` says which they are, `IsConstrained` which
+ * others must not move either.
  *
  * Vertices to be kept that share a position are never joined by edges without length, which the next stage would have
  * to collapse: no point is given at such a position when a neighbour is there already.
  */
-template <class Tracker, class Placement>
+template <class Tracker, class Placement, class IsConstrained>
 class Kept_vertices_placement
 {
 public:
   Kept_vertices_placement(std::shared_ptr<const Tracker> tracker,
-                          std::shared_ptr<const Shared_positions> shared, const Placement& placement)
+                          std::shared_ptr<const Shared_positions> shared, const Placement& placement,
+                          const IsConstrained& is_constrained)
     : m_tracker(std::move(tracker))
     , m_shared(std::move(shared))
     , m_placement(placement)
+    , m_is_constrained(is_constrained)
   {}
 
   template <class Profile>
@@ -139,9 +168,8 @@ public:
     Optional_point point = m_placement(profile);
     if(point && (kept0 || kept1)) {
       const auto& fixed = kept0 ? profile.p0() : profile.p1();
-      const auto& other = kept0 ? profile.p1() : profile.p0();
-      // A placement that gives the other end means that this one must not move either.
-      point = *point == other ? Optional_point() : Optional_point(fixed);
+      const bool other_stays = m_is_constrained(profile.surface_mesh(), kept0 ? profile.v1() : profile.v0());
+      point = other_stays ? Optional_point() : Optional_point(fixed);
     }
     return point && joins_shared_position(profile, coordinates(*point)) ? Optional_point() : point;
   }
@@ -161,6 +189,7 @@ private:
   std::shared_ptr<const Tracker> m_tracker;
   std::shared_ptr<const Shared_positions> m_shared;
   Placement m_placement;
+  IsConstrained m_is_constrained;
 };
 
 } // namespace internal

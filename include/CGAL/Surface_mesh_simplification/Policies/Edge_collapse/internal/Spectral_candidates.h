@@ -17,6 +17,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -41,16 +43,22 @@ struct Spectral_candidate
 };
 
 /// The candidates of all edges, each kept with the smaller of its slots: a lookup runs through about
-/// three entries that lie side by side.
+/// three entries that lie side by side. Long lists have an index.
 class Spectral_candidates
 {
 public:
-  void resize(const std::size_t n) { m_lists.assign(n, {}); }
+  void resize(const std::size_t n)
+  {
+    m_lists.clear();
+    m_lists.resize(n);
+  }
 
   void clear()
   {
-    for(auto& list : m_lists)
-      list.clear();
+    for(List& list : m_lists) {
+      list.entries.clear();
+      list.index.reset();
+    }
     ++m_version;
   }
 
@@ -60,10 +68,9 @@ public:
   {
     if(v < u)
       std::swap(u, v);
-    for(const Spectral_candidate& c : m_lists[u])
-      if(c.other == v)
-        return &c;
-    return nullptr;
+    const List& list = m_lists[u];
+    const std::size_t i = list.find(v);
+    return i < list.entries.size() ? &list.entries[i] : nullptr;
   }
 
   /// The place of the candidate of an edge among those of u, its smaller slot. Where there is none yet an empty one is put
@@ -71,15 +78,12 @@ public:
   std::size_t place(const Spectral_slot u, const Spectral_slot other)
   {
     CGAL_precondition(u < other);
-    auto& list = m_lists[u];
-    std::size_t i = 0;
-    while(i < list.size() && list[i].other != other)
-      ++i;
-    if(i == list.size()) {
-      list.emplace_back();
-      list.back().other = other;
-      list.back().version = m_version - 1;
-      list.back().deferred = true;
+    List& list = m_lists[u];
+    const std::size_t i = list.find(other);
+    if(i == list.entries.size()) {
+      Spectral_candidate& c = list.add(other);
+      c.version = m_version - 1;
+      c.deferred = true;
     }
     return i;
   }
@@ -87,7 +91,7 @@ public:
   /// Keeps the candidate at a place as it is if it costs more than `bound`, and says whether it does.
   bool defer(const Spectral_slot u, const std::size_t place, const double bound)
   {
-    Spectral_candidate& c = m_lists[u][place];
+    Spectral_candidate& c = m_lists[u].entries[place];
     if(!c.collapsible || !(c.cost > bound))
       return false;
     c.version = m_version;
@@ -98,7 +102,7 @@ public:
   const Spectral_candidate& put(const Spectral_slot u, const std::size_t place,
                                 const Spectral_candidate& candidate)
   {
-    Spectral_candidate& c = m_lists[u][place];
+    Spectral_candidate& c = m_lists[u].entries[place];
     CGAL_precondition(c.other == candidate.other);
     c = candidate;
     c.version = m_version;
@@ -112,26 +116,72 @@ public:
   }
 
   /// Room for n candidates of u.
-  void reserve(const Spectral_slot u, const std::size_t n) { m_lists[u].reserve(n); }
+  void reserve(const Spectral_slot u, const std::size_t n) { m_lists[u].entries.reserve(n); }
 
   void forget(const Spectral_slot u, const Spectral_slot v)
   {
-    auto& list = m_lists[(std::min)(u, v)];
-    const Spectral_slot other = (std::max)(u, v);
-    list.erase(std::remove_if(list.begin(), list.end(),
-                              [other](const Spectral_candidate& c) { return c.other == other; }),
-               list.end());
+    List& list = m_lists[(std::min)(u, v)];
+    const std::size_t i = list.find((std::max)(u, v));
+    if(i < list.entries.size())
+      list.erase(i);
   }
 
   /// A vertex is gone, and with it the candidates that are kept under it.
   void merge(const Spectral_slot removed)
   {
-    std::vector<Spectral_candidate>().swap(m_lists[removed]);
+    m_lists[removed] = List();
     ++m_version;
   }
 
 private:
-  std::vector<std::vector<Spectral_candidate>> m_lists;
+  struct List
+  {
+    std::vector<Spectral_candidate> entries;
+    std::unique_ptr<std::unordered_map<Spectral_slot, std::size_t>> index; // place by slot, of a long list
+
+    static constexpr std::size_t longest_without_index = 64;
+
+    // The place of a slot, or the number of entries.
+    std::size_t find(const Spectral_slot other) const
+    {
+      if(index) {
+        const auto found = index->find(other);
+        return found == index->end() ? entries.size() : found->second;
+      }
+      std::size_t i = 0;
+      while(i < entries.size() && entries[i].other != other)
+        ++i;
+      return i;
+    }
+
+    Spectral_candidate& add(const Spectral_slot other)
+    {
+      entries.emplace_back();
+      entries.back().other = other;
+      if(index)
+        index->emplace(other, entries.size() - 1);
+      else if(entries.size() > longest_without_index) {
+        index = std::make_unique<std::unordered_map<Spectral_slot, std::size_t>>();
+        for(std::size_t i = 0; i < entries.size(); ++i)
+          index->emplace(entries[i].other, i);
+      }
+      return entries.back();
+    }
+
+    // The last entry takes the place.
+    void erase(const std::size_t i)
+    {
+      if(index) {
+        index->erase(entries[i].other);
+        if(i + 1 < entries.size())
+          (*index)[entries.back().other] = i;
+      }
+      entries[i] = entries.back();
+      entries.pop_back();
+    }
+  };
+
+  std::vector<List> m_lists;
   std::uint32_t m_version = 0;
 };
 

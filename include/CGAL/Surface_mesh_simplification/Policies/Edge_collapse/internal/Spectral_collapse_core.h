@@ -62,6 +62,7 @@ public:
       set_Z(Z);
     m_fields.theta = theta;
     m_fields.area_scale = area_scale;
+    m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
     m_parameters = parameters;
     m_shape = Spectral_shape_term();
     m_pool = std::make_unique<Pool>(parameters.threads);
@@ -89,11 +90,17 @@ public:
       m_fields.rings.find_back(Spectral_slot(w));
       m_fields.rings.update_triangles(Spectral_slot(w), position());
       update_row(Spectral_slot(w), workspace.row);
-      workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+      if(m_fields.has_products(Spectral_slot(w)))
+        workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
+      else
+        m_products[w].clear();
     });
-    m_number_of_vertices = 0;
-    for(std::size_t w = 0; w < std::size_t(n); ++w)
-      m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
+    m_number_of_vertices = m_fields.largest_degree = 0;
+    for(std::size_t w = 0; w < std::size_t(n); ++w) {
+      const std::size_t degree = m_fields.rings[Spectral_slot(w)].size();
+      m_number_of_vertices += degree == 0 ? 0 : 1;
+      m_fields.largest_degree = (std::max)(m_fields.largest_degree, degree);
+    }
     if(m_parameters.shape > 0)
       m_shape.set_geometry(m_fields.points, m_fields.rings, m_fields.area_scale);
     if(m_parameters.keep_free_of_self_intersections)
@@ -143,15 +150,26 @@ public:
     result.other = v;
     if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return result;
-    const Spectral_sample best = search().best(u, v, kernel, bound);
-    if(!std::isfinite(best.cost))
-      return result;
-    result.collapsible = true;
-    result.deferred = best.cost > bound;
-    result.cost = best.cost;
-    result.weight = best.weight;
-    result.point = best.point;
+    set_candidate(result, search().best(u, v, kernel, bound));
+    result.deferred = result.collapsible && result.cost > bound;
     return result;
+  }
+
+  /// The same for CGAL's queue. An edge at an end of many neighbours is costed as if that end stayed, and marked as deferred.
+  Spectral_candidate evaluate_for_queue(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
+                                        const double bound) const
+  {
+    if(v < u)
+      std::swap(u, v);
+    if(m_fields.has_products(u) && m_fields.has_products(v))
+      return evaluate(u, v, kernel, bound);
+    Spectral_candidate result;
+    result.other = v;
+    if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+      return result;
+    set_candidate(result, search().at_large_end(u, v, kernel));
+    result.deferred = result.collapsible;
+    return result.collapsible ? result : evaluate(u, v, kernel, bound);
   }
 
   /// The candidate of an edge, evaluated if need be. A candidate of an older version is good enough
@@ -164,9 +182,9 @@ public:
     if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
       ++m_number_of_evaluations;
       found = &m_candidates.insert(
-          (std::min)(u, v),
-          evaluate(u, v, m_pool->workspace().kernel,
-                   any_version ? std::numeric_limits<double>::infinity() : minimiser_bound()));
+          (std::min)(u, v), any_version
+                                ? evaluate(u, v, m_pool->workspace().kernel)
+                                : evaluate_for_queue(u, v, m_pool->workspace().kernel, minimiser_bound()));
     }
     if(any_version && found->collapsible && crosses(u, v, found->point)) {
       ++m_number_of_evaluations;
@@ -273,6 +291,7 @@ public:
     m_total.add(-m_fields.E[removed]);
     m_fields.E[removed] = m_fields.mass[removed] = 0;
     m_fields.points[kept] = point;
+    m_fields.largest_degree = (std::max)(m_fields.largest_degree, ring.size());
     m_fields.rings.merge(removed, kept, std::move(ring));
     m_fields.rings.update_triangles(kept, position());
     m_candidates.merge(removed);
@@ -364,14 +383,9 @@ private:
     Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
     if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
       return result;
-    const Spectral_sample best = search().best_on_edge(
-        u, v, kernel, [&](const Eigen::Vector3d& point) { return !crosses(u, v, point); });
-    if(!std::isfinite(best.cost))
-      return result;
-    result.collapsible = true;
-    result.cost = best.cost;
-    result.weight = best.weight;
-    result.point = best.point;
+    set_candidate(result, search().best_on_edge(u, v, kernel, [&](const Eigen::Vector3d& point) {
+      return !crosses(u, v, point);
+    }));
     return result;
   }
 
@@ -387,6 +401,16 @@ private:
       shape.largest_loss = 10 * scale;
     }
     return shape;
+  }
+
+  static void set_candidate(Spectral_candidate& c, const Spectral_sample& sample)
+  {
+    if(!std::isfinite(sample.cost))
+      return;
+    c.collapsible = true;
+    c.cost = sample.cost;
+    c.weight = sample.weight;
+    c.point = sample.point;
   }
 
   static void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
@@ -426,7 +450,7 @@ private:
       const Spectral_slot w = rings[kept][i].vertex;
       m_lost[i] = rings.follow(removed, kept, i);
       if(m_lost[i] != Spectral_rings::none)
-        rings.link_back(w);
+        rings.link_back(w, m_lost[i]);
       m_candidates.forget(w, removed);
     }
   }
@@ -446,7 +470,11 @@ private:
       const Spectral_slot c = kept_or_neighbor(kept, i);
       const Spectral_rings& rings = m_fields.rings;
       update_row(c, workspace.row);
-      if(i != 0 && m_lost[i - 1] != Spectral_rings::none)
+      if(!m_fields.has_products(c)) {
+        m_products[c].clear();
+        return;
+      }
+      if(i != 0 && m_lost[i - 1] != Spectral_rings::none && m_products[c].degree() == rings[c].size() + 1)
         m_products[c].erase(m_lost[i - 1]);
       if(i == 0 || rings[c].size() != m_products[c].degree())
         workspace.builder.compute(m_fields, c, m_products[c]);
@@ -479,7 +507,7 @@ private:
     m_candidates.reserve(u, m_fields.rings.number_above(u));
     for(const Spectral_ring_entry& e : m_fields.rings[u])
       if(u < e.vertex)
-        m_candidates.insert(u, evaluate(u, e.vertex, kernel, bound));
+        m_candidates.insert(u, evaluate_for_queue(u, e.vertex, kernel, bound));
   }
 
   // The edges incident to the neighbours of `kept`, into m_around.
@@ -526,7 +554,7 @@ private:
     m_results.resize(m_batch.size());
     const double bound = minimiser_bound();
     m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-      m_results[i] = evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
+      m_results[i] = evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
     });
     for(std::size_t i = 0; i < m_batch.size(); ++i)
       m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
@@ -543,7 +571,7 @@ private:
       m_candidates.put(m_batch[i].u, m_batch[i].place, in_work);
     }
     m_tasks.start(*m_pool, m_batch.size(), [this](const std::size_t i, Workspace& workspace) {
-      return evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, m_bound);
+      return evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, m_bound);
     });
   }
 

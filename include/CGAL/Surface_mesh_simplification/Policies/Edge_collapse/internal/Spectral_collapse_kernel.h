@@ -45,7 +45,8 @@ struct Spectral_sample
  * combination of z_w and of four differences of rows of F (and, with a mass that has off-diagonal entries, of the
  * rows of Z of the same vertices). Its square is a quadratic form in the coefficients, whose matrix is gathered from
  * `Spectral_ring_products`. The coefficients of up to four samples are computed side by side. Where a triangle that goes
- * has such cotangents that their squares leave nothing but rounding, `Spectral_change` takes the place of all that.
+ * has such cotangents that their squares leave nothing but rounding, and where a ring is too large to keep its products,
+ * `Spectral_change` takes the place of all that.
  *
  * The object holds the scratch memory of one thread; it allocates only while a larger ring than any
  * before comes along.
@@ -65,7 +66,8 @@ public:
     m_fields = &fields;
     m_products = products.data();
     const Topology topology = m_link.set_edge(fields, u, v);
-    if(topology == Topology::collapsible) {
+    m_by_rows = topology == Topology::collapsible && !m_link.has_products(fields);
+    if(topology == Topology::collapsible && !m_by_rows) {
 #ifdef CGAL_SPECTRAL_DISPATCH
       if(spectral_has_avx2())
         prepare_avx2(products);
@@ -80,6 +82,12 @@ public:
   void evaluate(Spectral_sample* samples, const int count)
   {
     CGAL_precondition(count >= 1 && count <= max_samples);
+    if(m_by_rows) {
+      for(int s = 0; s < count; ++s)
+        samples[s].cost =
+            m_change.cost(*m_fields, m_link.u(), m_link.v(), samples[s].weight, samples[s].point);
+      return;
+    }
 #ifdef CGAL_SPECTRAL_DISPATCH
     if(spectral_has_avx2())
       evaluate_avx2(samples, count);
@@ -349,7 +357,7 @@ private:
       const Lanes a_b = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
       // Half of 1 / |cross|, so that the products are half cotangents. cot a + cot b + cot x < bound.
       const Lanes sum = a_b - a_ab + b_ab;
-      constexpr double limit = Spectral_link::degenerate_cotangent;
+      constexpr double limit = Spectral_triangle::degenerate_cotangent;
       const Lanes bound = sum * sum * (1 / (limit * limit));
       Lanes half, failed = {};
       spectral_inverse_sqrt(half, square, bound, failed);
@@ -412,6 +420,7 @@ private:
 
   const Spectral_fields* m_fields = nullptr;
   const Spectral_ring_products* m_products = nullptr;
+  bool m_by_rows = false; // a ring is too large to keep its inner products
   Spectral_link m_link;
   // Scratch memory that only grows; the first entries are those of the link.
   std::vector<Gram> m_gram;

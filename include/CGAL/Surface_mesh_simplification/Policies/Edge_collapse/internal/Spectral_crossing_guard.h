@@ -49,14 +49,13 @@ public:
                const Spectral_slot v, const Eigen::Vector3d& x)
   {
     collect(points, rings, u, v, x);
-    for(std::size_t i = 0; i < m_new.size(); ++i) {
-      for(std::size_t j = i + 1; j < m_new.size(); ++j)
-        if(triangles_intersect(m_new[i], m_new[j]) && !intersect_among(m_old))
-          return true;
+    if(fan_intersects(m_new.data(), m_new.size()) && !old_intersect())
+      return true;
+    for(const Corners& t : m_new) {
       const auto meets = [&](const std::size_t owner) {
-        return meets_owned(points, rings, Spectral_slot(owner), u, v, m_new[i]);
+        return meets_owned(points, rings, Spectral_slot(owner), u, v, t);
       };
-      if(m_tree.any(box_of(m_new[i]), meets))
+      if(m_tree.any(box_of(t), meets))
         return true;
     }
     return false;
@@ -83,13 +82,54 @@ private:
     return box_of(s).intersects(box_of(t)) && Spectral_geometry::internal::triangles_intersect(s, t);
   }
 
-  static bool intersect_among(const std::vector<Corners>& triangles)
+  // Whether two triangles of those around u and v intersect, as they are.
+  bool old_intersect() const
   {
-    for(std::size_t i = 0; i < triangles.size(); ++i)
-      for(std::size_t j = i + 1; j < triangles.size(); ++j)
-        if(triangles_intersect(triangles[i], triangles[j]))
+    for(std::size_t i = 0; i < m_old_of_u; ++i)
+      for(std::size_t j = m_old_of_u; j < m_old.size(); ++j)
+        if(triangles_intersect(m_old[i], m_old[j]))
           return true;
+    return fan_intersects(m_old.data(), m_old_of_u) ||
+           fan_intersects(m_old.data() + m_old_of_u, m_old.size() - m_old_of_u);
+  }
+
+  // Whether two of the triangles around a vertex, the first corner of each, intersect. Beyond the vertex they do only where
+  // their directions from it meet: where there are many, a tree of the boxes of those finds the pairs.
+  static bool fan_intersects(const Corners* fan, const std::size_t size)
+  {
+    if(size <= largest_fan_of_pairs) {
+      for(std::size_t i = 0; i < size; ++i)
+        for(std::size_t j = i + 1; j < size; ++j)
+          if(triangles_intersect(fan[i], fan[j]))
+            return true;
+      return false;
+    }
+    std::vector<Box> boxes(size);
+    for(std::size_t i = 0; i < size; ++i)
+      boxes[i] = box_of_directions(fan[i]);
+    Spectral_geometry::internal::Box_tree tree;
+    tree.build(boxes);
+    for(std::size_t i = 0; i < size; ++i)
+      if(tree.any(boxes[i],
+                  [&](const std::size_t j) { return i < j && triangles_intersect(fan[i], fan[j]); }))
+        return true;
     return false;
+  }
+
+  static constexpr std::size_t largest_fan_of_pairs = 64;
+
+  // Of the unit vectors from the first corner into the triangle.
+  static Box box_of_directions(const Corners& t)
+  {
+    const Eigen::Vector3d& x = t[0].point;
+    const Eigen::Vector3d a = (t[1].point - x).normalized(), b = (t[2].point - x).normalized();
+    // An arc leaves its chord by at most 1 - cos(angle / 2).
+    double rise = 1 - (a + b).norm() / 2;
+    if(!(a.squaredNorm() > 0.5 && b.squaredNorm() > 0.5))
+      rise = 2;
+    Box box(a.cwiseMin(b), a.cwiseMax(b));
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(rise + 1e-12);
+    return Box(box.min() - margin, box.max() + margin);
   }
 
   template <class Function>
@@ -118,6 +158,7 @@ private:
   {
     m_old.clear();
     m_new.clear();
+    m_old_of_u = 0;
     constexpr std::size_t merged = (std::numeric_limits<std::size_t>::max)();
     for(const Spectral_slot c : {u, v}) {
       const Spectral_ring& ring = rings[c];
@@ -127,6 +168,8 @@ private:
         if(!ring[i].face || (shared && c == v))
           continue;
         m_old.push_back(Corners{{{c, points[c]}, {a, points[a]}, {b, points[b]}}});
+        if(c == u)
+          m_old_of_u = m_old.size();
         if(!shared)
           m_new.push_back(Corners{{{merged, x}, {a, points[a]}, {b, points[b]}}});
       }
@@ -154,7 +197,9 @@ private:
   }
 
   Spectral_geometry::internal::Box_tree m_tree;
-  std::vector<Corners> m_old, m_new; // scratch
+  // Scratch: the triangles around u, then those of v alone; what is left of them.
+  std::vector<Corners> m_old, m_new;
+  std::size_t m_old_of_u = 0;
 };
 
 } // namespace internal

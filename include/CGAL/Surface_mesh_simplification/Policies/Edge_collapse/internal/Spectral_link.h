@@ -69,6 +69,8 @@ public:
     const Spectral_rings& rings = fields.rings;
     m_u = u;
     m_v = v;
+    if(!fields.has_products(u) || !fields.has_products(v))
+      return set_edge_at_large_ring(rings);
     m_v_in_u = rings.find(u, v);
     CGAL_assertion(m_v_in_u < rings[u].size());
     m_u_in_v = rings[u][m_v_in_u].back;
@@ -93,7 +95,22 @@ public:
     return Topology::collapsible;
   }
 
-  /// Collects the vertices and the outer triangles.
+  /// Whether all products that a cost needs are there.
+  bool has_products(const Spectral_fields& fields) const
+  {
+    if(fields.largest_degree <= fields.largest_degree_with_products)
+      return true;
+    for(const Spectral_slot c : {m_u, m_v}) {
+      if(!fields.has_products(c))
+        return false;
+      for(const Spectral_ring_entry& e : fields.rings[c])
+        if(!fields.has_products(e.vertex))
+          return false;
+    }
+    return true;
+  }
+
+  /// Collects the vertices and the outer triangles; has_products() holds.
   CGAL_SPECTRAL_INLINE void collect(const Spectral_fields& fields,
                                     const std::vector<Spectral_ring_products>& products)
   {
@@ -122,10 +139,28 @@ public:
   /// The largest sum of cotangents among the triangles around u and v.
   double roughness() const { return m_roughness; }
 
-  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
-  static constexpr double degenerate_cotangent = 1e10;
-
 private:
+  // The same in time linear in the smaller ring, but for the border of the larger one.
+  Topology set_edge_at_large_ring(const Spectral_rings& rings)
+  {
+    const bool small_u = rings[m_u].size() <= rings[m_v].size();
+    const Spectral_slot c = small_u ? m_u : m_v, o = small_u ? m_v : m_u;
+    const Spectral_ring& ring = rings[c];
+    const std::size_t o_in_c = rings.find(c, o);
+    CGAL_assertion(o_in_c < ring.size());
+    m_v_in_u = small_u ? o_in_c : ring[o_in_c].back;
+    m_u_in_v = small_u ? ring[o_in_c].back : o_in_c;
+    const std::size_t before = Spectral_rings::prev(ring, o_in_c), after = Spectral_rings::next(ring, o_in_c);
+    for(std::size_t j = 0; j < ring.size(); ++j) {
+      const bool shares_face = (j == after && ring[o_in_c].face) || (j == before && ring[before].face);
+      if(j != o_in_c && !shares_face && rings.are_adjacent(o, ring[j].vertex))
+        return Topology::link_condition;
+    }
+    if(ring[o_in_c].face && ring[before].face && rings.is_border(c) && rings.is_border(o))
+      return Topology::both_on_border;
+    return Topology::collapsible;
+  }
+
   static std::uint64_t bit(const Spectral_slot s) { return std::uint64_t(1) << (s & 63); }
 
   void reserve(const std::size_t n)
@@ -159,7 +194,7 @@ private:
     m_roughness = (std::max)(m_roughness, sum);
     m_triangles[m_number_of_triangles++] =
         Triangle{std::uint32_t(a), std::uint32_t(b), column_of_b, column_of_a,
-                 !(t.area > 0) || !(sum < degenerate_cotangent)};
+                 !(t.area > 0) || !(sum < Spectral_triangle::degenerate_cotangent)};
   }
 
   CGAL_SPECTRAL_INLINE Vertex& add_vertex(const Spectral_fields& fields, const Spectral_slot s)

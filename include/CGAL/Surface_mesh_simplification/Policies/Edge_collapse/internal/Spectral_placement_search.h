@@ -36,6 +36,7 @@ struct Spectral_cost_parameters
   double shape = 0;          ///< see `Spectral_options::shape`
   double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
   int threads = 1;
+  std::size_t largest_degree_with_products = Spectral_fields().largest_degree_with_products;
 };
 
 /// The shape term and what it weighs beside E; `term` is null where there is none.
@@ -112,10 +113,7 @@ public:
     for(int s = 0; s < 3; ++s)
       samples[s] = sample_at(u, v, s / 2.);
     evaluate(u, v, kernel, samples, 3);
-    Spectral_sample best = samples[0];
-    for(int s = 1; s < 3; ++s)
-      if(samples[s].cost < best.cost)
-        best = samples[s];
+    Spectral_sample best = *cheapest(samples, 3);
     if(best.cost > bound)
       return best;
 
@@ -132,6 +130,24 @@ public:
     if(free)
       return best_free_sample(u, v, samples, best, kernel);
     return best;
+  }
+
+  /// The end of more neighbours stays where it is, where that is what nearly always costs least: where their number is too large to
+  /// keep inner products, any other point changes all of the triangles there. Infinite cost elsewhere.
+  Spectral_sample at_large_end(const Spectral_slot u, const Spectral_slot v,
+                               Spectral_collapse_kernel& kernel) const
+  {
+    Spectral_sample sample;
+    if((m_fields->has_products(u) && m_fields->has_products(v)) ||
+       m_parameters->placement == Spectral_placement_strategy::midpoint)
+      return sample;
+    const bool more_at_u = m_fields->rings[u].size() >= m_fields->rings[v].size();
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(more_at_u ? fixed.v : fixed.u)
+      return sample;
+    sample = sample_at(u, v, more_at_u ? 0. : 1.);
+    evaluate(u, v, kernel, &sample, 1);
+    return sample;
   }
 
   /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true.

@@ -190,12 +190,14 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
     const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
     using Constrained = Constrained_placement<Placement, std::decay_t<decltype(ecm)>>;
+    using Is_constrained = Ends_of_constrained_edges<std::decay_t<decltype(ecm)>>;
     const Constrained constrained(ecm, policies.get_placement());
     run(common.edge_is_constrained_map(ecm).get_placement(
-        Kept_vertices_placement<Tracker, Constrained>(tracker, shared, constrained)));
+        Kept_vertices_placement<Tracker, Constrained, Is_constrained>(tracker, shared, constrained,
+                                                                      Is_constrained{ecm})));
   } else
-    run(common.get_placement(
-        Kept_vertices_placement<Tracker, Placement>(tracker, shared, policies.get_placement())));
+    run(common.get_placement(Kept_vertices_placement<Tracker, Placement, No_constrained_vertices>(
+        tracker, shared, policies.get_placement(), No_constrained_vertices())));
   result.done = true;
   result.cancelled = stop.cancelled();
   result.log = shifted(tracker->log(), offset);

@@ -229,13 +229,18 @@ public:
     const std::size_t d = degree;
     m_data.resize((2 * d + 2) * d + (full ? (d + 2) * (d + 1) : d + 2));
   }
+  /// Keeps nothing, for a ring that is too large.
+  void clear()
+  {
+    std::vector<double>().swap(m_data);
+    m_degree = 0;
+  }
   /// Of the ring of a vertex that is gone, which no longer needs its memory.
   void take_memory(Spectral_ring_products& gone)
   {
     if(gone.m_data.capacity() > m_data.capacity())
       m_data.swap(gone.m_data);
-    std::vector<double>().swap(gone.m_data);
-    gone.m_degree = 0;
+    gone.clear();
   }
 
   /// Forgets the neighbour at index i, which has left the ring. What stays moves towards the front.

@@ -36,6 +36,9 @@ struct Spectral_triangle
   double cot_first = 0;  ///< at a, opposite cb
   double cot_second = 0; ///< at b, opposite ca
   double area = 0;
+
+  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
+  static constexpr double degenerate_cotangent = 1e10;
 };
 
 /// cot = dot / |cross|, with one division and one square root, where the cross product is that of the two shortest
@@ -110,6 +113,23 @@ public:
     return i;
   }
 
+  /// Whether an edge joins two vertices: looks at the smaller of their rings.
+  bool are_adjacent(Spectral_slot c, Spectral_slot w) const
+  {
+    if(m_rings[w].size() < m_rings[c].size())
+      std::swap(c, w);
+    return find(c, w) < m_rings[c].size();
+  }
+
+  /// Position of `w` in the ring of `c`, or its size: found by way of the ring of `w` where that is smaller.
+  std::size_t index_of(const Spectral_slot w, const Spectral_slot c) const
+  {
+    if(m_rings[c].size() <= m_rings[w].size())
+      return find(c, w);
+    const std::size_t i = find(w, c);
+    return i < m_rings[w].size() ? std::size_t(m_rings[w][i].back) : m_rings[c].size();
+  }
+
   bool is_border(const Spectral_slot c) const
   {
     return std::any_of(m_rings[c].begin(), m_rings[c].end(),
@@ -143,7 +163,7 @@ public:
 
   /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place of `removed` in the ring
   /// of w, and takes the two triangles that they share. Returns the index of the entry that w has lost, or none: where it has
-  /// lost one, link_back(w) must follow.
+  /// lost one, link_back(w, index) must follow.
   std::size_t follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
   {
     Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
@@ -162,12 +182,20 @@ public:
 
   static constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
 
-  /// Sets `back` in the ring of c, which alone it changes.
+  /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is looked for in the smaller of two
+  /// rings. May run side by side for several c.
   void find_back(const Spectral_slot c)
   {
-    for(Spectral_ring_entry& e : m_rings[c]) {
-      e.back = std::uint32_t(find(e.vertex, c));
-      CGAL_assertion(e.back < m_rings[e.vertex].size());
+    Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i) {
+      const Spectral_slot w = ring[i].vertex;
+      Spectral_ring& other = m_rings[w];
+      if(other.size() > ring.size() || (other.size() == ring.size() && w < c))
+        continue; // left to w
+      const std::size_t j = find(w, c);
+      CGAL_assertion(j < other.size());
+      ring[i].back = std::uint32_t(j);
+      other[j].back = std::uint32_t(i);
     }
   }
 
@@ -178,11 +206,11 @@ public:
                                      [c](const Spectral_ring_entry& e) { return c < e.vertex; }));
   }
 
-  /// Sets `back` on both sides of every entry of the ring of c.
-  void link_back(const Spectral_slot c)
+  /// Sets `back` on both sides of the entries of the ring of c from index `first` on.
+  void link_back(const Spectral_slot c, const std::size_t first)
   {
     Spectral_ring& ring = m_rings[c];
-    for(std::size_t i = 0; i < ring.size(); ++i) {
+    for(std::size_t i = first; i < ring.size(); ++i) {
       const std::size_t j = find(ring[i].vertex, c);
       CGAL_assertion(j < m_rings[ring[i].vertex].size());
       ring[i].back = std::uint32_t(j);

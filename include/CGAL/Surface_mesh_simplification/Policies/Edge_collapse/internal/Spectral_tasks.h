@@ -11,6 +11,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -21,7 +22,8 @@ namespace internal {
 
 /*!
  * Results that the other threads of a pool compute while the caller does something else. Each is computed once, by
- * another thread or, if none has begun with it, by the caller when it asks for it.
+ * another thread or, if none has begun with it, by the caller when it asks for it. What its computation has thrown is thrown
+ * again to who asks for it.
  */
 template <class Result, class Workspace>
 class Spectral_tasks
@@ -41,6 +43,7 @@ public:
     for(std::size_t i = 0; i < n; ++i) {
       m_tasks[i].stage.store(Task::waiting, std::memory_order_relaxed);
       m_tasks[i].taken = false;
+      m_tasks[i].error = nullptr;
     }
     pool.start(n, [this](const std::size_t i, Workspace& workspace) { run(i, workspace); });
   }
@@ -54,6 +57,8 @@ public:
     while(m_last > i && !done())
       run(--m_last, m_pool->workspace());
     Pool::wait_for(done);
+    if(task.error)
+      std::rethrow_exception(task.error);
     task.taken = true;
     return task.result;
   }
@@ -65,10 +70,10 @@ public:
     if(m_size == 0)
       return;
     m_pool->finish();
-    for(std::size_t i = 0; i < m_size; ++i)
+    const std::size_t size = std::exchange(m_size, 0); // over, even if a task throws
+    for(std::size_t i = 0; i < size; ++i)
       if(!m_tasks[i].taken)
         put(i, take(i));
-    m_size = 0;
   }
 
 private:
@@ -78,6 +83,7 @@ private:
     enum Stage { waiting, begun, done };
     std::atomic<int> stage{waiting};
     bool taken = false;
+    std::exception_ptr error;
     Result result;
   };
 
@@ -88,7 +94,11 @@ private:
     int stage = Task::waiting;
     if(!task.stage.compare_exchange_strong(stage, Task::begun))
       return;
-    task.result = m_compute(i, workspace);
+    try {
+      task.result = m_compute(i, workspace);
+    } catch(...) {
+      task.error = std::current_exception();
+    }
     task.stage.store(Task::done, std::memory_order_release);
   }
 

@@ -14,8 +14,10 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -33,8 +35,8 @@ namespace internal {
  * their eyes open, and go to sleep when none comes for a while. The caller waits only for workers that have
  * entered a loop: one that the system has taken off its processor misses it and costs nothing.
  *
- * What a call computes must depend on its index alone, so that the result is the same for any number of threads; it
- * must not throw.
+ * What a call computes must depend on its index alone, so that the result is the same for any number of threads. What it throws,
+ * on whichever thread, the caller gets when nobody is inside any more; calls that nobody has begun with are left out then.
  */
 template <class Workspace>
 class Spectral_thread_pool
@@ -54,6 +56,10 @@ public:
       for(std::size_t i = 1; i < m_workspaces.size(); ++i)
         m_workers.push_back(start([this, i] { work(i); }));
     } catch(const std::system_error&) {
+    } catch(const std::bad_alloc&) {
+    } catch(...) {
+      end();
+      throw;
     }
   }
 
@@ -63,10 +69,7 @@ public:
   ~Spectral_thread_pool()
   {
     close();
-    m_end = true;
-    announce();
-    for(std::thread& worker : m_workers)
-      worker.join();
+    end();
   }
 
   std::size_t number_of_threads() const { return m_workers.size() + 1; }
@@ -87,6 +90,7 @@ public:
     open(n, grain, body);
     take_part(m_workspaces.front());
     close();
+    rethrow();
   }
 
   /// Lets the other threads begin with `body(i, workspace)` for each i in [0, n) and returns. The caller may go on with
@@ -106,6 +110,7 @@ public:
     take_part(m_workspaces.front());
     close();
     m_started = nullptr;
+    rethrow();
   }
 
   /// Waits for a call that another thread is in.
@@ -150,6 +155,21 @@ private:
     announce();
   }
 
+  void end()
+  {
+    m_end = true;
+    announce();
+    for(std::thread& worker : m_workers)
+      worker.join();
+  }
+
+  // Once nobody is inside.
+  void rethrow()
+  {
+    if(m_error)
+      std::rethrow_exception(std::exchange(m_error, nullptr));
+  }
+
   void close()
   {
     m_gate.fetch_and(~open_bit);
@@ -183,7 +203,14 @@ private:
       if(begin >= m_size)
         return;
       const std::size_t end = m_size - begin < m_grain ? m_size : begin + m_grain;
-      m_run(m_body, begin, end, workspace);
+      try {
+        m_run(m_body, begin, end, workspace);
+      } catch(...) {
+        std::lock_guard<std::mutex> lock(m_mutex);
+        if(!m_error)
+          m_error = std::current_exception();
+        m_next.store(m_size, std::memory_order_relaxed);
+      }
     }
   }
 
@@ -225,6 +252,7 @@ private:
   void (*m_run)(const void*, std::size_t, std::size_t, Workspace&) = nullptr;
   const void* m_body = nullptr;
   std::size_t m_size = 0, m_grain = 1;
+  std::exception_ptr m_error; // the first that a call has thrown
 
   // Each in a cache line of its own: who waits reads the first of them all the time.
   alignas(spectral_cache_line) std::atomic<std::uint64_t> m_gate{0};

@@ -1,0 +1,241 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Vertices of many neighbours: discs and the caps of gears. Above some degree costs come from whole rows.
+
+#include "catch.h"
+#include "core_helpers.h"
+
+#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <random>
+#include <vector>
+
+using namespace spectral_test;
+using SMS::Spectral_placement_strategy;
+
+namespace {
+
+Parameters with_products_up_to(const std::size_t degree)
+{
+  Parameters parameters;
+  parameters.largest_degree_with_products = degree;
+  return parameters;
+}
+
+// Signals without the cost of a solve.
+Basis smooth_basis(const shapes::Matrices& mesh, const double theta, const int K)
+{
+  Eigen::MatrixXd signals(mesh.V.rows(), K);
+  for(int k = 0; k < K; ++k)
+    signals.col(k) = ((k + 1) * mesh.V.col(k % 3).array() + 0.3 * k).sin();
+  return signal_basis(mesh, theta, signals);
+}
+
+} // namespace
+
+TEST_CASE("Costs from whole rows are the change of the global E, whichever rings keep their products")
+{
+  const std::size_t limit = GENERATE(2, 5, 6, 7);
+  const double theta = GENERATE(0., 0.5);
+  const bool bordered = GENERATE(false, true);
+  const Z_rows z = GENERATE(Z_rows::from_lambda, Z_rows::stored);
+  CAPTURE(limit, theta, bordered, z == Z_rows::stored);
+  const shapes::Matrices input =
+      bordered ? shapes::irregular_grid_matrices(12, 11) : shapes::bumpy_icosphere_matrices(2);
+  const Basis basis = eigenbasis(input, theta, 9);
+  Slow_mesh mesh(input, basis);
+  Core core = make_core(mesh, basis, z, with_products_up_to(limit));
+  std::mt19937 random(7);
+  for(const int collapses : {0, 20, 40}) {
+    CHECK(simplify(core, mesh, collapses, random) == collapses);
+    CHECK(compare_costs(core, mesh, 12, random).worst < 1e-9);
+    CHECK(std::abs(core.total() - mesh.energy()) < 1e-12 * basis.Z.squaredNorm());
+  }
+}
+
+TEST_CASE(
+    "The candidates of discs and gears are those of inner products, and stay so while rings grow and shrink")
+{
+  const bool closed = GENERATE(false, true);
+  const double theta = GENERATE(0., 0.5);
+  const double shape = GENERATE(0., 3.);
+  const Spectral_placement_strategy placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
+  CAPTURE(closed, theta, shape, SMS::placement_name(placement));
+  const shapes::Matrices input = closed ? shapes::gear_matrices(40, 3) : shapes::disc_matrices(60);
+  const Basis basis = eigenbasis(input, theta, 8);
+  Parameters by_products = with_products_up_to(1000), by_rows = with_products_up_to(35);
+  for(Parameters* p : {&by_products, &by_rows}) {
+    p->placement = placement;
+    p->shape = shape;
+  }
+  Slow_mesh mesh(input, basis), other(input, basis);
+  Core products = make_core(mesh, basis, Z_rows::from_lambda, by_products);
+  Core rows = make_core(other, basis, Z_rows::from_lambda, by_rows);
+  Core_kernel kernel, second;
+  for(int collapse = 0; collapse < 30; ++collapse) {
+    double worst = 0, scale = products.total();
+    Candidate best;
+    Edge edge(0, 0);
+    for(const Edge& e : mesh.edge_list())
+      for(const double bound : {infinity, 0.}) {
+        const Candidate a = products.evaluate(Slot(e.first), Slot(e.second), kernel, bound);
+        const Candidate b = rows.evaluate(Slot(e.first), Slot(e.second), second, bound);
+        if(a.collapsible != b.collapsible)
+          worst = infinity;
+        else if(a.collapsible) {
+          worst = (std::max)(worst, std::abs(a.cost - b.cost) / (std::abs(a.cost) + scale));
+          if(bound == 0 && a.cost > bound)
+            CHECK((a.point - b.point).norm() < 1e-6);
+        }
+        if(a.collapsible && a.cost < best.cost) {
+          best = a;
+          edge = e;
+        }
+      }
+    CHECK(worst < 1e-9);
+    REQUIRE(best.collapsible);
+    // Now and then an edge at a centre, whose ring then grows at the other end.
+    commit(products, mesh, edge, best, collapse % 2 == 0);
+    commit(rows, other, edge, best, collapse % 2 == 0);
+    CHECK(relative_difference(products.total(), rows.total()) < 1e-9);
+  }
+}
+
+TEST_CASE("Time and memory are linear in the degree")
+{
+  const int d =
+      4000; // with all inner products 16 million products for each of 4,000 edges: minutes, and 250 MB
+  const shapes::Matrices input = shapes::gear_matrices(d, 2);
+  const Basis basis = smooth_basis(input, 0, 8);
+  std::vector<Eigen::Vector3d> points;
+  Rings rings;
+  rings.resize(std::size_t(input.V.rows()));
+  for(Eigen::Index v = 0; v < input.V.rows(); ++v)
+    points.push_back(input.V.row(v));
+  const auto add = [&](const int c, const std::vector<int>& around) {
+    for(const int w : around) {
+      SMS::internal::Spectral_ring_entry e;
+      e.vertex = Slot(w);
+      e.face = true;
+      rings[Slot(c)].push_back(e);
+    }
+  };
+  std::vector<int> bottom, top;
+  for(int i = 0; i < d; ++i) {
+    const int next = (i + 1) % d, previous = (i + d - 1) % d;
+    bottom.push_back((d - i) % d);
+    top.push_back(d + i);
+    add(i, {2 * d, next, d + i, d + previous, previous});
+    add(d + i, {2 * d + 1, d + previous, i, next, d + next});
+  }
+  add(2 * d, bottom);
+  add(2 * d + 1, top);
+  const auto begin = std::chrono::steady_clock::now();
+  Core core;
+  core.set_basis(basis.F, Eigen::VectorXd(), basis.Z, basis.theta, 1 / basis.area, Parameters());
+  core.set_geometry(std::move(points), std::move(rings));
+  CHECK(core.evaluate_all([](double) { return true; }));
+  CHECK(core.number_of_evaluations() == std::size_t(6 * d));
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 20);
+}
+
+TEST_CASE("Candidates are found in long lists as in short ones")
+{
+  SMS::internal::Spectral_candidates candidates;
+  candidates.resize(500);
+  for(Slot v = 1; v < 500; ++v) {
+    Candidate c;
+    c.other = v;
+    c.cost = v;
+    candidates.insert(0, c);
+  }
+  for(Slot v = 1; v < 500; v += 3)
+    candidates.forget(v, 0);
+  for(Slot v = 1; v < 500; ++v) {
+    const Candidate* c = candidates.find(v, 0);
+    CHECK((c == nullptr) == (v % 3 == 1));
+    if(c != nullptr)
+      CHECK(c->cost == double(v));
+  }
+  CHECK(candidates.place(0, 4) == candidates.place(0, 4));
+  candidates.merge(0);
+  CHECK(candidates.find(0, 2) == nullptr);
+}
+
+TEST_CASE("Triangles around a vertex that cross are found, few or many")
+{
+  using SG::internal::Corners;
+  const int d = GENERATE(20, 200);
+  CAPTURE(d);
+  const shapes::Matrices input = shapes::gear_matrices(d, 2);
+  const Basis basis = smooth_basis(input, 0, 1);
+  const Slow_mesh mesh(input, basis);
+  const Core core = make_core(mesh, basis, Z_rows::stored);
+  SMS::internal::Spectral_crossing_guard guard;
+  const auto& fields = core.fields();
+  guard.set_geometry(fields.points, fields.rings);
+  const Slot u = Slot(2 * d + 1), v = Slot(d); // a cap's centre and a vertex of its rim
+  int crossing = 0, apart = 0;
+  for(const Eigen::Vector3d& x :
+      {Eigen::Vector3d(0, 0, 0.6), Eigen::Vector3d(0.3, 0.1, 0.7), Eigen::Vector3d(1.3, 0.4, 0.52),
+       Eigen::Vector3d(2, 0, 0.6), Eigen::Vector3d(0, 0, 3), Eigen::Vector3d(0.95, 0.2, 0.5)}) {
+    std::vector<Corners> fan, rest;
+    for(const Eigen::Vector3i& t : mesh.triangles) {
+      const bool at_u = Slow_mesh::contains(t, int(u)), at_v = Slow_mesh::contains(t, int(v));
+      Corners corners = SG::internal::corners_of_face(input.V, t);
+      if(at_u && at_v)
+        continue;
+      for(auto& corner : corners)
+        if(corner.vertex == u || corner.vertex == v)
+          corner = {u, x};
+      (at_u || at_v ? fan : rest).push_back(corners);
+    }
+    bool slow = false;
+    for(std::size_t i = 0; i < fan.size(); ++i) {
+      for(std::size_t j = i + 1; j < fan.size(); ++j)
+        slow = slow || SG::internal::triangles_intersect(fan[i], fan[j]);
+      for(const Corners& t : rest)
+        slow = slow || SG::internal::triangles_intersect(fan[i], t);
+    }
+    CHECK(guard.crosses(fields.points, fields.rings, u, v, x) == slow);
+    ++(slow ? crossing : apart);
+  }
+  CHECK(crossing > 0);
+  CHECK(apart > 0);
+}
+
+TEST_CASE("The memory estimate knows fans, the shape term and the tree of boxes")
+{
+  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+  SMS::Spectral_edge_collapse_options options = SMS::Spectral_edge_collapse_options::paper();
+  Mesh sphere, small, large;
+  shapes::make_mesh(sphere, shapes::icosphere_matrices(3));
+  shapes::make_mesh(small, shapes::gear_matrices(250, 3));
+  shapes::make_mesh(large, shapes::gear_matrices(300, 3));
+  CHECK(SMS::estimated_memory(sphere, 10, options) ==
+        SMS::estimated_memory(sphere.number_of_vertices(), 10, options));
+  CHECK(SMS::estimated_memory(small, 10, options) >
+        SMS::estimated_memory(small.number_of_vertices(), 10, options) + 2 * 2 * 250 * 250 * 8.);
+  CHECK(SMS::estimated_memory(large, 10, options) ==
+        SMS::estimated_memory(large.number_of_vertices(), 10, options));
+  const double plain = SMS::estimated_memory(100000, 200, options);
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(); // the loop alone
+  const double loop = SMS::estimated_memory(100000, 200, options);
+  CHECK(loop <= plain);
+  options.shape = 3;
+  CHECK(SMS::estimated_memory(100000, 200, options) == Catch::Approx(loop + 100000 * 104.));
+  options.keep_free_of_self_intersections = true;
+  CHECK(SMS::estimated_memory(100000, 200, options) > loop + 100000 * 200.);
+}
