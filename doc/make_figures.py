@@ -150,7 +150,7 @@ def render(mesh, name, size, wire):
 
 
 def eigenfunctions(folder, output):
-    meshes = [("fine", False), ("spectral_on_edge_averaged_metric_600", True), ("Garland_Heckbert_plane_optimal_600", True)]
+    meshes = [("fine", False), ("spectral_best_free_averaged_metric_relocated_by_sampled_600", True), ("Garland_Heckbert_plane_optimal_600", True)]
     modes, width, height = (2, 5, 10), 210, 200
     picture = Image(width * len(modes), height * len(meshes))
     for j, (name, wire) in enumerate(meshes):
@@ -180,7 +180,7 @@ def functional_maps(folder, output):
         images = dict(re.findall(r"<img alt='\|C\| of ([^']*)' src='(data:image/png;base64,[^']*)'", file.read()))
     with open(os.path.join(folder, "all.json")) as file:
         rows = json.load(file)["rows"]
-    wanted = [("spectral, on_edge, averaged metric", "spectral", "spectral, averaged mass"),
+    wanted = [("spectral, best, free, averaged metric, relocated by sampled", "spectral, best", "spectral, best"),
               ("isotropic remeshing", "isotropic remeshing", "isotropic remeshing"),
               ("edge length, midpoint", "edge length", "edge length, midpoint"),
               ("Garland-Heckbert plane, optimal", "Garland-Heckbert plane", "Garland-Heckbert, plane")]
@@ -203,8 +203,9 @@ def curve(folder, output):
     for name, key in (("curve.json", "spectral"), ("curve_iso.json", "isotropic")):
         with open(os.path.join(folder, name)) as file:
             for r in json.load(file)["rows"]:
-                if key == "spectral" and (r["placement"] != "on_edge" or r["metric_mass"] != r["judged_mass"] or
-                                          r["relocation"] == "sampled"):
+                if key == "spectral" and (r["simplifier"] not in ("spectral, best", "spectral with shape term") or
+                                          r["placement"] != "free" or r["metric_mass"] != r["judged_mass"] or
+                                          r["relocation"] not in ("none", "sampled")):
                     continue
                 norms = r["carried_P"] or r["closest_point_P"]
                 line = "relocated" if r["relocation"] != "none" else key
@@ -241,7 +242,7 @@ def curve(folder, output):
             body += f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"{dash}/>\n'
             if key != "floor":
                 body += "".join('<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>\n'.format(*place(n, v), colour) for n, v in points)
-    names = {"spectral": "spectral, on the edge", "relocated": "the same, relocated", "isotropic": "isotropic remeshing",
+    names = {"spectral": "spectral, policies", "relocated": "spectral, best", "isotropic": "isotropic remeshing",
              "floor": "ideal elements (estimate)"}
     for i, (key, colour) in enumerate(COLOURS.items()):
         body += f'<rect x="{60 + 190 * i}" y="515" width="14" height="4" fill="{colour}"/>\n' + text(80 + 190 * i, 521, names[key], 11, "start")

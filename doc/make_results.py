@@ -33,7 +33,7 @@ def compare(build, folder, mesh):
                         *options(mesh)],
                        check=True, cwd=folder)
     with open(output) as file:
-        return json.load(file)
+        return {**json.load(file), "path": mesh}
 
 
 def norms(row):
@@ -134,7 +134,7 @@ def overview(results, mass, restriction=norms, suffix=""):
 def tables(results):
     first = results[0]
     text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread. The command for each mesh:\n\n"
-    text += "".join(f"    {' '.join(['examples/spectral_compare', r['mesh'], '--vertices', SIZES, *options(r['mesh'])])} --json results/{r['mesh']}.json\n"
+    text += "".join(f"    {' '.join(['examples/spectral_compare', r['path'], '--vertices', SIZES, *options(r['path'])])} --json results/{r['path']}.json\n"
                     for r in results)
     text += "\n## Norms of all meshes\n"
     for mass in ("averaged", "lumped"):
