@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -96,6 +97,7 @@ public:
                  const Geom_traits& traits, const NamedParameters& np)
     : m_mesh(&mesh)
     , m_vpm(vpm)
+    , m_has_own_points(!internal::is_given<NamedParameters>(internal_np::vertex_point_t()))
     , m_traits(traits)
     , m_options(options)
     , m_slots(mesh, "Spectral_policies")
@@ -325,7 +327,14 @@ public:
   /// The mesh as it is now.
   const Triangle_mesh& mesh() const { return *m_mesh; }
   /// The map that positions are read from.
-  const Vertex_point_map& vertex_point_map() const { return m_vpm; }
+  Vertex_point_map vertex_point_map() const
+  {
+    using Own_map = typename boost::property_map<Triangle_mesh, vertex_point_t>::type;
+    if constexpr(std::is_same<Vertex_point_map, Own_map>::value)
+      if(m_has_own_points) // looked up: where they are changes when the mesh is assigned to
+        return get(vertex_point, *m_mesh);
+    return m_vpm;
+  }
   /// The kernel.
   const Geom_traits& geom_traits() const { return m_traits; }
   /// The mathematics: fields, candidates and merges.
@@ -460,6 +469,7 @@ private:
   void read_geometry()
   {
     m_slots.check();
+    m_vpm = vertex_point_map();
     const std::size_t n = std::size_t(m_fine_points.rows());
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
     internal::Spectral_rings rings;
@@ -528,6 +538,7 @@ private:
 
   Triangle_mesh* m_mesh;
   Vertex_point_map m_vpm;
+  bool m_has_own_points; // of the mesh, not a map of the user's
   Geom_traits m_traits;
   Spectral_options m_options;
   internal::Fine_vertex_slots<Triangle_mesh> m_slots;
