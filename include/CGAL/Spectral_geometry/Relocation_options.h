@@ -121,7 +121,7 @@ struct Relocation_result
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
   Held held;                                         ///< by which guard
   std::size_t moved_vertices = 0;                    ///< vertices that are elsewhere now
-  /// vertices that went back, in part or wholly, because of a self-intersection or the distance
+  /// vertices that went back, in part or wholly, because of a self-intersection or the distance, and then stayed
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds
   bool resampled = false; ///< whether `restriction` is a new one

@@ -190,7 +190,8 @@ lumped one, so that \f$ \widetilde B \ge (1 - 3\theta/4) \widetilde M \f$ and
 @param Z \f$ B^{-1} L F \f$, fine x K
 */
 inline double restriction_energy(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
-                                 const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
+                                 const Eigen::Ref<const Eigen::MatrixXd>& F,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& Z)
 {
   internal::check_dimension("the number of rows of P", P.rows(), coarse.L.rows());
   internal::check_dimension("the number of rows of F", F.rows(), P.cols());

@@ -49,7 +49,8 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
   /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
-  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number.
+  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number. It is a bound of the collapses:
+  /// where flips or relocation raise the error above it, a warning says so. With it `largest_loss` is infinite.
   double maximum_error = std::numeric_limits<double>::infinity();
 
   /// First reduces a mesh of more vertices to this number with CGAL's

@@ -27,6 +27,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -56,10 +57,11 @@ struct Spectral_edge_collapse_result
   /// it comes back whenever something near it has changed.
   struct Refusals
   {
-    std::size_t topology = 0;  ///< CGAL's link condition and the like
-    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
-    std::size_t filter = 0;    ///< the `filter` named parameter
-    std::size_t placement = 0; ///< no position without a degenerate triangle
+    std::size_t topology = 0; ///< CGAL's link condition and the like
+    std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;   ///< the `filter` named parameter
+    std::size_t placement =
+        0; ///< no position without a degenerate triangle, or without a crossing that is refused
   };
 
   std::size_t input_vertices = 0;  ///< number of vertices before
@@ -250,7 +252,8 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
 
 /// `Spectral_edge_collapse_options::flips` and `Spectral_edge_collapse_options::relocate`. The log, and what is replayed from it, stay as they are: they end before them.
 template <class TriangleMesh, class Policies, class NamedParameters>
-void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process, const Policies& policies,
+void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process,
+                      const Spectral_edge_collapse_options& options, const Policies& policies,
                       const std::vector<char>& kept, const NamedParameters& np,
                       const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
@@ -271,6 +274,11 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
   result.seconds_relocation = result.relocation.seconds;
   // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
   Eigen::SparseMatrix<double>& own = result.relocation.restriction;
+  if(result.relative_error > options.maximum_error &&
+     result.stop_reason != Spectral_edge_collapse_result::Stop_reason::cancelled)
+    result.warnings.push_back(
+        "The collapses kept the error bound, but with what followed them the relative error is " +
+        std::to_string(result.relative_error) + "; set relocate to false to keep it.");
   if(own.rows() == result.restriction.rows() && result.relocation.resampled) {
     if(!rows_of_kept.empty()) {
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
@@ -316,7 +324,11 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
                          : given.eigenpairs        ? given.eigenpairs->size()
                                                    : given.number_of_eigenvectors;
   std::optional<Spectral_edge_collapse_options>
-      narrowed; // with signals, which may be large, there is no need of a copy
+      narrowed; // no copy where there is no need: signals may be large
+  if(std::isfinite(given.maximum_error)) {
+    narrowed = given;
+    narrowed->largest_loss = std::numeric_limits<double>::infinity();
+  }
   if(given.metric_eigenvectors_by_target && given.signals.size() == 0 && given.metric_eigenvectors == 0 &&
      !std::isfinite(given.maximum_error) && metric_eigenvectors_for(target, K) < K) {
     narrowed = given;
@@ -339,7 +351,15 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
              : "."));
 
   const auto begin = std::chrono::steady_clock::now();
-  const Loop_end end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
+  Loop_end end;
+  // An edge that was given up because of another sheet is not asked for again when that sheet changes: once more, while it helps.
+  bool again = true;
+  for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
+      before = state.number_of_vertices()) {
+    end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
+    again = !end.cancelled && !end.error_reached && state.core().number_of_crossings() != 0 &&
+            state.number_of_vertices() > target && state.number_of_vertices() < before;
+  }
   result.seconds_collapse = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
@@ -356,7 +376,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();
   set_restriction(result, first, policies.log(), state.current_slots());
-  run_post_process(mesh, post_process, policies, kept, np, first, result);
+  run_post_process(mesh, post_process, options, policies, kept, np, first, result);
 }
 
 /// Both stages of a run whose first one has been done. Once the mesh has changed, to cancel is to return what was done.

@@ -269,8 +269,10 @@ private:
       const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
       if(!any && !too_large)
         break;
-      if(round >= 24) // single vertices going back have put others in the way
+      if(round >= 24) { // single vertices going back have put others in the way
+        std::fill(back.begin(), back.end(), 1);
         V = m_start;
+      }
       for(Eigen::Index v = 0; v < V.rows(); ++v)
         if(too_large || back[std::size_t(v)]) {
           // Half way back a vertex of the boundary would lie beside it.
@@ -320,8 +322,10 @@ private:
         continue;
       const Eigen::Vector3d point = m_fine.V.row(Eigen::Index(i));
       const Closest_point_query::Answer answer = closest(point);
-      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
-        mark_face(answer.face, marks);
+      if(!((answer.point - point).norm() > m_furthest * (1 + 1e-9)))
+        continue;
+      mark_face(answer.face, marks);
+      mark_face(n.face, marks); // once that is back, the distance is what it was
     }
   }
 

@@ -30,7 +30,7 @@ public:
   Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine, const double tolerance)
     : m_T(T)
     , m_tolerance(tolerance)
-    , m_closed(is_closed(T, V.rows()) && is_closed(fine.T, fine.V.rows()))
+    , m_closed(is_closed(T) && is_closed(fine.T))
   {
     double fine_area, fine_volume;
     measure(m_T, V, m_area.from, m_volume.from);
@@ -79,20 +79,17 @@ public:
   }
 
 private:
-  static bool is_closed(const Eigen::MatrixXi& T, const Eigen::Index n)
+  static bool is_closed(const Eigen::MatrixXi& T)
   {
-    // Every edge once in either direction: then the directed ones cancel, tested by a sum that others do not cancel.
-    std::vector<std::vector<int>> balance;
-    balance.resize(std::size_t(n));
+    std::vector<std::pair<int, int>> edges;
+    edges.reserve(3 * std::size_t(T.rows()));
     for(Eigen::Index f = 0; f < T.rows(); ++f)
       for(int k = 0; k < 3; ++k)
-        balance[std::size_t(T(f, k))].push_back(T(f, (k + 1) % 3));
-    for(std::size_t v = 0; v < balance.size(); ++v)
-      for(const int w : balance[v]) {
-        const auto& back = balance[std::size_t(w)];
-        if(std::find(back.begin(), back.end(), int(v)) == back.end())
-          return false;
-      }
+        edges.emplace_back(T(f, k), T(f, (k + 1) % 3));
+    std::sort(edges.begin(), edges.end());
+    for(const auto& [v, w] : edges)
+      if(!std::binary_search(edges.begin(), edges.end(), std::make_pair(w, v)))
+        return false;
     return true;
   }
 

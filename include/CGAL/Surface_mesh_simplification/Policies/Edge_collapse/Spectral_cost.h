@@ -19,7 +19,7 @@ namespace Surface_mesh_simplification {
 /// @{
 
 /*!
- * A handle on a `Spectral_state`: the change of E (Eq. 2 of the paper) that the collapse
+ * A handle on a `Spectral_state`: the change of E (Eq. 2 of the paper), with what `Spectral_options::shape` adds, that the collapse
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
  *
  * What CGAL's queue holds, and hands to a stop predicate, may be of before some collapses nearby: an edge that cost much more
@@ -42,7 +42,7 @@ public:
     : m_state(std::move(state))
   {}
 
-  /// returns the change of E at the point `placement`; the largest finite number where there is no point, or a cost that is
+  /// returns the cost of collapsing to the point `placement`; the largest finite number where there is no point, or a cost that is
   /// not finite.
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const

@@ -30,7 +30,8 @@ enum class Spectral_placement_strategy {
   midpoint, ///< strategy (i): the middle of the edge; one evaluation per candidate
   on_edge,  ///< strategy (ii): the minimiser along the edge of a parabola through three samples
   /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the edge, or the
-  /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there. The weights come
+  /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there; with a shape term its
+  /// minimiser, or the cheapest of the ends and the middle. The weights come
   /// from the projection on the edge, so P times the fine positions is no longer the coarse positions.
   free
 };
@@ -103,11 +104,18 @@ struct Spectral_options
 
   /// The shape term: a candidate costs the change of E plus `shape` S n times that of a probabilistic plane quadric, where
   /// S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing left and n the number of vertices now. Without unit: one value
-  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone.
+  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone. As all of CGAL's costs, a
+  /// cost is that of when the edge was last near a collapse, with the n of then.
   double shape = 3;
 
+  /// With a shape term no change of E counts for more than this many times S (M_u + M_v), what the signals have at both ends:
+  /// beside needles E is larger than that by orders of magnitude, and they would never be collapsed. Where an error bound is to be
+  /// kept they must not be: then infinite, as `spectral_edge_collapse()` has it with `maximum_error`. Positive.
+  double largest_loss = 10;
+
   /// Collapses put no face through another, unless one that they replace went through it already. Where the placement found would, the
-  /// ends and the middle of the edge are tried, and then the edge stays. Placements of a wrapper are not looked at.
+  /// ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Placements of a wrapper are
+  /// looked at by `Spectral_filter` alone. The quadrics of `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
   bool keep_free_of_self_intersections = true;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,

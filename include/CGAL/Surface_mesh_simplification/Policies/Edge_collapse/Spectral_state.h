@@ -118,6 +118,7 @@ public:
     parameters.preserve_border = m_options.preserve_border;
     parameters.single_precision_points = std::is_same<FT, float>::value;
     parameters.shape = m_options.shape;
+    parameters.largest_loss = m_options.largest_loss;
     parameters.keep_free_of_self_intersections = m_options.keep_free_of_self_intersections;
     parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
@@ -248,7 +249,8 @@ public:
     return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
   }
 
-  /// cost(e) = sum over H of E_w after - E_w before, at the point given. The largest finite
+  /// cost(e) = sum over H of E_w after - E_w before, at the point given, and with `Spectral_options::shape` what is said there.
+  /// The largest finite
   /// number where there is none: an absent cost would be sorted first by CGAL's queue.
   template <class Profile, class OptionalPoint>
   auto cost(const Profile& profile, const OptionalPoint& placement)
@@ -287,14 +289,21 @@ public:
     return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
 
-  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or merge two of them.
+  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or merge two of them, and none of a
+  /// wrapper that would put a face through another.
   template <class Profile, class OptionalPoint>
   bool lets_through(const Profile& profile, const OptionalPoint& placement)
   {
     // CGAL has got as far as to ask, whether or not a wrapper has asked our own placement.
     m_placement_asked = m_placement_found = true;
-    return placement &&
-           !m_core.moves_kept_vertex(slot(profile.v0()), slot(profile.v1()), to_vector(*placement));
+    if(!placement)
+      return false;
+    const Slot u = slot(profile.v0()), v = slot(profile.v1());
+    const Eigen::Vector3d point = to_vector(*placement);
+    if(m_core.moves_kept_vertex(u, v, point))
+      return false;
+    const internal::Spectral_candidate& own = answer(u, v); // which has been looked at
+    return (own.collapsible && own.point == point) || !m_core.crosses(u, v, point);
   }
 
   /// @}

@@ -139,7 +139,7 @@ struct Ends_of_constrained_edges
 /*!
  * A placement that keeps vertices and is wrapped around one that knows nothing of them, that of
  * `Constrained_placement` included: the vertex to be kept, or none between two of them. For the first stage of
- * `Spectral_options::pre_simplify`. `Tracker::is_kept(v)` says which they are, `IsConstrained` which
+ * `Spectral_edge_collapse_options::pre_simplify`. `Tracker::is_kept(v)` says which they are, `IsConstrained` which
  * others must not move either.
  *
  * Vertices to be kept that share a position are never joined by edges without length, which the next stage would have

@@ -51,6 +51,9 @@ inline void check_spectral_options(const Spectral_options& options, const Eigen:
   if(!(options.shape >= 0) || !std::isfinite(options.shape))
     throw std::invalid_argument("Spectral_options: shape is " + to_string(options.shape) +
                                 ", use a number from 0.");
+  if(!(options.largest_loss > 0))
+    throw std::invalid_argument("Spectral_options: largest_loss is " + to_string(options.largest_loss) +
+                                ", use a number above 0.");
   if(options.signals.size() != 0 && options.eigenpairs)
     throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
   if(options.signals.size() != 0 && options.metric_eigenvectors != 0)

@@ -189,9 +189,19 @@ public:
     if(any_version && found->collapsible && crosses(u, v, found->point)) {
       ++m_number_of_evaluations;
       found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v));
+      m_number_of_crossings += !found->collapsible;
     }
     return *found;
   }
+
+  /// Whether a collapse of (u,v) to a point would put a face through another, where that is guarded.
+  bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+  {
+    return m_crossing.is_active() && m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
+  }
+
+  /// How often an edge was given up because of that.
+  std::size_t number_of_crossings() const { return m_number_of_crossings; }
 
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
   double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
@@ -280,6 +290,7 @@ public:
     const Spectral_weighted_shape shape = weighted_shape();
     const double shape_cost =
         shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
+    const double largest_loss = shape.largest_loss * (m_fields.mass[removed] + m_fields.mass[kept]);
     m_shape.merge(removed, kept);
     --m_number_of_vertices;
     m_forest.merge(removed, kept, weight);
@@ -299,7 +310,8 @@ public:
     if(m_crossing.is_active())
       m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
     refresh_around(removed, kept);
-    m_recent_cost = (std::max)(total() - before + shape_cost, m_recent_cost * recent_cost_decay);
+    const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
+    m_recent_cost = (std::max)(loss + shape_cost, m_recent_cost * recent_cost_decay);
   }
 
   /// Forgets the candidates of the edges whose H met the last commit.
@@ -367,11 +379,6 @@ private:
     return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
   }
 
-  bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
-  {
-    return m_crossing.is_active() && m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
-  }
-
   // What is left for an edge whose best placement would cross another sheet: the cheapest of its ends and its middle that
   // does not.
   Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v)
@@ -398,7 +405,7 @@ private:
       const double scale = m_parameters.sum_of_squares > 0 ? m_parameters.sum_of_squares : 1.;
       shape.term = &m_shape;
       shape.weight = m_parameters.shape * scale * double(m_number_of_vertices);
-      shape.largest_loss = 10 * scale;
+      shape.largest_loss = m_parameters.largest_loss * scale;
     }
     return shape;
   }
@@ -603,7 +610,7 @@ private:
   Spectral_slot m_gathered = null_spectral_slot; // whose edges m_around has
   std::vector<Spectral_candidate> m_results;
   Spectral_change m_change;
-  std::size_t m_number_of_evaluations = 0;
+  std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
   alignas(spectral_cache_line) mutable Spectral_tasks<Spectral_candidate, Workspace> m_tasks;
   std::unique_ptr<Pool> m_pool; // last: its threads look at the rest

@@ -51,14 +51,17 @@ public:
     collect(points, rings, u, v, x);
     if(fan_intersects(m_new.data(), m_new.size()) && !old_intersect())
       return true;
+    // One walk through the tree for all of them. Those around an end that stays where it is are not new.
+    Box all;
+    m_boxes.clear();
     for(const Corners& t : m_new) {
-      const auto meets = [&](const std::size_t owner) {
-        return meets_owned(points, rings, Spectral_slot(owner), u, v, t);
-      };
-      if(m_tree.any(box_of(t), meets))
-        return true;
+      const Spectral_slot end = std::size_t(&t - m_new.data()) < m_new_of_u ? u : v;
+      m_boxes.push_back(x == points[end] ? Box() : box_of(t));
+      all.extend(m_boxes.back());
     }
-    return false;
+    return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
+      return meets_owned(points, rings, Spectral_slot(owner), u, v, all);
+    });
   }
 
   /// Follows a collapse, once rings and points have.
@@ -158,7 +161,7 @@ private:
   {
     m_old.clear();
     m_new.clear();
-    m_old_of_u = 0;
+    m_old_of_u = m_new_of_u = 0;
     constexpr std::size_t merged = (std::numeric_limits<std::size_t>::max)();
     for(const Spectral_slot c : {u, v}) {
       const Spectral_ring& ring = rings[c];
@@ -172,12 +175,15 @@ private:
           m_old_of_u = m_old.size();
         if(!shared)
           m_new.push_back(Corners{{{merged, x}, {a, points[a]}, {b, points[b]}}});
+        if(c == u)
+          m_new_of_u = m_new.size();
       }
     }
   }
 
+  // Whether one of the new triangles, whose boxes lie in `all`, meets one of those that belong to `owner`.
   bool meets_owned(const Points& points, const Spectral_rings& rings, const Spectral_slot owner,
-                   const Spectral_slot u, const Spectral_slot v, const Corners& t) const
+                   const Spectral_slot u, const Spectral_slot v, const Box& all) const
   {
     if(owner == u || owner == v)
       return false;
@@ -186,20 +192,23 @@ private:
       if(result || a == u || a == v || b == u || b == v)
         return;
       const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
-      if(!triangles_intersect(t, other))
+      const Box box = box_of(other);
+      if(!box.intersects(all))
         return;
-      result = true;
-      for(const Corners& old : m_old)
-        if(triangles_intersect(old, other))
-          result = false;
+      for(std::size_t i = 0; i < m_new.size() && !result; ++i)
+        result =
+            m_boxes[i].intersects(box) && Spectral_geometry::internal::triangles_intersect(m_new[i], other);
+      for(std::size_t i = 0; i < m_old.size() && result; ++i)
+        result = !triangles_intersect(m_old[i], other);
     });
     return result;
   }
 
   Spectral_geometry::internal::Box_tree m_tree;
+  std::vector<Box> m_boxes; // of m_new, empty for those that are not new
   // Scratch: the triangles around u, then those of v alone; what is left of them.
   std::vector<Corners> m_old, m_new;
-  std::size_t m_old_of_u = 0;
+  std::size_t m_old_of_u = 0, m_new_of_u = 0;
 };
 
 } // namespace internal

@@ -34,6 +34,7 @@ struct Spectral_cost_parameters
   bool single_precision_points = false; ///< the mesh stores its points as float
   bool keep_free_of_self_intersections = false;
   double shape = 0;          ///< see `Spectral_options::shape`
+  double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
   double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
   int threads = 1;
   std::size_t largest_degree_with_products = Spectral_fields().largest_degree_with_products;
@@ -64,7 +65,7 @@ public:
   {}
 
   /// Fills the costs of up to four samples: the change of E and, where there is a shape term, that of the weighted term. Then
-  /// no change of E counts for more than ten times what the signals have at both ends: beside needles E is
+  /// no change of E counts for more than `largest_loss` times what the signals have at both ends: beside needles E is
   /// larger than that by orders of magnitude, and a few folds of the input (eyes, nostrils) would never be collapsed.
   void evaluate(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
                 Spectral_sample* samples, const int count) const

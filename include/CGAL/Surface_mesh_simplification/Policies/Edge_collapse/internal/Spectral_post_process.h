@@ -151,19 +151,17 @@ private:
   // signals are as they were given, and Z is multiplied by the area.
   template <class TriangleMesh, class NamedParameters, class Result>
   void set_error(const TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const double theta,
-                 const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const NamedParameters& np,
-                 Result& result) const
+                 const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Z,
+                 const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
     const Mesh_matrices coarse = mesh_matrices(mesh, np);
     const double area = laplace_operator(m_fine.V, m_fine.T, theta).mass.sum();
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
     const double before = result.E;
-    // The operator is scaled, not the positions: far from the origin that would cost digits.
-    Laplace_operator op = laplace_operator(coarse.V, coarse.T, theta);
-    op.B /= area;
-    op.mass /= area;
-    result.E = restriction_energy(op, P, scale * F, (scale * area) * Z);
+    // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.
+    result.E =
+        area * scale * scale * restriction_energy(laplace_operator(coarse.V, coarse.T, theta), P, F, Z);
     if(before > 0)
       result.relative_error *= std::sqrt(result.E / before);
   }

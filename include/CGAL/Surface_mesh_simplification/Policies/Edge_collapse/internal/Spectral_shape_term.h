@@ -56,7 +56,7 @@ struct Spectral_quadric
  * The shape term of the cost: for each slot w the quadric
  * \f[ Q_w(x) = \sum_f |f| \left( (n_f \cdot (x - p))^2 + \sigma^2 |x - p|^2 \right) \f]
  * over the faces f around each input vertex p that was merged into w, and as much for each border edge with the plane
- * through it at right angles to its face, weighted by its squared length. A collapse of (u,v) to x costs
+ * through it at right angles to its face, weighted by ten times its squared length. A collapse of (u,v) to x costs
  * \f$ Q_u(x) + Q_v(x) - Q_u(p_u) - Q_v(p_v) \f$, for the input scaled to unit area.
  *
  * The first part keeps the surface. The second is the energy of a centroidal Voronoi tessellation: it spreads vertices
