@@ -156,18 +156,28 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Ver
   return options;
 }
 
-// Says how much memory the run will take, and refuses what the machine does not have.
-void check_memory(const Arguments& a, std::size_t n, const SMS::Spectral_edge_collapse_options& options)
+// Says how much memory the run will take, and refuses what the machine does not have. The evaluation, which comes when the result
+// is on the disk, is warned of only.
+void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target,
+                  const SMS::Spectral_edge_collapse_options& options)
 {
+  const std::size_t n = num_vertices(mesh);
   const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
-  const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
+  const double needed = SMS::estimated_memory(mesh, K, options), available = available_memory();
   if(available > 0 && needed > available)
     throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " + std::to_string(K) +
                              " eigenvectors takes about " + formatted_memory(needed) +
                              " of memory, but this machine has " + formatted_memory(available) +
                              " left: add --pre-simplify 100000, or lower --eigenvectors.");
+  const bool pairs_are_known = options.signals.size() == 0 && options.pre_simplify == 0;
+  const double judging =
+      a.no_evaluation ? 0. : SMS::estimated_evaluation_memory(n, target, K, {}, pairs_are_known);
+  if(available > 0 && judging > available && !a.quiet)
+    std::cerr << "spectral_simplify: warning: The evaluation takes about " << formatted_memory(judging)
+              << ", more than the " << formatted_memory(available)
+              << " that are left: add --no-evaluation.\n";
   if(!a.quiet)
-    std::cout << "memory: about " << formatted_memory(needed)
+    std::cout << "memory: about " << formatted_memory((std::max)(needed, judging))
               << (available > 0 ? " of the " + formatted_memory(available) + " that are available" : "")
               << "\n\n"
               << std::flush;
@@ -426,7 +436,7 @@ int run(Arguments a)
   const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, bar);
   Output_files files({a.input, a.keep, a.signals});
   announce(files, a);
-  check_memory(a, num_vertices(input.mesh), options);
+  check_memory(a, input.mesh, target, options);
   if(!a.quiet && !input.changes.empty())
     std::cout << printable(input.changes_of(a.input)) << "\n\n" << std::flush;
   Mesh mesh = std::move(input.mesh), copy;

@@ -421,7 +421,7 @@ TEST_CASE("the one-call form flips after the collapses and relocates what it fli
       CHECK((edges_of(a.T, 2) != edges_of(b.T, 2)));
       CHECK((a.V == b.V) == !relocate);
       CHECK((after.relocation.moved_vertices > 100) == relocate);
-      CHECK((before.restriction - after.restriction).norm() == 0);
+      CHECK(((before.restriction - after.restriction).norm() == 0) == !relocate); // which takes P anew
       CHECK(relative_difference(energy(b, basis, after.restriction), after.E) < 1e-8);
       CHECK(relative_difference(std::sqrt(after.E / basis.lambda.squaredNorm()), after.relative_error) <
             1e-8);
