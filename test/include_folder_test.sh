@@ -22,6 +22,6 @@ for directory in "$@"; do
   esac
 done
 cd "$folder"
-"$compiler" -std=c++17 -O0 -I include $flags "$source" -o program -pthread
+"$compiler" -std=c++17 -O0 -I include $flags "$source" -o program -pthread -lgmp
 ./program "$shape" coarse.off 400
 [ "$(sed -n 's/^\([0-9]*\) [0-9]* 0$/\1/p' coarse.off | head -n 1)" = 400 ]

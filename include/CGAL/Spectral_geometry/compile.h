@@ -22,6 +22,7 @@ the source files includes this header, which defines them: each of the others co
 #include <CGAL/Spectral_geometry/internal/functional_map_estimation_impl.h>
 #include <CGAL/Spectral_geometry/internal/hierarchical_functional_maps_impl.h>
 #include <CGAL/Spectral_geometry/internal/relocation_impl.h>
+#include <CGAL/Spectral_geometry/internal/triangles_intersect_impl.h>
 #include <CGAL/Spectral_geometry/internal/vertex_maps_impl.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

@@ -5,8 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_TRIANGLES_INTERSECT_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_TRIANGLES_INTERSECT_H
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/intersections.h>
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -64,6 +63,10 @@ inline bool lie_on_one_side(const Corners& s, const Corners& t, const std::size_
   return true;
 }
 
+/// triangles_intersect() for triangles whose first `common` vertices are common, without the first look.
+CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
+                                                               std::size_t common);
+
 /// Whether two triangles meet in more than their common vertices or edge. Exact. A triangle without area meets nothing.
 inline bool triangles_intersect(Corners s, Corners t)
 {
@@ -77,24 +80,15 @@ inline bool triangles_intersect(Corners s, Corners t)
       }
   if((common < 3 && lie_on_one_side(s, t, common)) || (common < 2 && lie_on_one_side(t, s, common)))
     return false;
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  const auto point = [](const Corner& c) { return Kernel::Point_3(c.point.x(), c.point.y(), c.point.z()); };
-  const std::array<Kernel::Point_3, 3> p = {point(s[0]), point(s[1]), point(s[2])},
-                                       q = {point(t[0]), point(t[1]), point(t[2])};
-  if(common == 2 && !CGAL::coplanar(p[0], p[1], p[2], q[2]))
-    return false;
-  if(CGAL::collinear(p[0], p[1], p[2]) || CGAL::collinear(q[0], q[1], q[2]))
-    return false;
-  if(common == 0)
-    return CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), Kernel::Triangle_3(q[0], q[1], q[2]));
-  if(common == 1)
-    return CGAL::do_intersect(Kernel::Triangle_3(p[0], p[1], p[2]), Kernel::Segment_3(q[1], q[2])) ||
-           CGAL::do_intersect(Kernel::Triangle_3(q[0], q[1], q[2]), Kernel::Segment_3(p[1], p[2]));
-  return common == 3 || CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) != CGAL::NEGATIVE;
+  return triangles_intersect_exactly(s, t, common);
 }
 
 } // namespace internal
 } // namespace Spectral_geometry
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/triangles_intersect_impl.h>
+#endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_TRIANGLES_INTERSECT_H
