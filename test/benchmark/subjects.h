@@ -17,7 +17,7 @@ struct Setting
   std::size_t target = 0;
   long eigenvectors = 100;
   std::size_t pre_simplify = 0;
-  bool paper = false;       // the preset
+  bool paper = false;         // the preset
   bool all_in_metric = false; // all eigenvectors, however few vertices remain
 };
 
