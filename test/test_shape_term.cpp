@@ -17,6 +17,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 
 #include <Eigen/LU>
@@ -313,6 +314,22 @@ TEST_CASE("Two sheets close to each other do not cross, and would without the gu
   CHECK(crossings() == 0);
   options.keep_free_of_self_intersections = false;
   CHECK(crossings() > 0);
+}
+
+TEST_CASE("Sheets that lie in each other from the start do not hold a run up")
+{
+  shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(3), 2);
+  const Eigen::Index half = input.V.rows() / 2;
+  input.V.bottomRows(half) = input.V.topRows(half);
+  input.V.bottomRows(half).col(0).array() += 2e-3;
+  REQUIRE(SG::internal::self_intersecting_faces(input.V, input.T).size() > 300);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.relocate = false;
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 200, options);
+  CHECK(result.output_vertices == 200);
+  CHECK(result.evaluations < 60 * result.collapses);
 }
 
 TEST_CASE("Several runs with a shape term go on from each other")

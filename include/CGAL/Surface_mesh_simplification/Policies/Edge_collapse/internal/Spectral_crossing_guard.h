@@ -44,24 +44,23 @@ public:
   }
 
   /// Whether the triangles of u and v that are left would cross others once both are at x, where none of those around u and v
-  /// crosses them now.
+  /// crosses anything now: sheets that lie in each other already, as in scans, are not to hold a run up.
   bool crosses(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
                const Spectral_slot v, const Eigen::Vector3d& x)
   {
     collect(points, rings, u, v, x);
-    if(fan_intersects(m_new.data(), m_new.size()) && !old_intersect())
-      return true;
-    // One walk through the tree for all of them. Those around an end that stays where it is are not new.
-    Box all;
+    // Those around an end that stays where it is are not new.
     m_boxes.clear();
     for(const Corners& t : m_new) {
       const Spectral_slot end = std::size_t(&t - m_new.data()) < m_new_of_u ? u : v;
       m_boxes.push_back(x == points[end] ? Box() : box_of(t));
-      all.extend(m_boxes.back());
     }
-    return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
-      return meets_owned(points, rings, Spectral_slot(owner), u, v, all);
-    });
+    if(!fan_intersects(m_new.data(), m_new.size()) && !meet_others(points, rings, u, v, m_new))
+      return false;
+    m_boxes.clear();
+    for(const Corners& t : m_old)
+      m_boxes.push_back(box_of(t));
+    return !old_intersect() && !meet_others(points, rings, u, v, m_old);
   }
 
   /// Follows a collapse, once rings and points have.
@@ -181,31 +180,38 @@ private:
     }
   }
 
-  // Whether one of the new triangles, whose boxes lie in `all`, meets one of those that belong to `owner`.
-  bool meets_owned(const Points& points, const Spectral_rings& rings, const Spectral_slot owner,
-                   const Spectral_slot u, const Spectral_slot v, const Box& all) const
+  // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v. One walk through the tree for all.
+  bool meet_others(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
+                   const Spectral_slot v, const std::vector<Corners>& triangles) const
   {
-    if(owner == u || owner == v)
-      return false;
+    Box all;
+    for(const Box& box : m_boxes)
+      all.extend(box);
+    return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
+      return owner != u && owner != v &&
+             meet_owned(points, rings, Spectral_slot(owner), u, v, triangles, all);
+    });
+  }
+
+  bool meet_owned(const Points& points, const Spectral_rings& rings, const Spectral_slot owner,
+                  const Spectral_slot u, const Spectral_slot v, const std::vector<Corners>& triangles,
+                  const Box& all) const
+  {
     bool result = false;
     for_each_owned(rings, owner, [&](const Spectral_slot a, const Spectral_slot b) {
       if(result || a == u || a == v || b == u || b == v)
         return;
       const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
       const Box box = box_of(other);
-      if(!box.intersects(all))
-        return;
-      for(std::size_t i = 0; i < m_new.size() && !result; ++i)
-        result =
-            m_boxes[i].intersects(box) && Spectral_geometry::internal::triangles_intersect(m_new[i], other);
-      for(std::size_t i = 0; i < m_old.size() && result; ++i)
-        result = !triangles_intersect(m_old[i], other);
+      for(std::size_t i = 0; i < triangles.size() && !result && box.intersects(all); ++i)
+        result = m_boxes[i].intersects(box) &&
+                 Spectral_geometry::internal::triangles_intersect(triangles[i], other);
     });
     return result;
   }
 
   Spectral_geometry::internal::Box_tree m_tree;
-  std::vector<Box> m_boxes; // of m_new, empty for those that are not new
+  std::vector<Box> m_boxes; // of the triangles that are looked at, empty for those that are not
   // Scratch: the triangles around u, then those of v alone; what is left of them.
   std::vector<Corners> m_old, m_new;
   std::size_t m_old_of_u = 0, m_new_of_u = 0;
