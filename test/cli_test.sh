@@ -8,31 +8,13 @@
 # The command line: what it writes, and what it says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is
 # emptied and used.
 
-set -u
 program=$1
 check=$2
 shape=$3
 folder=$4
-failures=0
-
-rm -rf "$folder" "$folder/../messages"
-mkdir -p "$folder" && cd "$folder" || exit 1
+. "$(dirname "$0")/program_test.sh"
+rm -f ../messages
 cp "$shape" shape.off
-
-fail()
-{
-  echo "FAILED: $1"
-  failures=$((failures + 1))
-}
-
-# runs NAME ARGUMENTS...: the program succeeds and says nothing on standard error.
-runs()
-{
-  name=$1
-  shift
-  "$program" "$@" >said 2>complained || { fail "$name: $(cat complained)"; return; }
-  [ ! -s complained ] || fail "$name: it complained: $(cat complained)"
-}
 
 # refuses NAME PATTERN ARGUMENTS...: the program ends with an error of one sentence that holds PATTERN, prints nothing
 # else and leaves the folder as it was.

@@ -8,45 +8,13 @@
 # The comparison: what it writes, that it agrees with spectral_simplify about one and the same result, and what it
 # says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is emptied and used.
 
-set -u
-compare=$1
+program=$1
 simplify=$2
 shape=$3
 folder=$4
-failures=0
-
-rm -rf "$folder"
-mkdir -p "$folder" && cd "$folder" || exit 1
+. "$(dirname "$0")/program_test.sh"
+unwanted=report.html
 cp "$shape" shape.off
-
-fail()
-{
-  echo "FAILED: $1"
-  failures=$((failures + 1))
-}
-
-# runs NAME ARGUMENTS...: the program succeeds and says nothing on standard error.
-runs()
-{
-  name=$1
-  shift
-  "$compare" "$@" >said 2>complained || { fail "$name: $(cat complained)"; return; }
-  [ ! -s complained ] || fail "$name: it complained: $(cat complained)"
-}
-
-# refuses NAME PATTERN ARGUMENTS...: an error of one sentence that holds PATTERN.
-refuses()
-{
-  name=$1
-  pattern=$2
-  shift 2
-  "$compare" "$@" >said 2>complained && fail "$name: the exit status is 0"
-  [ ! -s said ] || fail "$name: it printed $(cat said)"
-  [ "$(wc -l <complained)" -eq 1 ] || fail "$name: not one line: $(cat complained)"
-  grep -q "^spectral_compare: .*\.$" complained || fail "$name: not a sentence: $(cat complained)"
-  grep -q -e "$pattern" complained || fail "$name: '$pattern' is not in: $(cat complained)"
-  [ ! -e report.html ] || fail "$name: it left report.html"
-}
 
 # number FILE KEY: the first number of that name in a JSON file, cut after nine digits, where programs may differ.
 number()
@@ -129,7 +97,7 @@ printf '%%%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1
 failures=$?
 
 # A coloured mesh that does not fit on the disk.
-if (trap '' XFSZ; ulimit -f 64; "$compare" shape.off --vertices 100 -k 10 --only "edge length" --coloured full --json full.json \
+if (trap '' XFSZ; ulimit -f 64; "$program" shape.off --vertices 100 -k 10 --only "edge length" --coloured full --json full.json \
   >said 2>complained); then
   fail "a coloured mesh on a full disk: the exit status is 0"
 fi

@@ -7,51 +7,28 @@
 #
 # Distances on a proxy of a shape of about 2,000 vertices, and what is said when there are none. FOLDER is emptied and used.
 
-set -u
-distances=$1
+program=$1
 shape=$2
 folder=$3
-failures=0
+. "$(dirname "$0")/program_test.sh"
+unwanted=report.html
 
-rm -rf "$folder"
-mkdir -p "$folder" && cd "$folder" || exit 1
-
-fail()
-{
-  echo "FAILED: $1"
-  failures=$((failures + 1))
-}
-
-# refuses NAME PATTERN ARGUMENTS...: an error of one sentence that holds PATTERN.
-refuses()
-{
-  name=$1
-  pattern=$2
-  shift 2
-  "$distances" "$@" --report report.html >said 2>complained && fail "$name: the exit status is 0"
-  [ ! -s said ] || fail "$name: it printed $(cat said)"
-  [ "$(wc -l <complained)" -eq 1 ] || fail "$name: not one line: $(cat complained)"
-  grep -q "^spectral_distances_on_proxy: .*\.$" complained || fail "$name: not a sentence: $(cat complained)"
-  grep -q -e "$pattern" complained || fail "$name: '$pattern' is not in: $(cat complained)"
-  [ ! -e report.html ] || fail "$name: it left report.html"
-}
-
-refuses "no mesh" "a mesh is needed" --vertices 300
-refuses "no number of vertices" "\-\-vertices is 0" "$shape"
-refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300
-refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000
-refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --vertices 50 --eigenvectors 60
-refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full
-refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red
+refuses "no mesh" "a mesh is needed" --vertices 300 --report report.html
+refuses "no number of vertices" "\-\-vertices is 0" "$shape" --report report.html
+refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300 --report report.html
+refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000 --report report.html
+refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --vertices 50 --eigenvectors 60 --report report.html
+refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full --report report.html
+refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red --report report.html
 
 cp "$shape" input.off
-"$distances" input.off --vertices 300 --report input.off >said 2>complained && fail "the input is replaced"
+"$program" input.off --vertices 300 --report input.off >said 2>complained && fail "the input is replaced"
 grep -q "read as an input" complained || fail "the input as a report: $(cat complained)"
 awk 'NF' "$shape" | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
   { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated.off
-"$distances" isolated.off --vertices 300 --eigenvectors 20 >said 2>complained || fail "an isolated vertex: $(cat complained)"
+"$program" isolated.off --vertices 300 --eigenvectors 20 >said 2>complained || fail "an isolated vertex: $(cat complained)"
 grep -q "^'isolated.off': 1 isolated vertex left out.$" said || fail "an isolated vertex: $(cat said)"
-refuses "an isolated vertex with --strict" "isolated" isolated.off --vertices 300 --strict
+refuses "an isolated vertex with --strict" "isolated" isolated.off --vertices 300 --strict --report report.html
 
 # within NAME COLUMN LARGEST: the error of that row is positive and at most LARGEST per cent.
 within()
@@ -61,7 +38,7 @@ within()
     fail "the error of $1 in column $2 is '$error', it should be positive and at most $3 %"
 }
 
-"$distances" "$shape" --vertices 500 --eigenvectors 60 --report report.html >said 2>complained ||
+"$program" "$shape" --vertices 500 --eigenvectors 60 --report report.html >said 2>complained ||
   fail "the distances: $(cat complained)"
 for column in 2 3 4; do
   within "diffusion, t = 0.01" $column 12

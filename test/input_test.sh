@@ -8,32 +8,13 @@
 # What is changed in a mesh before it is simplified, whose numbers the outputs use then, and what survives when something
 # fails late. SHAPE is an OFF file of about 2,000 vertices, FOLDER is emptied and used.
 
-set -u
 program=$1
 shape=$2
 folder=$3
-failures=0
-
-rm -rf "$folder"
-mkdir -p "$folder" && cd "$folder" || exit 1
+. "$(dirname "$0")/program_test.sh"
 # One element per line.
 awk 'NF { print }' "$shape" >shape.off
 n=$(sed -n '2s/ .*//p' shape.off)
-
-fail()
-{
-  echo "FAILED: $1"
-  failures=$((failures + 1))
-}
-
-# runs NAME ARGUMENTS...: the program succeeds and says nothing on standard error.
-runs()
-{
-  name=$1
-  shift
-  "$program" "$@" >said 2>complained || { fail "$name: $(cat complained)"; return; }
-  [ ! -s complained ] || fail "$name: it complained: $(cat complained)"
-}
 
 # says PATTERN: one line of what the last run said is that.
 says()

@@ -8,37 +8,14 @@
 # The matching: a shape of about 2,000 vertices against another pose of it, and what is said when it cannot be done. FOLDER
 # is emptied and used.
 
-set -u
-matching=$1
+program=$1
 make_shape=$2
 shape=$3
 folder=$4
-failures=0
-
-rm -rf "$folder"
-mkdir -p "$folder" && cd "$folder" || exit 1
+. "$(dirname "$0")/program_test.sh"
+unwanted=map.txt
 cp "$shape" X.off
 "$make_shape" Y.off --vertices 2000 --pose walk --shuffle 3 --map truth.txt >/dev/null || exit 1
-
-fail()
-{
-  echo "FAILED: $1"
-  failures=$((failures + 1))
-}
-
-# refuses NAME PATTERN ARGUMENTS...: an error of one sentence that holds PATTERN.
-refuses()
-{
-  name=$1
-  pattern=$2
-  shift 2
-  "$matching" "$@" >said 2>complained && fail "$name: the exit status is 0"
-  [ ! -s said ] || fail "$name: it printed $(cat said)"
-  [ "$(wc -l <complained)" -eq 1 ] || fail "$name: not one line: $(cat complained)"
-  grep -q "^shape_matching: .*\.$" complained || fail "$name: not a sentence: $(cat complained)"
-  grep -q -e "$pattern" complained || fail "$name: '$pattern' is not in: $(cat complained)"
-  [ ! -e map.txt ] || fail "$name: it left map.txt"
-}
 
 refuses "no arguments" "two meshes are needed"
 refuses "no output" "nothing is to be written" X.off Y.off
@@ -55,7 +32,7 @@ refuses "no landmarks in the file" "names no vertex" X.off Y.off --output map.tx
 refuses "an input as output" "read as an input" X.off Y.off --output ./X.off
 refuses "a truth for another mesh" "lines" X.off Y.off --output map.txt --ground-truth one.txt
 
-"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,none --ground-truth truth.txt \
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,none --ground-truth truth.txt \
   --output map.txt --report report.html >said 2>complained || fail "the match: $(cat complained)"
 [ "$(wc -l <map.txt)" -eq "$(wc -l <truth.txt)" ] || fail "map.txt has $(wc -l <map.txt) lines"
 for proxy in spectral garland_heckbert none; do
@@ -67,7 +44,7 @@ done
 
 # Curvature finds what the modes cannot tell: without it the errors are larger.
 with=$(awk '$1 == "none" { print $(NF - 2) }' said)
-"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --proxy none --local-weight 0 --ground-truth truth.txt \
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --proxy none --local-weight 0 --ground-truth truth.txt \
   --output map.txt >said 2>complained || fail "modes alone: $(cat complained)"
 without=$(awk '$1 == "none" { print $(NF - 2) }' said)
 awk -v a="$with" -v b="$without" 'BEGIN { exit !(a < b) }' || fail "mean error $with with curvature, $without without"
@@ -76,11 +53,11 @@ grep -q "<script\|<link\|src='http" report.html && fail "the page needs more tha
 [ "$(grep -o "data:image/png" report.html | wc -l)" -eq 4 ] || fail "the page has not four pictures"
 
 for threads in 1 2; do
-  "$matching" X.off Y.off --vertices 300 --eigenvectors 50 --threads $threads --quiet --output $threads.txt >said \
+  "$program" X.off Y.off --vertices 300 --eigenvectors 50 --threads $threads --quiet --output $threads.txt >said \
     2>complained || fail "$threads threads: $(cat complained)"
 done
 cmp -s 1.txt 2.txt || fail "one thread and two find different maps"
-"$matching" X.off Y.off --vertices 300 --eigenvectors 50 --threads 100000 --output many.txt >said 2>complained ||
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --threads 100000 --output many.txt >said 2>complained ||
   fail "100000 threads: $(cat complained)"
 cmp -s 1.txt many.txt || fail "100000 threads find a different map"
 [ "$(wc -l <complained)" -eq 1 ] && grep -q "this machine runs .*--threads 100000" complained ||
@@ -93,7 +70,7 @@ for mesh in X Y; do
 done
 { echo -1; awk '{ print $1 + 1 }' 1.txt; } >isolated.txt
 { echo -1; awk '{ print $1 + 1 }' truth.txt; } >isolated_truth.txt
-"$matching" isolatedX.off isolatedY.off --vertices 300 --eigenvectors 50 --ground-truth isolated_truth.txt --output found.txt \
+"$program" isolatedX.off isolatedY.off --vertices 300 --eigenvectors 50 --ground-truth isolated_truth.txt --output found.txt \
   >said 2>complained || fail "isolated vertices: $(cat complained)"
 cmp -s isolated.txt found.txt || fail "isolated vertices change the map"
 grep -q "^'isolatedY.off': 1 isolated vertex left out.$" said || fail "isolated vertices: $(cat said)"
@@ -121,7 +98,7 @@ awk 'BEGIN { for(v = 0; v < 1106; ++v) print v }' >same.txt
 awk 'BEGIN { n = 48; print 0; print 1; for(v = 0; v < 1104; ++v) print 2 + v - v % n + (v + n / 2) % n }' >turned.txt
 for truth in same turned; do
   awk 'NR % 200 == 60 { print NR - 1, $1 }' $truth.txt >landmarks.txt
-  "$matching" ellipsoid.off ellipsoid.off --vertices 250 --eigenvectors 40 --landmarks landmarks.txt \
+  "$program" ellipsoid.off ellipsoid.off --vertices 250 --eigenvectors 40 --landmarks landmarks.txt \
     --ground-truth $truth.txt --output map.txt >said 2>complained || fail "landmarks: $(cat complained)"
   awk 'END { exit !($(NF - 2) < 0.1) }' said || fail "landmarks do not find '$truth': $(tail -n 1 said)"
 done
