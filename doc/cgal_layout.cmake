@@ -19,7 +19,7 @@ file(REMOVE_RECURSE "${output}")
 file(COPY "${root}/include" DESTINATION "${output}")
 
 # Examples and tests: all but the programs that need further libraries, their parts and the tests of those.
-set(stays_behind "#include [<\"](\\.\\./examples/)?(boost/program_options|nlohmann|io/|report/|compare/)")
+set(stays_behind "#include [<\"](\\.\\./examples/programs/)?(boost/program_options|nlohmann|io/|report/|compare/)")
 file(GLOB candidates RELATIVE "${root}" "${root}/examples/*.cpp" "${root}/test/test_*.cpp" "${root}/test/*.h"
      "${root}/test/main.cpp")
 set(examples "")

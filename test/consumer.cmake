@@ -33,13 +33,12 @@ set(solver "simplicial")
 if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
   set(solver "cholmod")
 endif()
-# Headers in two files of one program are tried by the first, with what is installed here; the second compiles both as one
-# and does without CHOLMOD.
+# The first with the library that is installed here; the second compiles it and does without CHOLMOD.
 spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
                            "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer ${solver})
 set_tests_properties("consumer-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DSPECTRAL_WITH_CHOLMOD=OFF;-DCMAKE_UNITY_BUILD=ON"
+                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DSPECTRAL_WITH_CHOLMOD=OFF"
                            consumer simplicial)
 
 # The examples' own CMakeLists.txt, outside of the project, with its smallest program.
@@ -49,7 +48,7 @@ if(TARGET make_demo_shape)
                              "${CMAKE_CURRENT_BINARY_DIR}/installed-example.off" --vertices 2000)
   set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 
-  # Without CMake and without the optional libraries: the compiler, the folder include/, and the flags of the manual.
+  # Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual.
   add_test(NAME "consumer-include-folder"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}"
                    "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${PROJECT_SOURCE_DIR}/examples/edge_collapse_spectral.cpp" "${shape}"

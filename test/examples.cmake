@@ -23,8 +23,8 @@ find_package(nlohmann_json CONFIG QUIET)
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
   # Checks what the command line wrote against its definitions, reading the files anew.
   add_executable(check_outputs check_outputs.cpp)
-  target_include_directories(check_outputs PRIVATE "${PROJECT_SOURCE_DIR}/examples")
-  target_link_libraries(check_outputs PRIVATE spectral_examples_io spectral_geometry_compiled nlohmann_json::nlohmann_json)
+  target_include_directories(check_outputs PRIVATE "${PROJECT_SOURCE_DIR}/examples/programs")
+  target_link_libraries(check_outputs PRIVATE spectral_examples_io nlohmann_json::nlohmann_json)
   add_test(NAME "cli" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/cli_test.sh" $<TARGET_FILE:spectral_simplify>
                               $<TARGET_FILE:check_outputs> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/cli")
   set_tests_properties("cli" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)

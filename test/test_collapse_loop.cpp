@@ -5,6 +5,7 @@
 // How the policies live inside CGAL's loop: visitors, misuse, exceptions, several runs, difficult edges.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
@@ -207,7 +208,46 @@ bool no_stale_candidate_around_merged_vertices(const Mesh& mesh, const Policies&
   return !merged.empty();
 }
 
+// Our cost, and how often it was not what the edge costs when CGAL asks. Slots are vertices: nothing has been removed before.
+struct Watched_cost
+{
+  template <class Profile, class Placement>
+  auto operator()(const Profile& profile, const Placement& placement) const
+  {
+    const auto result = cost(profile, placement);
+    const SMS::internal::Spectral_slot u = std::uint32_t(profile.v0()), v = std::uint32_t(profile.v1());
+    SMS::internal::Spectral_collapse_kernel kernel;
+    const auto now = policies->state().core().evaluate(u, v, kernel);
+    ++*asked;
+    *stale += placement && (!result || *result != now.cost);
+    return result;
+  }
+  Policies::Get_cost cost;
+  const Policies* policies;
+  int *asked, *stale;
+};
+
 } // namespace
+
+TEST_CASE("Exact costs are those of now whenever CGAL asks, and the others are not")
+{
+  const auto placement =
+      GENERATE(SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::free);
+  const bool exact = GENERATE(false, true);
+  Mesh mesh = make_mesh(wavy_grid_matrices(16, 14));
+  SMS::Spectral_options options = options_with(8);
+  options.placement = placement;
+  options.exact_costs = exact;
+  const Policies policies(mesh, options);
+  int asked = 0, stale = 0;
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(60, mesh),
+                     CGAL::parameters::get_cost(Watched_cost{policies.get_cost(), &policies, &asked, &stale})
+                         .get_placement(policies.get_placement())
+                         .visitor(policies.visitor()));
+  CHECK(count_vertices(mesh) == 60);
+  CHECK(asked > 1000);
+  CHECK((stale == 0) == exact);
+}
 
 TEST_CASE("A forgotten visitor throws at the first cost and leaves the mesh as it is")
 {

@@ -4,7 +4,7 @@
 
 // What the programs change in a mesh before they use it, and how its vertices are numbered then.
 
-#include "../examples/io/input_mesh.h"
+#include "../examples/programs/io/input_mesh.h"
 
 #include "catch.h"
 

@@ -4,15 +4,15 @@
 
 // The readers of the programs, and what they say of files that are damaged; what they write, and what they show.
 
-#include "../examples/io/index_reader.h"
-#include "../examples/io/machine_memory.h"
-#include "../examples/io/matrix_io.h"
-#include "../examples/io/matrix_market_reader.h"
-#include "../examples/io/npy_reader.h"
-#include "../examples/io/output_files.h"
-#include "../examples/io/program.h"
-#include "../examples/io/text_mesh_readers.h"
-#include "../examples/report/svg_plot.h"
+#include "../examples/programs/io/index_reader.h"
+#include "../examples/programs/io/machine_memory.h"
+#include "../examples/programs/io/matrix_io.h"
+#include "../examples/programs/io/matrix_market_reader.h"
+#include "../examples/programs/io/npy_reader.h"
+#include "../examples/programs/io/output_files.h"
+#include "../examples/programs/io/program.h"
+#include "../examples/programs/io/text_mesh_readers.h"
+#include "../examples/programs/report/svg_plot.h"
 
 #include "catch.h"
 

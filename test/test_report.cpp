@@ -4,9 +4,9 @@
 
 // The pieces of the comparison's page that no reader would see to be wrong.
 
-#include "../examples/compare/mode_alignment.h"
-#include "../examples/report/html_report.h"
-#include "../examples/report/png_image.h"
+#include "../examples/programs/compare/mode_alignment.h"
+#include "../examples/programs/report/html_report.h"
+#include "../examples/programs/report/png_image.h"
 
 #include "catch.h"
 

@@ -5,7 +5,7 @@
 // How long the spectral metric takes beside CGAL's own costs, its eigenpairs beside Spectra's, and how both grow with the
 // mesh and K; --help shows the options. Each measurement has a process of its own; figures are medians.
 
-#include "../../examples/io/machine_memory.h"
+#include "../../examples/programs/io/machine_memory.h"
 #include "in_child.h"
 #include "subjects.h"
 

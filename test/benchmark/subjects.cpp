@@ -4,7 +4,7 @@
 
 #include "subjects.h"
 
-#include "../../examples/io/input_mesh.h"
+#include "../../examples/programs/io/input_mesh.h"
 #include "generated_shape.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>

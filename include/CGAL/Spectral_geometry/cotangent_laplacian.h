@@ -11,12 +11,13 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -70,36 +71,7 @@ struct Laplace_operator
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which
 /// constants are in the kernel: rows that sum to zero, in single precision at least. Nothing is read off eigenvalues.
-inline Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
-{
-  const double rounding = 1e-6; // of a row's sum, relative to its entries
-  std::vector<char> seen(op.L.cols(), false);
-  std::vector<Eigen::Index> stack;
-  Eigen::Index zeros = 0;
-  for(Eigen::Index root = 0; root < op.L.cols(); ++root) {
-    if(seen[root])
-      continue;
-    bool kernel = true;
-    seen[root] = true;
-    stack.push_back(root);
-    while(!stack.empty()) {
-      const Eigen::Index v = stack.back();
-      stack.pop_back();
-      double sum = 0., size = 0.;
-      for(Eigen::SparseMatrix<double>::InnerIterator entry(op.L, v); entry; ++entry) {
-        sum += entry.value();
-        size += std::abs(entry.value());
-        if(entry.value() != 0. && !seen[entry.row()]) {
-          seen[entry.row()] = true;
-          stack.push_back(entry.row());
-        }
-      }
-      kernel = kernel && std::abs(sum) <= rounding * size;
-    }
-    zeros += kernel;
-  }
-  return zeros;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op);
 
 /// \brief the cotangents of a triangle's three angles and its area.
 struct Triangle_cotangents
@@ -114,36 +86,9 @@ struct Triangle_cotangents
 /// four roundings of the product of their lengths: what remains is then noise, and would depend on
 /// whether the compiler contracts products into fused operations. Coordinates of any magnitude are legal; a result
 /// that overflows is returned as such.
-inline Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                                               const Eigen::Vector3d& r)
-{
-  Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
-  const double extent = (std::max)(
-      {edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
-  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
-  if(extent == 0.)
-    return result;
-
-  // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is exact.
-  const int exponent = std::isfinite(extent) ? std::ilogb(extent) : 0;
-  for(Eigen::Vector3d& e : edge)
-    for(int c = 0; c < 3; ++c)
-      e(c) = std::scalbn(e(c), -exponent);
-
-  // Two shortest edges: the cross product of the others would be a difference of larger numbers.
-  const Eigen::Vector3d length(edge[0].norm(), edge[1].norm(), edge[2].norm());
-  int longest;
-  length.maxCoeff(&longest);
-  const int a = (longest + 1) % 3, b = (longest + 2) % 3;
-  const double cross = edge[a].cross(edge[b]).norm();
-  if(cross <= 4. * std::numeric_limits<double>::epsilon() * length(a) * length(b))
-    return result;
-
-  for(int k = 0; k < 3; ++k)
-    result.cot(k) = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / cross;
-  result.area = std::scalbn(0.5 * cross, 2 * exponent);
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
+                                                                      const Eigen::Vector3d& q,
+                                                                      const Eigen::Vector3d& r);
 
 namespace internal {
 
@@ -178,73 +123,15 @@ inline std::string vertex_name(Eigen::Index v)
   return "vertex " + std::to_string(v) + " (counted from 0)";
 }
 
-inline void check_positions(const Eigen::MatrixXd& V)
-{
-  if(V.cols() != 3)
-    throw std::invalid_argument("Laplace operator: V must have 3 columns, one row per vertex, but has " +
-                                std::to_string(V.cols()) + " columns.");
-  for(Eigen::Index v = 0; v < V.rows(); ++v)
-    if(!V.row(v).allFinite())
-      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                  " has a coordinate that is not a finite number; repair or remove it.");
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V);
 
-inline void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
-{
-  if(T.cols() != 3 || T.rows() == 0)
-    throw std::invalid_argument("Laplace operator: T must have 3 columns and at least one row, but is " +
-                                std::to_string(T.rows()) + " x " + std::to_string(T.cols()) + ".");
-  for(Eigen::Index f = 0; f < T.rows(); ++f) {
-    const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
-    if((std::min)({i, j, k}) < 0 || (std::max)({i, j, k}) >= n)
-      throw std::invalid_argument("Laplace operator: " + face_name(f) + " refers to a vertex outside 0.." +
-                                  std::to_string(n - 1) + "; repair the indices.");
-    if(i == j || j == k || k == i)
-      throw std::invalid_argument("Laplace operator: " + face_name(f) +
-                                  " uses one vertex twice; remove the face.");
-  }
-}
-
-inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                              Eigen::Index f)
-{
-  const Triangle_cotangents t = triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
-  if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(t.area))
-    throw std::invalid_argument(
-        "Laplace operator: " + face_name(f) +
-        " is a needle or too large, its cotangents or its area overflow the matrix; collapse "
-        "its shortest edge, remesh it or rescale the mesh.");
-  return t;
-}
-
-inline void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
-{
-  for(Eigen::Index v = 0; v < mass.size(); ++v) {
-    if(mass(v) > 0. && std::isfinite(mass(v)))
-      continue;
-    if(!(mass(v) <= 0.))
-      throw std::invalid_argument("Laplace operator: the mass of " + vertex_name(v) +
-                                  " is not a finite number; rescale the mesh.");
-    if((T.array() == static_cast<int>(v)).any())
-      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                  " has no mass because all its faces have zero area; remove these faces.");
-    throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                " is isolated, no face uses it; remove it.");
-  }
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n);
 
 } // namespace internal
 
 /// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's area at each corner.
-inline Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
-{
-  internal::check_positions(V);
-  internal::check_triangles(T, V.rows());
-  Eigen::MatrixXd corner_masses(T.rows(), 3);
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
-  return corner_masses;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
+                                                                        const Eigen::MatrixXi& T);
 
 /// \brief assembles stiffness and mass of the mesh (V, T) with a lumping of the user's choice.
 ///
@@ -254,62 +141,10 @@ inline Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V, const
 /// \param theta           weight of the consistent mass (A/6 on the diagonal, A/12 off it, per face), in [0, 1]
 ///
 /// Throws as the overload without corner masses does.
-inline Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                         const Eigen::MatrixXd& corner_masses, double theta)
-{
-  if(!(theta >= 0. && theta <= 1.))
-    throw std::invalid_argument("Laplace operator: theta must lie in [0, 1], but is " +
-                                std::to_string(theta) + ".");
-  internal::check_positions(V);
-  internal::check_triangles(T, V.rows());
-  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
-    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
-
-  // Upper triangles only, mirrored afterwards: both matrices are symmetric to the last bit.
-  using Triplet = Eigen::Triplet<double>;
-  const Eigen::Index n = V.rows(), m = T.rows();
-  std::vector<Triplet> stiffness, consistent;
-  stiffness.reserve(3 * m + n);
-  consistent.reserve(theta > 0. ? 3 * m + n : n);
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
-
-  Laplace_operator result;
-  result.theta = theta;
-  result.mass = Eigen::VectorXd::Zero(n);
-  Eigen::VectorXd mass_diagonal = Eigen::VectorXd::Zero(n);
-  for(Eigen::Index f = 0; f < m; ++f) {
-    const Triangle_cotangents t = internal::checked_cotangents(V, T, f);
-    for(int k = 0; k < 3; ++k) {
-      const int c = T(f, k);
-      const int i = (std::min)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
-      const int j = (std::max)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
-      stiffness.emplace_back(i, j, -0.5 * t.cot(k));
-      if(theta > 0.)
-        consistent.emplace_back(i, j, theta * t.area / 12.);
-      const double lumped = (1. - theta) * corner_masses(f, k);
-      mass_diagonal(c) += lumped + theta * t.area / 6.;
-      result.mass(c) += lumped + theta * t.area / 3.;
-    }
-  }
-  internal::check_mass(result.mass, T);
-
-  Eigen::SparseMatrix<double> upper(n, n);
-  upper.setFromTriplets(stiffness.begin(), stiffness.end());
-  for(Eigen::Index j = 0; j < n; ++j)
-    for(Eigen::SparseMatrix<double>::InnerIterator it(upper, j); it; ++it) {
-      diagonal(it.row()) -= it.value();
-      diagonal(it.col()) -= it.value();
-    }
-  for(Eigen::Index i = 0; i < n; ++i) {
-    stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
-    consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
-  }
-  upper.setFromTriplets(stiffness.begin(), stiffness.end());
-  result.L = upper.selfadjointView<Eigen::Upper>();
-  upper.setFromTriplets(consistent.begin(), consistent.end());
-  result.B = upper.selfadjointView<Eigen::Upper>();
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T,
+                                                                const Eigen::MatrixXd& corner_masses,
+                                                                double theta);
 
 /// \brief assembles the cotangent Laplacian and the mass of the mesh (V, T).
 ///
@@ -328,11 +163,8 @@ inline Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::
 /// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an index out of
 ///         range, a face that uses a vertex twice, a needle whose cotangent is larger than 1e12, an isolated vertex, a vertex
 ///         with only zero-area faces.
-inline Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                         double theta = 0.)
-{
-  return laplace_operator(V, T, barycentric_corner_masses(V, T), theta);
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T, double theta = 0.);
 
 /// \brief copies positions and faces of a triangle mesh into matrices.
 ///
@@ -400,5 +232,9 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::l
 
 } // namespace Spectral_geometry
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/cotangent_laplacian_impl.h>
+#endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H

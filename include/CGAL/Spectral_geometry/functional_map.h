@@ -26,13 +26,7 @@ namespace Spectral_geometry {
 /// @{
 namespace internal {
 
-inline void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted)
-{
-  if(found != wanted)
-    throw std::invalid_argument(std::string("functional map: ") + what + " is " + std::to_string(found) +
-                                " where " + std::to_string(wanted) +
-                                " is needed, pass matrices that belong together.");
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted);
 
 } // namespace internal
 
@@ -51,19 +45,10 @@ Nothing is rescaled: see `unit_area_functional_map()`.
 
 Throws `std::invalid_argument` if the sizes do not match.
 */
-inline Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
-                                      const Eigen::SparseMatrix<double>& coarse_B,
-                                      const Eigen::SparseMatrix<double>& P,
-                                      const Eigen::MatrixXd& fine_vectors)
-{
-  internal::check_dimension("the number of columns of P", P.cols(), fine_vectors.rows());
-  internal::check_dimension("the number of rows of P", P.rows(), coarse_vectors.rows());
-  internal::check_dimension("the size of the coarse mass", coarse_B.cols(), P.rows());
-  internal::check_dimension("the number of rows of the coarse mass", coarse_B.rows(), P.rows());
-  const Eigen::MatrixXd restricted = P * fine_vectors;
-  const Eigen::MatrixXd weighted = coarse_B * restricted;
-  return coarse_vectors.transpose() * weighted;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
+                                                             const Eigen::SparseMatrix<double>& coarse_B,
+                                                             const Eigen::SparseMatrix<double>& P,
+                                                             const Eigen::MatrixXd& fine_vectors);
 
 /*!
 returns the functional map of the two meshes each scaled to unit area, from that at input scale, without a
@@ -77,13 +62,8 @@ Scaling a mesh by \f$ 1/\sqrt{A} \f$ divides `B` by the area `A` and leaves `L` 
 @param C functional map at input scale
 @param fine_area, coarse_area `A` and \f$ \widetilde A \f$, positive, the sums of the masses
 */
-inline Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C, double fine_area,
-                                                double coarse_area)
-{
-  if(!(fine_area > 0 && coarse_area > 0))
-    throw std::invalid_argument("functional map: an area is not positive, pass the sums of the masses.");
-  return std::sqrt(fine_area / coarse_area) * C;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C,
+                                                                       double fine_area, double coarse_area);
 
 /*!
 returns the Laplacian commutativity \f$ \|C\|_L = \|C \Lambda - \widetilde\Lambda C\| / \|C\| \f$, the root of
@@ -98,17 +78,9 @@ unit area.
 
 Throws `std::invalid_argument` if the sizes do not match or `C` is zero.
 */
-inline double laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values,
-                                           const Eigen::VectorXd& coarse_values)
-{
-  internal::check_dimension("the number of fine eigenvalues", fine_values.size(), C.cols());
-  internal::check_dimension("the number of coarse eigenvalues", coarse_values.size(), C.rows());
-  const double norm = C.norm();
-  if(!(norm > 0 && std::isfinite(norm)))
-    throw std::invalid_argument(
-        "functional map: C is zero or not finite, its commutativity is undefined, check P.");
-  return (C * fine_values.asDiagonal() - coarse_values.asDiagonal() * C).norm() / norm;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE double laplacian_commutativity_norm(const Eigen::MatrixXd& C,
+                                                                  const Eigen::VectorXd& fine_values,
+                                                                  const Eigen::VectorXd& coarse_values);
 
 /*!
 returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et al. 2020, **not
@@ -117,10 +89,7 @@ squared**. Frobenius norm; no unit.
 With more rows (coarse modes) than columns a fine eigenvector may also land on coarse modes beyond the number
 of columns without counting as lost.
 */
-inline double orthonormality_norm(const Eigen::MatrixXd& C)
-{
-  return (C.transpose() * C - Eigen::MatrixXd::Identity(C.cols(), C.cols())).norm();
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_norm(const Eigen::MatrixXd& C);
 
 /*!
 returns an estimate of \f$ \|C\|_L \f$ at unit area for the best that linear elements on `N` vertices can do
@@ -144,15 +113,7 @@ on purpose can fall below, and so does a sphere. A subdivided icosphere of 642 v
 @param K number of modes, at least 1
 @param N number of coarse vertices, at least 1
 */
-inline double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N)
-{
-  const double k = static_cast<double>(K), n = static_cast<double>(N);
-  const double wave = 4 * CGAL_PI, h2 = 2 / (std::sqrt(3.) * n);
-  const double first = std::abs(1 - 2 * theta) / 16 * wave * wave * h2 * k * k / std::sqrt(5.);
-  const double second = std::abs(1. / 576 - (theta - theta * theta) / 64) * wave * wave * wave * h2 * h2 * k *
-                        k * k / std::sqrt(7.);
-  return std::hypot(first, second);
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N);
 
 /*!
 returns an estimate of \f$ \|C\|_D \f$ for the best that linear elements on `N` vertices can do when the
@@ -166,11 +127,7 @@ surfaces what is left is small (0.13 for a subdivided icosphere, 642 vertices ou
 
 Parameters as for `commutativity_floor()`.
 */
-inline double orthonormality_floor(double theta, Eigen::Index K, Eigen::Index N)
-{
-  const double k = static_cast<double>(K);
-  return CGAL_PI / 3 * theta * k * std::sqrt(k) / static_cast<double>(N);
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::Index K, Eigen::Index N);
 
 /*!
 returns the metric \f$ E = \sum_w \| (\widetilde B P Z)_w - (\widetilde L P F)_w \|^2 / \widetilde M_w \f$ of
@@ -189,18 +146,10 @@ lumped one, so that \f$ \widetilde B \ge (1 - 3\theta/4) \widetilde M \f$ and
 @param F signals, fine x K, one per column
 @param Z \f$ B^{-1} L F \f$, fine x K
 */
-inline double restriction_energy(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& F,
-                                 const Eigen::Ref<const Eigen::MatrixXd>& Z)
-{
-  internal::check_dimension("the number of rows of P", P.rows(), coarse.L.rows());
-  internal::check_dimension("the number of rows of F", F.rows(), P.cols());
-  internal::check_dimension("the number of rows of Z", Z.rows(), P.cols());
-  internal::check_dimension("the number of columns of Z", Z.cols(), F.cols());
-  const Eigen::MatrixXd PF = P * F, PZ = P * Z;
-  const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
-  return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& coarse,
+                                                        const Eigen::SparseMatrix<double>& P,
+                                                        const Eigen::Ref<const Eigen::MatrixXd>& F,
+                                                        const Eigen::Ref<const Eigen::MatrixXd>& Z);
 
 /// relative errors \f$ |\widetilde\lambda_k - \lambda_k| / \lambda_k \f$ of a range of eigenvalues.
 struct Eigenvalue_errors
@@ -214,21 +163,10 @@ struct Eigenvalue_errors
 returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse` against `fine`,
 as far as both have them and the fine eigenvalue is not among the `zeros` first.
 */
-inline Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& coarse,
-                                           Eigen::Index first, Eigen::Index last, Eigen::Index zeros)
-{
-  first = (std::max)(first, zeros);
-  last = (std::min)({last, fine.size(), coarse.size()});
-  Eigenvalue_errors errors;
-  if(first >= last)
-    return errors;
-  errors.modes = last - first;
-  const Eigen::ArrayXd relative =
-      (coarse.segment(first, errors.modes).array() / fine.segment(first, errors.modes).array() - 1).abs();
-  errors.mean = relative.mean();
-  errors.max = relative.maxCoeff();
-  return errors;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,
+                                                                  const Eigen::VectorXd& coarse,
+                                                                  Eigen::Index first, Eigen::Index last,
+                                                                  Eigen::Index zeros);
 
 /*!
 How well a coarse mesh and a restriction keep the first `K` eigenpairs of a fine mesh, see
@@ -278,35 +216,6 @@ struct Spectral_evaluation
   double area_ratio = 0;  ///< coarse over fine
 };
 
-namespace internal {
-
-inline std::string theta_name(double theta)
-{
-  for(const Mass mass : {Mass::lumped, Mass::averaged})
-    if(theta == mass_blend(mass))
-      return mass_name(mass);
-  return "theta = " + std::to_string(theta);
-}
-
-inline void check_pairs(const char* which, const Laplace_operator& op, const Eigenpairs& pairs,
-                        Eigen::Index wanted)
-{
-  const std::string who = std::string("spectral evaluation: the ") + which;
-  if(pairs.vectors.rows() != op.B.rows() || pairs.vectors.cols() != pairs.values.size() ||
-     op.mass.size() != op.B.rows())
-    throw std::invalid_argument(who + " eigenvectors are " + std::to_string(pairs.vectors.rows()) + " x " +
-                                std::to_string(pairs.vectors.cols()) + " for " + std::to_string(op.B.rows()) +
-                                " vertices and " + std::to_string(pairs.values.size()) +
-                                " eigenvalues, pass the operator and the eigenpairs of one mesh.");
-  if(pairs.size() < wanted)
-    throw std::invalid_argument(who + " mesh has " + std::to_string(pairs.size()) +
-                                " eigenpairs, compute at least " + std::to_string(wanted) + " of them.");
-  if(!(op.mass.sum() > 0))
-    throw std::invalid_argument(who + " mesh has no area, check its masses.");
-}
-
-} // namespace internal
-
 /*!
 judges a simplification: compares the first `K` eigenpairs of the fine mesh, restricted by `P`, with those of
 the coarse mesh.
@@ -326,56 +235,9 @@ simplifier that made its own `P` is also judged with `closest_point_interpolatio
 
 Throws `std::invalid_argument` if there are fewer pairs or if sizes do not match.
 */
-inline Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
-                                             const Laplace_operator& coarse, const Eigenpairs& coarse_pairs,
-                                             const Eigen::SparseMatrix<double>& P, Eigen::Index K)
-{
-  if(K < 1)
-    throw std::invalid_argument("spectral evaluation: K is " + std::to_string(K) +
-                                ", judge at least one mode.");
-  const Eigen::Index N = coarse.B.rows(), judged = (std::min)(K, N);
-  internal::check_pairs("fine", fine, fine_pairs, judged);
-  internal::check_pairs("coarse", coarse, coarse_pairs, judged);
-
-  Spectral_evaluation e;
-  e.requested_modes = K;
-  e.judged_modes = judged;
-  e.extended_modes = (std::min)(judged + (judged + 9) / 10, coarse_pairs.size());
-  e.fine_theta = fine.theta;
-  e.theta = coarse.theta;
-  e.mass = internal::theta_name(e.theta);
-  if(e.theta != e.fine_theta)
-    e.mass += " (fine mesh: " + internal::theta_name(e.fine_theta) + ")";
-
-  e.fine_area = fine.mass.sum();
-  e.coarse_area = coarse.mass.sum();
-  e.area_ratio = e.coarse_area / e.fine_area;
-  e.fine_values = e.fine_area * fine_pairs.values;
-  e.coarse_values = e.coarse_area * coarse_pairs.values;
-  e.fine_zeros = (std::min)(number_of_zero_eigenvalues(fine), fine_pairs.size());
-  e.coarse_zeros = (std::min)(number_of_zero_eigenvalues(coarse), coarse_pairs.size());
-
-  const Eigen::MatrixXd C_extended = functional_map(coarse_pairs.vectors.leftCols(e.extended_modes), coarse.B,
-                                                    P, fine_pairs.vectors.leftCols(judged));
-  const Eigen::MatrixXd C = C_extended.topRows(judged);
-  e.norm_L_input_scale =
-      laplacian_commutativity_norm(C, fine_pairs.values.head(judged), coarse_pairs.values.head(judged));
-  e.norm_L_common_scale = e.fine_area * e.norm_L_input_scale;
-  e.norm_D_input_scale = orthonormality_norm(C);
-  e.C = unit_area_functional_map(C, e.fine_area, e.coarse_area);
-  e.norm_L = laplacian_commutativity_norm(e.C, e.fine_values.head(judged), e.coarse_values.head(judged));
-  e.norm_D = orthonormality_norm(e.C);
-  e.norm_D_extended = orthonormality_norm(unit_area_functional_map(C_extended, e.fine_area, e.coarse_area));
-  e.floor_norm_L = commutativity_floor(e.theta, judged, N);
-  e.floor_norm_D = orthonormality_floor(e.theta, judged, N);
-
-  e.errors = eigenvalue_errors(e.fine_values, e.coarse_values, 0, judged, e.fine_zeros);
-  e.errors_low = eigenvalue_errors(e.fine_values, e.coarse_values, 1, judged / 5, e.fine_zeros);
-  e.errors_beyond =
-      eigenvalue_errors(e.fine_values, e.coarse_values, judged, judged + judged / 2, e.fine_zeros);
-  e.errors_input_scale = eigenvalue_errors(fine_pairs.values, coarse_pairs.values, 0, judged, e.fine_zeros);
-  return e;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation
+evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
+                  const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K);
 
 /*!
 carries functions from the coarse mesh back to the fine one through the spectrum,
@@ -393,23 +255,18 @@ scale would multiply it by \f$ \widetilde A / A \f$.
 @param g one function per column, coarse x any
 @return fine x any
 */
-inline Eigen::MatrixXd prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
-                                                const Laplace_operator& coarse,
-                                                const Eigenpairs& coarse_pairs, const Eigen::MatrixXd& C,
-                                                const Eigen::MatrixXd& g)
-{
-  internal::check_pairs("fine", fine, fine_pairs, C.cols());
-  internal::check_pairs("coarse", coarse, coarse_pairs, C.rows());
-  internal::check_dimension("the number of rows of g", g.rows(), coarse.B.rows());
-  const Eigen::MatrixXd weighted = coarse.B * g;
-  const Eigen::MatrixXd coefficients = coarse_pairs.vectors.leftCols(C.rows()).transpose() * weighted;
-  const double scale = std::sqrt(fine.mass.sum() / coarse.mass.sum());
-  return scale * (fine_pairs.vectors.leftCols(C.cols()) * (C.transpose() * coefficients));
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                         const Laplace_operator& coarse, const Eigenpairs& coarse_pairs,
+                         const Eigen::MatrixXd& C, const Eigen::MatrixXd& g);
 
 /// @}
 
 } // namespace Spectral_geometry
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/functional_map_impl.h>
+#endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_H

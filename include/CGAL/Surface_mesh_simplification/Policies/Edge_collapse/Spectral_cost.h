@@ -23,8 +23,8 @@ namespace Surface_mesh_simplification {
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
  *
  * What CGAL's queue holds, and hands to a stop predicate, may be of before some collapses nearby: an edge that cost much more
- * than the collapses of late is evaluated again when its turn comes, and not before. A predicate that needs the error
- * itself asks the policies, as `Spectral_error_stop_predicate` does.
+ * than the collapses of late is evaluated again when its turn comes, and not before, unless `Spectral_options::exact_costs` asks for
+ * it. A predicate that needs the error itself asks the policies, as `Spectral_error_stop_predicate` does.
  *
  * \cgalModels{GetCost}
  *

@@ -118,6 +118,12 @@ struct Spectral_options
   /// looked at by `Spectral_filter` alone. The quadrics of `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
   bool keep_free_of_self_intersections = true;
 
+  /// Whether every cost that CGAL asks for is evaluated at once. Otherwise an edge that costs much more than the collapses of late keeps the
+  /// cost of before until its turn comes, or gets one of fewer samples: the order hardly changes and half of the time is saved.
+  /// A stop predicate, filter or visitor that reads costs may want them exact; those of edges that CGAL's loop does not ask for
+  /// again, two rings away from a collapse, are of before with any cost.
+  bool exact_costs = false;
+
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
   /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;

@@ -120,6 +120,7 @@ public:
     parameters.shape = m_options.shape;
     parameters.largest_loss = m_options.largest_loss;
     parameters.keep_free_of_self_intersections = m_options.keep_free_of_self_intersections;
+    parameters.exact_costs = m_options.exact_costs;
     parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
     m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,

@@ -13,16 +13,8 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
 #include <Eigen/Core>
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <memory>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
@@ -42,117 +34,22 @@ struct Spectral_basis
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< all of them, at the input's scale
 };
 
-inline void check_spectral_options(const Spectral_options& options, const Eigen::Index n)
-{
-  using std::to_string;
-  if(options.threads < 1)
-    throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
-                                ", use a number from 1.");
-  if(!(options.shape >= 0) || !std::isfinite(options.shape))
-    throw std::invalid_argument("Spectral_options: shape is " + to_string(options.shape) +
-                                ", use a number from 0.");
-  if(!(options.largest_loss > 0))
-    throw std::invalid_argument("Spectral_options: largest_loss is " + to_string(options.largest_loss) +
-                                ", use a number above 0.");
-  if(options.signals.size() != 0 && options.eigenpairs)
-    throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
-  if(options.signals.size() != 0 && options.metric_eigenvectors != 0)
-    throw std::invalid_argument("Spectral_options: metric_eigenvectors chooses among eigenvectors, but "
-                                "signals are given; pass the signals "
-                                "that the metric is to see.");
-  if(options.signals.size() != 0 && options.signals.rows() != n)
-    throw std::invalid_argument("Spectral_options: signals has " + to_string(options.signals.rows()) +
-                                " rows, but the mesh has " + to_string(n) +
-                                " vertices; give one row for each.");
-  if(options.signals.size() != 0 && !options.signals.allFinite())
-    throw std::invalid_argument("Spectral_options: signals has an entry that is not finite; correct it.");
-  if(options.eigenpairs && options.eigenpairs->vectors.rows() != n)
-    throw std::invalid_argument("Spectral_options: the eigenvectors have " +
-                                to_string(options.eigenpairs->vectors.rows()) + " rows, but the mesh has " +
-                                to_string(n) + " vertices; give the eigenpairs of this mesh.");
-  if(options.eigenpairs && options.eigenpairs->values.size() != options.eigenpairs->vectors.cols())
-    throw std::invalid_argument(
-        "Spectral_options: there are " + to_string(options.eigenpairs->values.size()) + " eigenvalues for " +
-        to_string(options.eigenpairs->vectors.cols()) + " eigenvectors; give one for each.");
-  if(options.eigenpairs && options.eigenpairs->values.size() == 0)
-    throw std::invalid_argument(
-        "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
-  if(options.metric_eigenvectors < 0)
-    throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
-                                to_string(options.metric_eigenvectors) + ", use a number from 0.");
-  const bool given = options.signals.size() != 0 || options.eigenpairs;
-  if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
-    throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
-                                to_string(options.number_of_eigenvectors) + ", but the mesh has " +
-                                to_string(n) + " vertices; use a number from 1 to " + to_string(n - 1) + ".");
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
+                                                          const Eigen::Index n);
 
-inline void check_extent(const Eigen::MatrixXd& V)
-{
-  if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
-    throw std::invalid_argument(
-        "Spectral_policies: the coordinates of the mesh are not between 1e-50 and 1e50 in "
-        "magnitude; rescale the mesh.");
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V);
 
-inline Eigen::VectorXd spectral_weights(const Spectral_options& options, const Eigen::Index K)
-{
-  if(options.weights.size() == 0)
-    return Eigen::VectorXd::Ones(K);
-  if(options.weights.size() != K)
-    throw std::invalid_argument("Spectral_options: there are " + std::to_string(options.weights.size()) +
-                                " weights for " + std::to_string(K) + " signals; give one for each.");
-  for(Eigen::Index k = 0; k < K; ++k)
-    if(!(options.weights[k] >= 0) || !std::isfinite(options.weights[k]))
-      throw std::invalid_argument("Spectral_options: weight " + std::to_string(k) +
-                                  " is negative or not finite; use numbers from 0.");
-  return options.weights;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,
+                                                               const Eigen::Index K);
 
 /// Z = B^-1 L F. The consistent mass scaled by its diagonal has eigenvalues in [1/2, 2], so conjugate
 /// gradients converge in a number of steps that does not depend on the mesh.
-inline Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
-{
-  Eigen::MatrixXd Z = op.L * F;
-  if(op.theta == 0) {
-    Z = op.mass.cwiseInverse().asDiagonal() * Z;
-    return Z;
-  }
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(op.B);
-  solver.setTolerance(1e-13);
-  for(Eigen::Index k = 0; k < Z.cols(); ++k) {
-    const Eigen::VectorXd column = solver.solve(Z.col(k));
-    if(solver.info() != Eigen::Success)
-      throw std::runtime_error("Spectral_policies: B z = L f did not converge for signal " +
-                               std::to_string(k) + "; check the mesh for needle-shaped faces.");
-    Z.col(k) = column;
-  }
-  return Z;
-}
-
-/// What rounding leaves of || B^-1 L F ||_B for constant signals, || |L| |F| ||_{M^-1} times a few units in the last place:
-/// needles, with their large cotangents, leave most.
-inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
-{
-  const Eigen::SparseMatrix<double> size_of_L = op.L.cwiseAbs();
-  double sum = 0;
-  for(Eigen::Index k = 0; k < F.cols(); ++k)
-    sum += (size_of_L * F.col(k).cwiseAbs()).cwiseAbs2().cwiseQuotient(op.mass).sum();
-  return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op,
+                                                         const Eigen::MatrixXd& F);
 
 /// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area, for each pair.
-inline Eigen::VectorXd spectral_residuals(const Spectral_geometry::Laplace_operator& op,
-                                          const Spectral_geometry::Eigenpairs& pairs)
-{
-  Eigen::VectorXd result(pairs.size());
-  const double shift = 4 * std::acos(-1.) / op.mass.sum();
-  for(Eigen::Index k = 0; k < pairs.size(); ++k) {
-    const Eigen::VectorXd r = op.L * pairs.vectors.col(k) - pairs.values[k] * (op.B * pairs.vectors.col(k));
-    result[k] = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values[k] + shift);
-  }
-  return result;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd
+spectral_residuals(const Spectral_geometry::Laplace_operator& op, const Spectral_geometry::Eigenpairs& pairs);
 
 /// Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add. Here it is at most 1e-10 of
 /// sum lambda_k^2, a millionth of what a thousand collapses cost. Rougher pairs get a Z = B^-1 L F of its own.
@@ -161,122 +58,17 @@ inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
   return residuals.size() != 0 && residuals.maxCoeff() > 1e-5;
 }
 
-/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K = 1 on a mesh with
-/// needles, where the solver may leave a lambda of 1e-5 for 0.
-inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
-                                     const Spectral_geometry::Eigenpairs& pairs,
-                                     const Eigen::VectorXd& residuals)
-{
-  const double shift = 4 * std::acos(-1.) / op.mass.sum();
-  for(Eigen::Index k = 0; k < pairs.size(); ++k)
-    if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
-      return false;
-  return true;
-}
-
-/// Refuses ready pairs that are not those of this mesh: their residuals must be small, or the very ones that they came
-/// with, as those of rough pairs are.
-inline void check_eigenpairs(const Spectral_geometry::Eigenpairs& pairs, const Eigen::VectorXd& residuals,
-                             const Spectral_geometry::Mass mass)
-{
-  const bool recorded = pairs.residuals.size() == residuals.size();
-  for(Eigen::Index k = 0; k < residuals.size(); ++k) {
-    const double r = residuals[k];
-    if(!(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - r) < 1e-3 * r)))
-      throw std::invalid_argument("Spectral_options: eigenpair " + std::to_string(k) +
-                                  " is not one of this mesh in the " + Spectral_geometry::mass_name(mass) +
-                                  " mass (relative residual " + std::to_string(r) +
-                                  "); compute it with eigenpairs(), or pass the vectors as signals.");
-  }
-}
-
-inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
-                                       const Spectral_options& options, const double area)
-{
-  Spectral_basis basis;
-  const Eigen::VectorXd weights = spectral_weights(options, options.signals.cols());
-  basis.F = options.signals * weights.cwiseSqrt().asDiagonal();
-  basis.Z = area * spectral_z(op, basis.F);
-  basis.sum_of_squares = basis.Z.cwiseProduct(op.B * basis.Z).sum() / area;
-  const double rounding = rounding_of_spectral_z(op, basis.F);
-  if(!(basis.sum_of_squares > area * rounding * rounding))
-    basis.sum_of_squares = 0;
-  return basis;
-}
-
-/// The pairs that the metric sees, from the first.
-inline Eigen::Index number_in_metric(const Spectral_options& options,
-                                     const Spectral_geometry::Laplace_operator& op,
-                                     const Spectral_geometry::Eigenpairs& pairs)
-{
-  if(options.metric_eigenvectors == 0)
-    return pairs.size();
-  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
-  return (std::min)(zeros + options.metric_eigenvectors, pairs.size());
-}
-
-inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
-                                          const Spectral_options& options,
-                                          std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
-                                          const double area)
-{
-  Spectral_basis basis;
-  const Eigen::VectorXd weights = spectral_weights(options, pairs->size());
-  const Eigen::VectorXd residuals = spectral_residuals(op, *pairs);
-  if(options.eigenpairs)
-    check_eigenpairs(*pairs, residuals, options.mass);
-  const Eigen::Index seen = number_in_metric(options, op, *pairs);
-  basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
-  basis.lambda = area * pairs->values.head(seen);
-  basis.sum_of_squares = weights.head(seen).dot(basis.lambda.cwiseAbs2());
-  if(eigenvalues_are_rounding(op, *pairs, residuals))
-    basis.sum_of_squares = 0;
-  if(pairs_are_rough(residuals))
-    basis.Z = area * spectral_z(op, basis.F);
-  basis.eigenpairs = std::move(pairs);
-  return basis;
-}
-
 /// mesh -> Laplacian -> eigenpairs -> F and Z.
-inline Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                     const Spectral_options& options)
-{
-  check_spectral_options(options, V.rows());
-  check_extent(V);
-  const double theta = Spectral_geometry::mass_blend(options.mass);
-  const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, theta);
-  const double area = op.mass.sum();
-  Spectral_basis basis;
-  if(options.signals.size() != 0)
-    basis = basis_of_signals(op, options, area);
-  else {
-    std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
-    if(!pairs) {
-      Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
-      solver.threads = (std::max)(solver.threads, options.threads); // the result does not depend on it
-      // A callback of the solver's own is asked as well.
-      solver.progress = [&options, &V](const double fraction) {
-        const auto& own = options.eigenpairs_options.progress;
-        return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(V.rows())) &&
-               (!own || own(fraction));
-      };
-      pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
-          Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
-    }
-    basis = basis_of_eigenpairs(op, options, pairs, area);
-  }
-  // L f of a constant f is a rounding of 0 beside its diagonal times f, and Z is that over a mass of about 1 / n.
-  const double norm_of_F = basis.F.cwiseProduct(op.B * basis.F).sum() / area;
-  const double rounding = 1e-14 * double(V.rows());
-  if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
-    basis.sum_of_squares = 0;
-  basis.theta = theta;
-  basis.area = area;
-  return basis;
-}
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,
+                                                            const Eigen::MatrixXi& T,
+                                                            const Spectral_options& options);
 
 } // namespace internal
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
+#endif
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H

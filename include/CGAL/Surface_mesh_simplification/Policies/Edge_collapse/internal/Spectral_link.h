@@ -23,6 +23,18 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
+// An edge (u,v) with its two rings, as this file, Spectral_merged_row.h and Spectral_ring_products.h number them. The rings run
+// counterclockwise; s and t see both ends, the a_i see u alone, the b_i see v alone.
+//
+//        a0 ---- s ---- b2         link, in the order of its numbers:  a0 a1 t s  b1 b2   (the ring of u without v, from wherever
+//       / \    / \    / \                                             it starts, then those of v alone)
+//     a1 --- u --- v --- b1        goes:      (u v s) and (v u t), the triangles of the edge
+//       \ /    \ /    \ /          survives:  (u; a0 a1), (v; b1 b2), ... as (x; ., .), the outer triangles
+//        .  --- t ---- .           H = {x} + link, whose E_w a collapse changes
+//
+// in_u, in_v: place in the ring of u, of v.  u_in, v_in: place of u, v in one's own ring.  near: the end that one sees, u if both;
+// far: the other end.  neighbor[0], neighbor[1]: before and after one along the link.
+
 /// Which ends of an edge a vertex of its link is next to.
 enum Spectral_link_ends { next_to_u_and_v, next_to_u, next_to_v, number_of_link_ends };
 

@@ -7,9 +7,9 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_cost_parameters.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_quadric.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_shape_term.h>
@@ -24,21 +24,6 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
-
-/// The part of `Spectral_options` that the cost of a candidate depends on.
-struct Spectral_cost_parameters
-{
-  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
-  bool binary = false;
-  bool preserve_border = false;
-  bool single_precision_points = false; ///< the mesh stores its points as float
-  bool keep_free_of_self_intersections = false;
-  double shape = 0;          ///< see `Spectral_options::shape`
-  double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
-  double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
-  int threads = 1;
-  std::size_t largest_degree_with_products = Spectral_fields().largest_degree_with_products;
-};
 
 /// The shape term and what it weighs beside E; `term` is null where there is none.
 struct Spectral_weighted_shape

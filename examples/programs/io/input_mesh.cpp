@@ -7,6 +7,8 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
 #include <boost/functional/hash.hpp>
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -31,16 +33,19 @@ struct Mended
 // Merges the ends of edges without length; what is no polygon then goes.
 void close_edges(const Polygon_soup& soup, Mended& mended)
 {
-  CGAL::Spectral_geometry::internal::Disjoint_sets sets(soup.points.size());
+  boost::disjoint_sets_with_storage<> sets(soup.points.size());
   for(const auto& p : mended.polygons)
     for(std::size_t i = 0; i < p.size(); ++i) {
       const std::size_t v = p[i], w = p[(i + 1) % p.size()];
       if(soup.points[v] == soup.points[w])
-        sets.unite(v, w);
+        sets.union_set(v, w);
     }
+  sets.normalize_sets(
+      boost::counting_iterator<std::size_t>(0),
+      boost::counting_iterator<std::size_t>(soup.points.size())); // the first stands for the others
   std::size_t merged = 0;
   for(std::size_t v = 0; v < mended.vertex.size(); ++v) {
-    mended.vertex[v] = sets.find(v);
+    mended.vertex[v] = sets.find_set(v);
     merged += mended.vertex[v] != v;
   }
   for(auto& p : mended.polygons) {

@@ -1,0 +1,24 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+/*!
+\file
+\brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of all others.
+
+Without that macro the package is header-only and nobody needs this file. With it defined in every source file of a program,
+all that depends on no mesh type (operators, eigensolvers, the collapse loop's evaluation of costs, relocation, flips, maps) is
+only declared, and exactly one source file includes this header, which defines it. The CMake target
+`Spectral_mesh_simplification::compiled` is that, ready made.
+*/
+
+#include <CGAL/Spectral_geometry/compile.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core_impl.h>
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H
