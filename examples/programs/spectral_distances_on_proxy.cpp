@@ -6,6 +6,7 @@
 // those of the input (section 5.1 of Lescoat et al. 2020); --help shows the options.
 
 #include "compare/heaviest_vertices.h"
+#include "io/command_line.h"
 #include "io/input_mesh.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
@@ -314,9 +315,7 @@ Distance_arguments parse(int argc, char* argv[])
 {
   namespace po = boost::program_options;
   Distance_arguments a;
-  a.command = "spectral_distances_on_proxy";
-  for(int k = 1; k < argc; ++k)
-    a.command += std::string(" ") + argv[k];
+  a.command = command_line("spectral_distances_on_proxy", argc, argv);
   po::options_description options("spectral_distances_on_proxy MESH --vertices N [options]\n\nComputes "
                                   "spectral distances on a simplified mesh and "
                                   "says how far they are from those of MESH.\n\nOptions",
@@ -332,21 +331,10 @@ Distance_arguments parse(int argc, char* argv[])
       "repair", po::bool_switch(&a.repair), "change a mesh that cannot be used, as spectral_simplify does")(
       "strict", po::bool_switch(&a.strict),
       "change nothing of it, not even what leaves the surface as it is");
-  po::positional_options_description positions;
-  positions.add("mesh", 1);
   po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(), values);
-    po::notify(values);
-  } catch(const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; --help shows the options.");
-  }
-  if(values.count("help")) {
-    std::ostringstream text;
-    text << options;
-    a.help = text.str();
+  a.help = read_command_line(argc, argv, options, {{"mesh", nullptr}}, "one MESH", values);
+  if(!a.help.empty())
     return a;
-  }
   if(a.mesh.empty())
     throw std::runtime_error("a mesh is needed: spectral_distances_on_proxy MESH --vertices N.");
   if(a.eigenvectors < 3)
@@ -358,8 +346,7 @@ Distance_arguments parse(int argc, char* argv[])
                              std::to_string(a.eigenvectors) + ".");
   if(a.sources < 1)
     throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
-  if(a.mass != "lumped" && a.mass != "averaged")
-    throw std::runtime_error("--mass is '" + a.mass + "', it must be lumped or averaged.");
+  check_choice("--mass", a.mass, {"lumped", "averaged"});
   return a;
 }
 

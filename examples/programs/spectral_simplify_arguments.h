@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 
+#include "io/command_line.h"
 #include "io/mesh_io.h"
 
 #include <boost/program_options.hpp>
@@ -205,15 +206,6 @@ inline void check(const Arguments& a)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
   if(a.pre_simplify < 0)
     refuse("--pre-simplify is " + std::to_string(a.pre_simplify) + ", it must not be negative.");
-  const auto check_choice = [&](const char* option, const std::string& value,
-                                const std::vector<std::string>& choices) {
-    if(value.empty() || std::find(choices.begin(), choices.end(), value) != choices.end())
-      return;
-    std::string list = choices.front();
-    for(std::size_t i = 1; i < choices.size(); ++i)
-      list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
-    refuse(std::string(option) + " is '" + value + "', it must be " + list + ".");
-  };
   check_choice("--preset", a.preset, {"best", "paper"});
   check_choice("--placement", a.placement, {"on_edge", "midpoint", "free"});
   check_choice("--mass", a.mass, {"lumped", "averaged"});
@@ -251,33 +243,12 @@ inline Arguments parse_arguments(int argc, char* argv[])
 {
   namespace po = boost::program_options;
   Arguments a;
-  a.command = "spectral_simplify";
-  for(int k = 1; k < argc; ++k)
-    a.command += std::string(" ") + argv[k];
-  const po::options_description visible = arguments_internal::described(a);
-  po::options_description all;
-  all.add(visible).add_options()("input", po::value(&a.input))("output", po::value(&a.output));
-  po::positional_options_description positions;
-  positions.add("input", 1).add("output", 1);
-
-  // Without short options a negative number is a value.
-  const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short;
+  a.command = command_line("spectral_simplify", argc, argv);
   po::variables_map values;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positions).style(style).run(),
-              values);
-    po::notify(values);
-  } catch(const po::too_many_positional_options_error&) {
-    throw std::runtime_error("there are more arguments than INPUT and OUTPUT; --help shows everything.");
-  } catch(const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; --help shows everything.");
-  }
-  if(values.count("help")) {
-    std::ostringstream text;
-    text << visible;
-    a.help = text.str();
+  a.help = read_command_line(argc, argv, arguments_internal::described(a),
+                             {{"input", &a.input}, {"output", &a.output}}, "INPUT and OUTPUT", values);
+  if(!a.help.empty())
     return a;
-  }
   a.vertices = arguments_internal::optional_value<long>(values, "vertices");
   a.ratio = arguments_internal::optional_value<double>(values, "ratio");
   a.shape = arguments_internal::optional_value<double>(values, "shape");

@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H
 #define SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H
 
+#include "../io/command_line.h"
+
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -50,7 +52,7 @@ inline boost::program_options::options_description described(Compare_arguments& 
   add("help", "show this text");
   add("vertices", text(a.vertices, "N,..."),
       "sizes of the simplified meshes; 3% is a part of MESH's vertices");
-  add("eigenvectors,k", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
+  add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep and to judge by, the constant one included");
   add("judge", text(a.masses, "MASS,...")->default_value(a.masses),
       "the masses to judge in: lumped, averaged or both; also those of the spectral metric");
@@ -98,9 +100,7 @@ inline void check(const Compare_arguments& a)
     refuse("--restriction belongs to --coarse or --operator.");
   if(!a.operator_file.empty() && !a.coloured.empty())
     refuse("--coloured needs a coarse mesh, an operator has none.");
-  if(a.masses != "lumped" && a.masses != "averaged" && a.masses != "lumped,averaged" &&
-     a.masses != "averaged,lumped")
-    refuse("--judge is '" + a.masses + "', it must be lumped, averaged or lumped,averaged.");
+  check_choice("--judge", a.masses, {"lumped", "averaged", "lumped,averaged", "averaged,lumped"});
   if(a.eigenvectors < 2)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be at least 2.");
   if(a.sources < 1)
@@ -116,27 +116,11 @@ inline Compare_arguments parse_compare_arguments(int argc, const char* const* ar
 {
   namespace po = boost::program_options;
   Compare_arguments a;
-  const po::options_description visible = compare_arguments_internal::described(a);
-  po::positional_options_description positional;
-  positional.add("fine", 1);
   po::variables_map values;
-  try {
-    // No abbreviations: what --mass means must not depend on what else there is.
-    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-    po::store(po::command_line_parser(argc, argv).options(visible).positional(positional).style(style).run(),
-              values);
-    po::notify(values);
-  } catch(const po::too_many_positional_options_error&) {
-    throw std::runtime_error("there are more arguments than one MESH; --help shows everything.");
-  } catch(const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; --help shows everything.");
-  }
-  if(values.count("help")) {
-    std::ostringstream text;
-    text << visible;
-    a.help = text.str();
+  a.help = read_command_line(argc, argv, compare_arguments_internal::described(a), {{"fine", nullptr}},
+                             "one MESH", values);
+  if(!a.help.empty())
     return a;
-  }
   compare_arguments_internal::check(a);
   return a;
 }

@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H
 #define SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H
 
+#include "../io/command_line.h"
 #include "../io/text_lines.h"
 #include "matcher.h"
 
@@ -128,8 +129,7 @@ inline void check(const Matching_arguments& a)
   if(a.eigenvectors > a.vertices)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be at most --vertices, which is " + std::to_string(a.vertices) + ".");
-  if(a.mass != "lumped" && a.mass != "averaged")
-    throw std::runtime_error("--mass is '" + a.mass + "', it must be lumped or averaged.");
+  check_choice("--mass", a.mass, {"lumped", "averaged"});
   a.kinds();
 }
 
@@ -140,31 +140,12 @@ inline Matching_arguments parse_matching_arguments(int argc, const char* const* 
 {
   namespace po = boost::program_options;
   Matching_arguments a;
-  a.command = "shape_matching";
-  for(int k = 1; k < argc; ++k)
-    a.command += std::string(" ") + argv[k];
-  const po::options_description visible = matching_arguments_internal::described(a);
-  po::options_description all;
-  all.add(visible).add_options()("X", po::value(&a.X))("Y", po::value(&a.Y));
-  po::positional_options_description positions;
-  positions.add("X", 1).add("Y", 1);
+  a.command = command_line("shape_matching", argc, argv);
   po::variables_map values;
-  try {
-    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short;
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positions).style(style).run(),
-              values);
-    po::notify(values);
-  } catch(const po::too_many_positional_options_error&) {
-    throw std::runtime_error("there are more arguments than two meshes; --help shows everything.");
-  } catch(const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; --help shows everything.");
-  }
-  if(values.count("help")) {
-    std::ostringstream text;
-    text << visible;
-    a.help = text.str();
+  a.help = read_command_line(argc, argv, matching_arguments_internal::described(a),
+                             {{"X", &a.X}, {"Y", &a.Y}}, "two meshes", values);
+  if(!a.help.empty())
     return a;
-  }
   matching_arguments_internal::check(a);
   return a;
 }

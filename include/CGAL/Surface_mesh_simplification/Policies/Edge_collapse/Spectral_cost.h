@@ -19,7 +19,7 @@ namespace Surface_mesh_simplification {
 /// @{
 
 /*!
- * A handle on a `Spectral_state`: the change of E (Eq. 2 of the paper), with what `Spectral_options::shape` adds, that the collapse
+ * A handle on the state of `Spectral_policies`: the change of E (Eq. 2 of the paper), with what `Spectral_options::shape` adds, that the collapse
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
  *
  * What CGAL's queue holds, and hands to a stop predicate, may be of before some collapses nearby: an edge that cost much more

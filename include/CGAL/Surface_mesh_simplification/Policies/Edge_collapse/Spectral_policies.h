@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_filter.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_placement.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_state.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_state.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
@@ -83,7 +83,7 @@ public:
   using Triangle_mesh = TriangleMesh;
   using Geom_traits = GeomTraits;
   using Vertex_point_map = VertexPointMap;
-  using State = Spectral_state<Triangle_mesh, Geom_traits, Vertex_point_map>;
+  using State = internal::Spectral_state<Triangle_mesh, Geom_traits, Vertex_point_map>;
   using Get_cost = Spectral_cost<State>;
   using Get_placement = Spectral_placement<State>;
 
@@ -172,17 +172,17 @@ public:
   /// the signals are constant (K = 1 for instance): P carries constants over exactly.
   double relative_error() const { return state().relative_error(); }
 
-  /// The same, shared.
+  /// \cond SKIP_IN_MANUAL
+  // What the handles share: for the other headers of this package, and its tests.
   std::shared_ptr<State> shared_state() const
   {
     internal::state_of_handle(m_state, "Spectral_policies");
     return m_state;
   }
 
-  /// What the three handles share.
   State& state() { return internal::state_of_handle(m_state, "Spectral_policies"); }
-  /// What the three handles share.
   const State& state() const { return internal::state_of_handle(m_state, "Spectral_policies"); }
+  /// \endcond
 
 private:
   std::shared_ptr<State> m_state;

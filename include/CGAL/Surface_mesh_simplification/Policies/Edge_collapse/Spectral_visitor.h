@@ -63,7 +63,7 @@ Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
 } // namespace internal
 
 /*!
- * A handle on a `Spectral_state` that keeps the state in step with
+ * A handle on the state of `Spectral_policies` that keeps the state in step with
  * the mesh, and hands every call on to a visitor of the user's.
  *
  * \cgalModels{EdgeCollapseSimplificationVisitor}

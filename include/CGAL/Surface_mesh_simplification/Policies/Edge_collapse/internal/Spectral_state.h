@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
@@ -41,16 +41,14 @@
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
-
-/// \addtogroup PkgSpectralMeshSimplificationPolicies
-/// @{
+namespace internal {
 
 /*!
  * What cost, placement and visitor of one `Spectral_policies` share: F and Z, the residual
  * R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
  *
  * It translates between the mesh and slots (the order of `vertices(mesh)` at construction) and leaves
- * the mathematics to `internal::Spectral_collapse_core`. `edge_collapse()` copies the policies several
+ * the mathematics to `Spectral_collapse_core`. `edge_collapse()` copies the policies several
  * times; all copies are handles on one state.
  *
  * Life of a run: on_started() builds everything from the mesh as it is and evaluates every edge;
@@ -74,7 +72,7 @@ public:
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
   using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
-  using Slot = internal::Spectral_slot;
+  using Slot = Spectral_slot;
 
   /// @}
 
@@ -97,7 +95,7 @@ public:
                  const Geom_traits& traits, const NamedParameters& np)
     : m_mesh(&mesh)
     , m_vpm(vpm)
-    , m_has_own_points(!internal::is_given<NamedParameters>(internal_np::vertex_point_t()))
+    , m_has_own_points(!is_given<NamedParameters>(internal_np::vertex_point_t()))
     , m_traits(traits)
     , m_options(options)
     , m_slots(mesh, "Spectral_policies")
@@ -108,11 +106,11 @@ public:
     m_number_of_vertices = std::size_t(m_slots.size());
     m_core.set_kept(kept_vertices(np));
 
-    internal::Spectral_basis basis = internal::spectral_basis(m_fine_points, matrices.T, m_options);
+    Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, m_options);
     m_eigenpairs = basis.eigenpairs;
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
-    internal::Spectral_cost_parameters parameters;
+    Spectral_cost_parameters parameters;
     parameters.placement = m_options.placement;
     parameters.binary = m_options.binary;
     parameters.preserve_border = m_options.preserve_border;
@@ -205,7 +203,7 @@ public:
   void on_collapsed(const vertex_descriptor kept_vertex)
   {
     const Slot kept = slot(kept_vertex);
-    internal::Spectral_ring ring = ring_of(kept_vertex);
+    Spectral_ring ring = ring_of(kept_vertex);
     const bool in_loop = m_pending.open;
     if(in_loop) {
       // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
@@ -234,10 +232,10 @@ public:
   template <class Profile>
   auto placement(const Profile& profile)
   {
-    using Optional_point = internal::Spectral_optional<Point>;
+    using Optional_point = Spectral_optional<Point>;
     check_ready(profile);
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    const internal::Spectral_candidate& c = answer(u, v);
+    const Spectral_candidate& c = answer(u, v);
     m_placement_asked = true;
     m_placement_found = c.collapsible;
     if(!c.collapsible)
@@ -256,7 +254,7 @@ public:
   template <class Profile, class OptionalPoint>
   auto cost(const Profile& profile, const OptionalPoint& placement)
   {
-    using Optional_cost = internal::Spectral_optional<FT>;
+    using Optional_cost = Spectral_optional<FT>;
     check_ready(profile);
     if(!placement)
       return Optional_cost(largest_cost());
@@ -264,7 +262,7 @@ public:
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
-    const internal::Spectral_candidate& c = answer(u, v);
+    const Spectral_candidate& c = answer(u, v);
     const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
     if(!(value < double(std::numeric_limits<float>::max())))
       return Optional_cost(largest_cost());
@@ -303,7 +301,7 @@ public:
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.moves_kept_vertex(u, v, point))
       return false;
-    const internal::Spectral_candidate& own = answer(u, v); // which has been looked at
+    const Spectral_candidate& own = answer(u, v); // which has been looked at
     return (own.collapsible && own.point == point) || !m_core.crosses(u, v, point);
   }
 
@@ -348,7 +346,7 @@ public:
   /// The kernel.
   const Geom_traits& geom_traits() const { return m_traits; }
   /// The mathematics: fields, candidates and merges.
-  const internal::Spectral_collapse_core& core() const { return m_core; }
+  const Spectral_collapse_core& core() const { return m_core; }
   /// n x 3, the positions of the input.
   const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's.
@@ -385,7 +383,7 @@ public:
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_phase phase, const double fraction) const
   {
-    return internal::report_progress(m_options, phase, fraction, m_number_of_vertices);
+    return report_progress(m_options, phase, fraction, m_number_of_vertices);
   }
 
   /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
@@ -397,7 +395,7 @@ private:
   struct Answer
   {
     Slot u = 0, v = 0;
-    const internal::Spectral_candidate* candidate = nullptr;
+    const Spectral_candidate* candidate = nullptr;
   };
 
   struct Pending
@@ -427,7 +425,7 @@ private:
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
 
   // The candidate that CGAL asks about. It asks for the placement and then for the cost of it.
-  const internal::Spectral_candidate& answer(const Slot u, const Slot v)
+  const Spectral_candidate& answer(const Slot u, const Slot v)
   {
     if(m_answer.candidate == nullptr || m_answer.u != u || m_answer.v != v)
       m_answer = {u, v, &m_core.candidate(u, v, m_selecting)};
@@ -437,16 +435,16 @@ private:
   // Of `removed`, where it is merged into `kept` at `point`: the one that was costed with that point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
-    const internal::Spectral_candidate* c = m_core.candidates().find(removed, kept);
+    const Spectral_candidate* c = m_core.candidates().find(removed, kept);
     if(c != nullptr && c->collapsible && c->point == point)
       return c->other == removed ? c->weight : 1 - c->weight;
     return m_core.projected_weight(kept, removed, point);
   }
 
   // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts with.
-  internal::Spectral_ring ring_of(const vertex_descriptor v) const
+  Spectral_ring ring_of(const vertex_descriptor v) const
   {
-    internal::Spectral_ring ring;
+    Spectral_ring ring;
     const halfedge_descriptor h0 = halfedge(v, *m_mesh);
     if(h0 == boost::graph_traits<Triangle_mesh>::null_halfedge())
       return ring;
@@ -465,9 +463,9 @@ private:
   template <class NamedParameters>
   std::vector<char> kept_vertices(const NamedParameters& np) const
   {
-    std::vector<char> flags = internal::kept_vertex_flags(*m_mesh, m_options.kept_vertices, np);
+    std::vector<char> flags = kept_vertex_flags(*m_mesh, m_options.kept_vertices, np);
     if(!flags.empty())
-      internal::check_kept_vertices_apart(
+      check_kept_vertices_apart(
           *m_mesh, [&](const vertex_descriptor v) { return flags[slot(v)] != 0; },
           [&](const vertex_descriptor v) { return slot(v); },
           [&](const vertex_descriptor v, const vertex_descriptor w) {
@@ -482,7 +480,7 @@ private:
     m_vpm = vertex_point_map();
     const std::size_t n = std::size_t(m_fine_points.rows());
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
-    internal::Spectral_rings rings;
+    Spectral_rings rings;
     rings.resize(n);
     m_number_of_vertices = 0;
     for(const vertex_descriptor v : vertices(*m_mesh)) {
@@ -507,18 +505,18 @@ private:
 
   // Edges without length are collapsed before the loop, announced by OnCollapsed alone. The removed vertex
   // is the one neighbour that the kept vertex has lost.
-  void capture_zero_length_merge(const Slot kept, const internal::Spectral_ring& ring)
+  void capture_zero_length_merge(const Slot kept, const Spectral_ring& ring)
   {
     m_pending.kept = kept;
-    m_pending.removed = internal::null_spectral_slot;
+    m_pending.removed = null_spectral_slot;
     std::vector<Slot> left;
-    for(const internal::Spectral_ring_entry& e : ring)
+    for(const Spectral_ring_entry& e : ring)
       left.push_back(e.vertex);
     std::sort(left.begin(), left.end());
-    for(const internal::Spectral_ring_entry& old : m_core.fields().rings[kept])
+    for(const Spectral_ring_entry& old : m_core.fields().rings[kept])
       if(!std::binary_search(left.begin(), left.end(), old.vertex))
         m_pending.removed = old.vertex;
-    CGAL_assertion(m_pending.removed != internal::null_spectral_slot);
+    CGAL_assertion(m_pending.removed != null_spectral_slot);
     m_pending.weight =
         m_core.projected_weight(kept, m_pending.removed, m_core.fields().points[m_pending.removed]);
   }
@@ -551,11 +549,11 @@ private:
   bool m_has_own_points; // of the mesh, not a map of the user's
   Geom_traits m_traits;
   Spectral_options m_options;
-  internal::Fine_vertex_slots<Triangle_mesh> m_slots;
+  Fine_vertex_slots<Triangle_mesh> m_slots;
 
   Eigen::MatrixXd m_fine_points;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
-  internal::Spectral_collapse_core m_core;
+  Spectral_collapse_core m_core;
   std::vector<Eigen::Vector3d> m_log_points; // where each merge left its vertex
   double m_area = 0, m_sum_of_squares = 0;
   std::size_t m_number_of_vertices = 0;
@@ -573,9 +571,8 @@ private:
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
 };
 
-/// @}
-
+} // namespace internal
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STATE_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
