@@ -134,6 +134,8 @@ TEST_CASE("Files that are no such array are refused in a sentence")
   CHECK_THROWS_WITH(read(npy("<f8", "False", "1, 3, 2", raw(numbers))), ContainsSubstring("3 dimensions"));
   CHECK_THROWS_WITH(read(npy("<f8", "False", "", raw(numbers))), ContainsSubstring("0 dimensions"));
   CHECK_THROWS_WITH(read(npy("<f8", "False", "3, -2", raw(numbers))), ContainsSubstring("shape"));
+  CHECK_THROWS_WITH(read(npy("<f8", "False", "3, \x1b[2J", raw(numbers))), ContainsSubstring("'3, ?[2J'"));
+  CHECK_THROWS_WITH(read(npy("<\n8", "False", "3, 2", raw(numbers))), ContainsSubstring("'<?8'"));
   CHECK_THROWS_WITH(read(npy("<f8", "Maybe", "3, 2", raw(numbers))), ContainsSubstring("damaged"));
   CHECK_THROWS_WITH(read(npy("<f8", "False", "3, 2", raw(numbers), 9)), ContainsSubstring("version 9"));
   // A promise of more than any memory.
@@ -195,6 +197,16 @@ TEST_CASE(
   };
   CHECK_THROWS_WITH(read_matrix_market(file.path(), objection),
                     ContainsSubstring("readers") && ContainsSubstring("' is too large."));
+}
+
+TEST_CASE("A symmetric matrix of Matrix Market is square")
+{
+  const auto read = [](const std::string& sizes) {
+    const File file("%%MatrixMarket matrix coordinate real symmetric\n" + sizes);
+    return read_matrix_market(file.path(), [](long long, long long, long long) { return std::string(); });
+  };
+  CHECK(read("5 5 1\n5 1 2\n").coeff(0, 4) == 2);
+  CHECK_THROWS_WITH(read("2 5 1\n1 5 2\n"), ContainsSubstring("line 2 ") && ContainsSubstring("not square"));
 }
 
 TEST_CASE("OFF files may have several vertices and faces on a line")

@@ -54,6 +54,9 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
      rows > largest || columns > largest || nonzeros > largest)
     refuse("line " + std::to_string(number) + " must give the numbers of rows, columns and nonzeros.");
 
+  if(symmetry == "symmetric" && rows != columns)
+    refuse("line " + std::to_string(number) + " gives a symmetric matrix that is not square.");
+
   const std::string wrong = objection(rows, columns, nonzeros);
   if(!wrong.empty())
     throw std::runtime_error("'" + path + "' " + wrong);

@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_IO_NPY_READER_H
 #define SPECTRAL_EXAMPLES_IO_NPY_READER_H
 
+#include "text_lines.h"
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -55,7 +57,7 @@ inline void read_shape(Header& header, const std::string& shape, const std::stri
     if(word.empty())
       continue;
     if(word.size() > 15 || word.find_first_not_of("0123456789") != std::string::npos)
-      refuse(path, "its shape (" + shape + ") cannot be read");
+      refuse(path, "its shape " + quoted(shape) + " cannot be read");
     sizes.push_back(std::stoull(word));
   }
   if(sizes.empty() || sizes.size() > 2)
@@ -89,7 +91,7 @@ inline Header read_header(const std::string& bytes, const std::string& path)
     refuse(path, "it does not hold plain numbers: save an array of float64 or float32");
   const std::string type = found[1];
   if(type != "<f8" && type != ">f8" && type != "<f4" && type != ">f4")
-    refuse(path, "its numbers are of type '" + type + "': save an array of float64 or float32");
+    refuse(path, "its numbers are of type " + quoted(type) + ": save an array of float64 or float32");
   header.size_of_number = type[2] == '8' ? 8 : 4;
   header.swapped = (type[0] == '<') != is_little_endian();
   if(!std::regex_search(text, found, std::regex("'fortran_order' *: *(True|False)")))
