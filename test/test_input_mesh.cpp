@@ -103,6 +103,14 @@ TEST_CASE("Faces that are turned the other way than their neighbours are turned 
   CHECK_THROWS_WITH(read(moebius, Mending::plain), ContainsSubstring("same direction"));
 }
 
+TEST_CASE("Degenerate faces that CGAL cannot remove stay, and are named")
+{
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 6.995005352750662e+22 1.8943159647675943e+23 1.9429936213942168e-19\n"
+      "v 4.7544791794160686e+30 4.5445114319081253e+30 7.760067092203218e+26\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+  CHECK_THROWS_WITH(read(text, Mending::full), ContainsSubstring("--repair could not do"));
+}
+
 TEST_CASE("Copies of faces go")
 {
   const std::string text = square + "f 1 2 3\nf 3 2 1\nf 1 3 4\nf 2 3 1\n";

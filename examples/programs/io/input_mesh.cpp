@@ -6,6 +6,8 @@
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 
+#include <CGAL/exceptions.h>
+
 #include <boost/functional/hash.hpp>
 #include <boost/iterator/counting_iterator.hpp>
 #include <boost/pending/disjoint_sets.hpp>
@@ -234,7 +236,13 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending)
   std::vector<std::size_t> vertex(soup.points.size()), origin;
   std::iota(vertex.begin(), vertex.end(), std::size_t(0));
   if(mending == Mending::full) {
-    Polygon_soup repaired = repaired_soup(soup, log, vertex, origin);
+    Polygon_soup repaired;
+    try {
+      repaired = repaired_soup(soup, log, vertex, origin);
+    } catch(const CGAL::Failure_exception&) {
+      throw std::runtime_error("'" + path +
+                               "' cannot be repaired: CGAL's functions contradict themselves on it.");
+    }
     input.diagnosis = diagnose(repaired);
     soup = std::move(repaired);
   } else {

@@ -4,6 +4,9 @@
 
 // The repair of meshes, apart from the programs that use it because CGAL's templates take their time.
 
+// What CGAL asserts holds for any file in a release build as well: where it does not, CGAL's functions follow handles to nothing.
+#define CGAL_DEBUG
+
 #include "mesh_repair.h"
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
@@ -19,6 +22,7 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/exceptions.h>
 #include <CGAL/utility.h>
 #include <CGAL/version.h>
 
@@ -212,16 +216,24 @@ void triangulate(Exact_soup& soup, Repair_log& log)
           PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
 }
 
-// Needles are collapsed, caps flipped; thresholds: edges of a ratio of a million, an angle of 179.9999 degrees.
+// Needles are collapsed, caps flipped; thresholds: edges of a ratio of a million, an angle of 179.9999 degrees. Where CGAL's
+// function loses its way, as it may beside borders, the faces stay and the diagnosis names them.
 void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
 {
   const std::size_t before = mesh.number_of_faces();
+  const Exact_mesh copy = mesh;
   const double ratio = 1e6, cosine = std::cos(std::acos(-1.) * 179.9999 / 180);
+  try {
 #if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)
-  PMP::remove_almost_degenerate_faces(mesh, CGAL::parameters::needle_threshold(ratio).cap_threshold(cosine));
+    PMP::remove_almost_degenerate_faces(mesh,
+                                        CGAL::parameters::needle_threshold(ratio).cap_threshold(cosine));
 #else
-  PMP::experimental::remove_almost_degenerate_faces(mesh, cosine, ratio, 0.);
+    PMP::experimental::remove_almost_degenerate_faces(mesh, cosine, ratio, 0.);
 #endif
+  } catch(const CGAL::Failure_exception&) {
+    mesh = copy;
+    return;
+  }
   mesh.collect_garbage();
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
