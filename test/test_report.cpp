@@ -28,7 +28,7 @@ Comparison small_comparison()
   c.components = 1;
   c.K = 4;
   const Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(6, 0, 50);
-  c.fine.push_back({"lumped", values, 1.5, 1e-12});
+  c.fine.push_back({"lumped", values, 1, 1.5, 1e-12});
   double number = 1.2345;
   for(const std::size_t N : {100, 50})
     for(const char* simplifier : {"spectral", "edge length"}) {

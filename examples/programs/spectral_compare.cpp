@@ -139,8 +139,8 @@ private:
       const auto begin = std::chrono::steady_clock::now();
       Fine_reference r = fine_reference(m_matrices, mass, K, sources, progress("reference"));
       m_comparison.area = r.op.mass.sum();
-      m_comparison.fine.push_back(
-          {r.mass, m_comparison.area * r.pairs.values, seconds_since(begin), r.pairs.residuals.maxCoeff()});
+      m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros,
+                                   seconds_since(begin), r.pairs.residuals.maxCoeff()});
       m_references.push_back(std::move(r));
       m_masses.push_back(mass);
     }

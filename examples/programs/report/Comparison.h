@@ -105,6 +105,7 @@ struct Fine_spectrum
 {
   std::string mass;
   Eigen::VectorXd values; // at unit area
+  Eigen::Index zeros = 0; // how many of them, the first, are zero
   double seconds = not_computed;
   double largest_residual = not_computed;
 };

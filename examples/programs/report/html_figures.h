@@ -175,7 +175,7 @@ inline std::string eigenvalue_plots(const Comparison& c, const Fine_spectrum& fi
       for(Eigen::Index k = 0; k < (std::min)(j->coarse_values.size(), fine.values.size()); ++k) {
         curve.x.push_back(static_cast<double>(k + 1));
         curve.y.push_back(j->coarse_values(k));
-        if(fine.values(k) < 1e-6 * 4 * CGAL_PI)
+        if(k < fine.zeros)
           continue; // zero over zero
         ratio.x.push_back(static_cast<double>(k + 1));
         ratio.y.push_back(j->coarse_values(k) / fine.values(k));

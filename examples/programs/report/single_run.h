@@ -40,7 +40,7 @@ inline Comparison single_run(const CGAL::Spectral_geometry::Spectral_evaluation&
   Comparison c;
   c.area = e.fine_area;
   c.K = e.requested_modes;
-  c.fine.push_back({e.mass, e.fine_values, not_computed, not_computed});
+  c.fine.push_back({e.mass, e.fine_values, e.fine_zeros, not_computed, not_computed});
   c.results.push_back(std::move(run));
   return c;
 }
