@@ -10,21 +10,21 @@
 
 #include "../topology.h"
 #include "fuzz_input.h"
+#include "fuzz_main.h"
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -292,6 +292,185 @@ bool refused(Mesh& mesh, const SMS::Spectral_edge_collapse_options& options)
   }
 }
 
+// --- The policies, handed about ----------------------------------------------------------------------------------------
+
+// The user's filter where `Handling` places it.
+struct Placed_filter
+{
+  template <class Profile, class OptionalPoint>
+  OptionalPoint operator()(const Profile& profile, const OptionalPoint& point) const
+  {
+    using Place = Handling::Place;
+    const OptionalPoint p = place == Place::in_front || place == Place::alone ? user(profile, point) : point;
+    if(!p || place == Place::alone)
+      return p;
+    return place == Place::behind ? with_user(profile, p) : ours(profile, p);
+  }
+
+  Handling::Place place;
+  Random_filter user;
+  SMS::Spectral_filter<Policies::State> ours;
+  SMS::Spectral_filter<Policies::State, Random_filter> with_user;
+};
+
+// All that edge_collapse() gets, and nothing of the policies themselves.
+struct Handles
+{
+  Handles(const Policies& policies, const Handling& handling,
+          const SMS::Restriction_visitor<Mesh, Cost_probe>& user)
+    : cost(policies.get_cost())
+    , placement(policies.get_placement())
+    , visitor(policies.visitor(user))
+    , filter{handling.place, handling.filter, policies.filter(), policies.filter(handling.filter)}
+  {}
+
+  Policies::Get_cost cost;
+  Policies::Get_placement placement;
+  SMS::Spectral_visitor<Policies::State, SMS::Restriction_visitor<Mesh, Cost_probe>> visitor;
+  Placed_filter filter;
+};
+
+bool stands_for_nothing(const Policies& policies)
+{
+  try {
+    policies.restriction();
+    return false;
+  } catch(const std::logic_error&) {
+    return true;
+  }
+}
+
+// The same policies in another place; empty unless what has been left there is still good for something.
+std::string fault_of_moves(std::unique_ptr<Policies>& policies, const Handling& handling)
+{
+  if(handling.does(Handling::move)) {
+    auto moved = std::make_unique<Policies>(std::move(*policies));
+    if(!stands_for_nothing(*policies))
+      return "what has been moved from can be used";
+    *policies = *moved; // and may be assigned to
+    policies = std::move(moved);
+  }
+  if(handling.does(Handling::copy)) {
+    auto copy = std::make_unique<Policies>(*policies);
+    policies = std::move(copy);
+  }
+  return "";
+}
+
+// From what the log says, without the policies and without what the mesh was then.
+std::string fault_of_replay(const Mesh& before, const Policies& policies,
+                            const Eigen::SparseMatrix<double>& P, const unsigned level)
+{
+  auto copy = std::make_unique<Mesh>(before);
+  SMS::Collapse_replay<Mesh> replay(*copy, policies.log());
+  const std::size_t n = count_vertices(before), N = std::size_t(P.rows());
+  replay.collapse_to(n - level % (n - N + 1));
+  copy->collect_garbage();
+  auto moved = std::move(replay);
+  moved.collapse_to(N);
+  if(!CGAL::is_valid_polygon_mesh(*copy) || count_vertices(*copy) != N)
+    return "a level of detail is not valid";
+  // Of rows in another order.
+  const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(P.cols(), 1, 2);
+  Eigen::VectorXd a = P * numbers, b = moved.restriction() * numbers;
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  const bool same = a == b;
+  copy.reset(); // before the replay
+  return same ? "" : "the replay and the run have two restrictions";
+}
+
+std::string fault_of_kept(const Mesh& mesh, const Policies& policies, const shapes::Matrices& fine,
+                          const std::vector<std::size_t>& kept)
+{
+  const Eigen::MatrixXd V = positions(mesh);
+  const std::vector<std::size_t> map = policies.vertex_map();
+  for(const std::size_t v : kept)
+    if(V.row(Eigen::Index(map[v])) != fine.V.row(Eigen::Index(v)))
+      return "a kept vertex has moved";
+  return "";
+}
+
+// Needles leave them rough, by a measure that is not the solver's.
+bool pairs_are_refused(const shapes::Matrices& fine, const SG::Eigenpairs& pairs, const SG::Mass mass)
+{
+  const SG::Laplace_operator op = SG::laplace_operator(fine.V, fine.T, SG::mass_blend(mass));
+  return !(SMS::internal::spectral_residuals(op, pairs).maxCoeff() < 1e-3);
+}
+
+std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagnosis& diagnosis,
+                              SMS::Spectral_edge_collapse_options options, const std::size_t N, Bytes& bytes)
+{
+  const bool batched = !bytes.one_in(4);
+  const Handling handling(bytes);
+  options.kept_vertices = some_vertices(bytes, fine);
+  auto mesh = std::make_unique<Mesh>(make_mesh(fine));
+  const Mesh before = *mesh;
+  std::unique_ptr<Policies> policies, others;
+  try {
+    policies = std::make_unique<Policies>(*mesh, options);
+  } catch(const std::invalid_argument& error) {
+    const bool expected = std::string(error.what()).find("both to be kept") != std::string::npos;
+    return expected && unchanged(*mesh, before) ? "" : std::string("refused: ") + error.what();
+  }
+  policies->state().set_batched(batched);
+  bool costs_are_numbers = true;
+  const SMS::Restriction_visitor<Mesh, Cost_probe> tracker(*mesh, Cost_probe(costs_are_numbers));
+  auto handles = std::make_unique<Handles>(Policies(*policies), handling, tracker);
+  std::string fault = fault_of_moves(policies, handling);
+  if(handling.does(Handling::others)) {
+    // Those of meshes with needles are refused, and found again.
+    if(policies->eigenpairs() && !pairs_are_refused(fine, *policies->eigenpairs(), options.mass))
+      options.eigenpairs = policies->eigenpairs();
+    others = std::make_unique<Policies>(*mesh, options);
+  }
+  const std::size_t n = count_vertices(*mesh);
+  for(int run = 1; run <= handling.runs; ++run) {
+    if(handling.does(Handling::put_back)) {
+      const Mesh backup = *mesh;
+      *mesh = backup;
+    }
+    if(handling.does(Handling::collect))
+      mesh->collect_garbage();
+    const std::size_t target =
+        run == handling.runs || N > n ? N : n - (n - N) * std::size_t(run) / std::size_t(handling.runs);
+    SMS::edge_collapse(*mesh, SMS::Vertex_count_stop_predicate<Mesh>(target, *mesh),
+                       CGAL::parameters::get_cost(handles->cost)
+                           .get_placement(handles->placement)
+                           .visitor(handles->visitor)
+                           .filter(handles->filter));
+  }
+  const auto check = [&](const bool good, const char* what) {
+    if(fault.empty() && !good)
+      fault = what;
+  };
+  check(costs_are_numbers, "a cost is not a number");
+  check(count_vertices(*mesh) == policies->state().number_of_vertices(), "the vertices are miscounted");
+  check(count_vertices(*mesh) >= N || diagnosis.zero_length_edges.count != 0, "the target was missed");
+  check(topology(*mesh) == topology(before), "the topology has changed");
+  if(fault.empty())
+    fault = fault_of_result(*mesh, *policies, fine, options);
+  if(fault.empty())
+    fault = fault_of_restriction(tracker.restriction(), tracker.vertex_map());
+  check(tracker.vertex_map() == policies->vertex_map(), "the two vertex maps differ");
+  if(fault.empty())
+    fault = fault_of_kept(*mesh, *policies, fine, options.kept_vertices);
+  if(fault.empty())
+    fault = fault_of_replay(before, *policies, policies->restriction(), handling.level);
+
+  if(handling.does(Handling::mesh_first))
+    mesh.reset();
+  if(handling.does(Handling::handles_last))
+    policies.reset();
+  handles.reset();
+  policies.reset();
+  others.reset();
+  check(!mesh || CGAL::is_valid_polygon_mesh(*mesh), "the mesh is not valid without its policies");
+  return fault;
+}
+
+// -----------------------------------------------------------------------------------------------------------------------
+
 // What went wrong; empty if nothing did.
 std::string fault_of_input(Bytes bytes)
 {
@@ -304,30 +483,18 @@ std::string fault_of_input(Bytes bytes)
   if(diagnosis.non_manifold_vertices.count != 0)
     return ""; // not a mesh
   const SMS::Spectral_edge_collapse_options options = options_from(bytes, fine);
-  const std::size_t n = std::size_t(fine.V.rows()), N = 1 + std::size_t(bytes.below(int(n)));
-  Mesh mesh = make_mesh(fine);
-  if(!diagnosis.usable())
+  const std::size_t N = target_from(bytes, fine);
+  if(!diagnosis.usable()) {
+    Mesh mesh = make_mesh(fine);
     return refused(mesh, options) ? "" : "accepted: " + diagnosis.obstacles().front();
-
-  if(bytes.one_in(2))
-    return fault_of_one_call(mesh, {fine, diagnosis, options, N, {}, 0, 0}, bytes);
-  const Topology before = topology(mesh);
-  Policies policies(mesh, options);
-  policies.state().set_batched(!bytes.one_in(4));
-  bool costs_are_numbers = true;
-  collapse(mesh, policies, N, Cost_probe(costs_are_numbers));
-  if(!costs_are_numbers)
-    return "a cost is not a number";
-  if(count_vertices(mesh) != policies.state().number_of_vertices())
-    return "the vertices are miscounted";
-  if(count_vertices(mesh) < N && diagnosis.zero_length_edges.count == 0)
-    return "the target was missed";
-  if(!(topology(mesh) == before))
-    return "the topology has changed";
-  return fault_of_result(mesh, policies, fine, options);
+  }
+  return bytes.one_in(2) ? fault_of_one_call(make_mesh(fine), {fine, diagnosis, options, N, {}, 0, 0}, bytes)
+                         : fault_of_policies(fine, diagnosis, options, N, bytes);
 }
 
-std::string checked(const std::uint8_t* data, const std::size_t size)
+} // namespace
+
+std::string spectral_test::checked(const std::uint8_t* data, const std::size_t size)
 {
   try {
     return fault_of_input(Bytes(data, size));
@@ -336,57 +503,15 @@ std::string checked(const std::uint8_t* data, const std::size_t size)
   }
 }
 
-} // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, const std::size_t size)
+spectral_test::Byte_string spectral_test::random_input(std::mt19937& random)
 {
-  const std::string fault = checked(data, size);
-  if(fault.empty())
-    return 0;
-  std::fprintf(stderr, "%s\n", fault.c_str());
-  std::abort();
+  Byte_string bytes(8 + random() % 150);
+  for(std::uint8_t& byte : bytes)
+    byte = static_cast<std::uint8_t>(random() >> 16);
+  return bytes;
 }
 
-#ifndef SPECTRAL_LIBFUZZER
-
-namespace {
-
-int failures = 0;
-
-void run(const std::vector<std::uint8_t>& bytes, const std::string& name)
+spectral_test::Byte_string spectral_test::input_of_file(const std::string&, const Byte_string& contents)
 {
-  const std::string fault = checked(bytes.data(), bytes.size());
-  if(!fault.empty()) {
-    ++failures;
-    std::printf("%s: %s\n", name.c_str(), fault.c_str());
-  }
+  return contents;
 }
-
-} // namespace
-
-int main(int argc, char* argv[])
-{
-  char* end = nullptr;
-  const unsigned long runs = argc == 3 ? std::strtoul(argv[1], &end, 10) : 0;
-  if(runs > 0 && *end == '\0') {
-    const unsigned long seed = std::strtoul(argv[2], nullptr, 10);
-    for(unsigned long i = 0; i < runs; ++i) {
-      std::mt19937 random(static_cast<std::uint32_t>(seed + i));
-      std::vector<std::uint8_t> bytes(8 + random() % 150);
-      for(std::uint8_t& byte : bytes)
-        byte = static_cast<std::uint8_t>(random() >> 16);
-      run(bytes, "1 " + std::to_string(seed + i));
-    }
-    std::printf("%lu runs, %d failures\n", runs, failures);
-  } else {
-    for(int i = 1; i < argc; ++i) {
-      std::ifstream stream(argv[i], std::ios::binary);
-      const std::vector<char> text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-      run(std::vector<std::uint8_t>(text.begin(), text.end()), argv[i]);
-    }
-    std::printf("%d files, %d failures\n", argc - 1, failures);
-  }
-  return failures == 0 ? 0 : 1;
-}
-
-#endif

@@ -72,9 +72,21 @@ inline shapes::Matrices any_triangles(Bytes& bytes)
   return mesh;
 }
 
+// Now and then so many neighbours that costs come from whole rows.
+inline int high_degree(Bytes& bytes)
+{
+  const int limit = int(SMS::internal::Spectral_fields().largest_degree_with_products);
+  return bytes.one_in(8) ? limit - 2 + bytes.below(12) : 3 + bytes.below(40);
+}
+
+inline bool is_large(const shapes::Matrices& mesh)
+{
+  return mesh.V.rows() > 200;
+}
+
 inline shapes::Matrices shape(Bytes& bytes)
 {
-  switch(bytes.below(8)) {
+  switch(bytes.below(11)) {
   case 0:
     return shapes::tetrahedron_matrices();
   case 1:
@@ -89,6 +101,10 @@ inline shapes::Matrices shape(Bytes& bytes)
     return shapes::components_matrices(shapes::torus_matrices(3 + bytes.below(2), 3), 1 + bytes.below(3));
   case 6:
     return shapes::grid_matrices(1 + bytes.below(6), 1 + bytes.below(6));
+  case 7:
+    return shapes::disc_matrices(high_degree(bytes));
+  case 8:
+    return shapes::gear_matrices(high_degree(bytes), 1 + bytes.below(2));
   default:
     return any_triangles(bytes);
   }
@@ -159,18 +175,38 @@ inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shap
   options.shape = shapes_of_term[bytes.below(3)];
   options.keep_free_of_self_intersections = bytes.one_in(2);
   options.threads = bytes.one_in(16) ? 2 : 1;
-  if(bytes.one_in(4)) {
+  const double losses[] = {10, 0.1, std::numeric_limits<double>::infinity()};
+  options.largest_loss = losses[bytes.below(3)];
+  const unsigned basis = bytes.byte(); // large meshes are rarely solved, which takes most of the time
+  if(is_large(mesh) ? basis % 8 != 0 : basis % 4 == 3) {
+    options.number_of_eigenvectors =
+        (std::min)(options.number_of_eigenvectors, Eigen::Index(is_large(mesh) ? 6 : 40));
     const double extent = mesh.V.cwiseAbs().maxCoeff();
     shapes::Matrices unit = mesh;
     unit.V /= extent > 0 && std::isfinite(extent) ? extent : 1.;
     options.signals = rough_signals(unit, options.number_of_eigenvectors);
-  }
+  } else
+    options.metric_eigenvectors = Eigen::Index(basis / 4 % 4);
   if(bytes.one_in(4)) {
     options.weights.resize(options.number_of_eigenvectors);
     for(double& weight : options.weights)
       weight = bytes.unit();
   }
   return options;
+}
+
+inline std::size_t target_from(Bytes& bytes, const shapes::Matrices& mesh)
+{
+  const int n = int(mesh.V.rows());
+  return std::size_t(is_large(mesh) ? n - bytes.below(40) : 1 + bytes.below(n));
+}
+
+inline std::vector<std::size_t> some_vertices(Bytes& bytes, const shapes::Matrices& mesh)
+{
+  std::vector<std::size_t> result;
+  for(int i = bytes.below(5); i > 0; --i)
+    result.push_back(std::size_t(bytes.below(int(mesh.V.rows()))));
+  return result;
 }
 
 // Refuses some edges by their ends, and normals that turn.
@@ -186,6 +222,46 @@ struct Random_filter
       return OptionalPoint();
     return normals ? SMS::Bounded_normal_change_filter<>()(profile, point) : point;
   }
+};
+
+inline Random_filter filter_from(Bytes& bytes)
+{
+  Random_filter filter;
+  filter.every = bytes.one_in(3) ? 2 + unsigned(bytes.below(4)) : 0;
+  filter.normals = bytes.one_in(3);
+  return filter;
+}
+
+// What is done to policies, beside calling edge_collapse() with them.
+struct Handling
+{
+  explicit Handling(Bytes& bytes)
+    : filter(filter_from(bytes))
+    , place(Place(bytes.below(4)))
+    , runs(1 + bytes.below(3))
+    , steps(bytes.byte())
+    , level(bytes.byte())
+  {}
+
+  bool does(const unsigned step) const { return (steps & step) != 0; }
+
+  enum class Place { none, behind, in_front, alone };
+  // Of the policies: moved, copied while the original goes, others made for the same mesh. Of the mesh: copied and put back,
+  // garbage collected, both before each run. At the end: the policies go before their handles, the mesh before all.
+  enum Step : unsigned {
+    move = 1,
+    copy = 2,
+    others = 4,
+    put_back = 8,
+    collect = 16,
+    handles_last = 32,
+    mesh_first = 64
+  };
+
+  Random_filter filter;
+  Place place; // of the user's filter with regard to that of the policies
+  int runs;
+  unsigned steps, level;
 };
 
 struct One_call
@@ -228,10 +304,8 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
     if(o.weights.size() != 0)
       o.weights.conservativeResize(o.number_of_eigenvectors);
   }
-  for(int i = bytes.below(5); i > 0; --i)
-    o.kept_vertices.push_back(std::size_t(bytes.below(n)));
-  call.filter.every = bytes.one_in(3) ? 2 + unsigned(bytes.below(4)) : 0;
-  call.filter.normals = bytes.one_in(3);
+  o.kept_vertices = some_vertices(bytes, call.fine);
+  call.filter = filter_from(bytes);
   call.calls_until_cancelled = bytes.one_in(8) ? 1 + int(bytes.byte()) : 0;
   call.level = bytes.byte();
 }
