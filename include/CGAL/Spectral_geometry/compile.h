@@ -16,6 +16,7 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 #include <CGAL/Spectral_geometry/internal/cotangent_laplacian_impl.h>
 #include <CGAL/Spectral_geometry/internal/edge_flips_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/fitted_operators_impl.h>
 #include <CGAL/Spectral_geometry/internal/functional_map_estimation_impl.h>
 #include <CGAL/Spectral_geometry/internal/functional_map_impl.h>
 #include <CGAL/Spectral_geometry/internal/hierarchical_functional_maps_impl.h>

@@ -6,8 +6,8 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEPARATE_COMPILATION_H
 
 // The package is header-only. A program of many source files can define CGAL_SPECTRAL_GEOMETRY_COMPILED in all of them and
-// include <CGAL/Spectral_geometry/compile.h> in one: the eigensolvers, the search of closest points, edge flips, relocation
-// and the maps between shapes, which depend on no template parameter, are then compiled once and only declared elsewhere.
+// include <CGAL/Spectral_geometry/compile.h> in one: the eigensolvers, the search of closest points, edge flips, relocation,
+// fitted operators and the maps between shapes, which depend on no template parameter, are then compiled once and only declared elsewhere.
 #ifdef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #define CGAL_SPECTRAL_GEOMETRY_INLINE
 #else

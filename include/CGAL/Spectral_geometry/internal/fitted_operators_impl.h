@@ -1,0 +1,476 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FITTED_OPERATORS_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FITTED_OPERATORS_IMPL_H
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_geometry/internal/Cholesky.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// A symmetric matrix sum_a x_a d_a d_a^T with bounds on x; d_a is row a of a sparse matrix.
+class Rank_one_terms
+{
+public:
+  using Index = Eigen::Index;
+  using Vector = Eigen::VectorXd;
+  using Row = Eigen::RowVectorXd;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+  using Entries = std::vector<std::pair<Index, double>>;
+  // start, lower bound and typical size of a coefficient
+  using Range = std::array<double, 3>;
+
+  Index size() const { return static_cast<Index>(m_ranges.size()); }
+  const std::vector<Range>& ranges() const { return m_ranges; }
+  const Sparse_rows& vectors() const { return m_D; }
+
+  void add(const Entries& d, double start, double lowest, double typical)
+  {
+    for(const auto& e : d)
+      m_entries.emplace_back(static_cast<int>(size()), static_cast<int>(e.first), e.second);
+    m_ranges.push_back({(std::max)(start, lowest), lowest, typical});
+  }
+
+  void assemble(Index n)
+  {
+    m_D.resize(size(), n);
+    m_D.setFromTriplets(m_entries.begin(), m_entries.end());
+    m_entries = {};
+  }
+
+  // y = d_a^T G
+  void row(Index a, const Rows& G, Row& y) const
+  {
+    y.setZero(G.cols());
+    for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
+      y += d.value() * G.row(d.col());
+  }
+
+  // sum_a x_a d_a d_a^T G
+  Rows times(const Vector& x, const Rows& G) const
+  {
+    Rows result = Rows::Zero(G.rows(), G.cols());
+    Row y;
+    for(Index a = 0; a < size(); ++a) {
+      row(a, G, y);
+      for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
+        result.row(d.col()) += (d.value() * x(a)) * y;
+    }
+    return result;
+  }
+
+  // the derivatives by x of the inner product of R with that
+  Vector derivatives(const Rows& R, const Rows& G) const
+  {
+    Vector result(size());
+    Row y, z;
+    for(Index a = 0; a < size(); ++a) {
+      row(a, G, y);
+      row(a, R, z);
+      result(a) = y.dot(z);
+    }
+    return result;
+  }
+
+  Sparse_matrix matrix(const Vector& x) const
+  {
+    const Sparse_matrix D = m_D, Dt = m_D.transpose();
+    return Dt * x.asDiagonal() * D;
+  }
+
+private:
+  std::vector<Eigen::Triplet<double>> m_entries;
+  std::vector<Range> m_ranges;
+  Sparse_rows m_D;
+};
+
+/// The quadratic program of fit_operators() and its solver, at unit area.
+class Operator_fit
+{
+  using Index = Eigen::Index;
+  using Matrix = Eigen::MatrixXd;
+  using Vector = Eigen::VectorXd;
+  using Rows = Rank_one_terms::Rows;
+
+public:
+  Operator_fit(const Laplace_operator& own, Rows G, Vector lambda, const Operator_fit_options& options)
+    : m_options(options)
+    , m_G(std::move(G))
+    , m_lambda(std::move(lambda))
+    , m_area(own.mass.sum())
+    , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / m_G.rows()))
+    , m_weight((m_lambda.array() + 4 * CGAL_PI).inverse())
+  {
+    const double mean = (m_weight.array() * m_lambda.array().square()).mean();
+    m_weight *= mean > 0. ? 1. / mean : 0.;
+    collect_terms(own);
+    const Index nL = m_stiffness.size(), n = nL + m_mass.size();
+    m_start.resize(n);
+    m_lowest.resize(n);
+    m_typical.resize(n);
+    for(Index a = 0; a < n; ++a) {
+      const Rank_one_terms::Range& range = a < nL ? m_stiffness.ranges()[a] : m_mass.ranges()[a - nL];
+      m_start(a) = range[0];
+      m_lowest(a) = range[1];
+      m_typical(a) = range[2];
+    }
+    m_total = Vector::Zero(n);
+    m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(m_G.rows())).cwiseAbs2();
+    m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / m_G.rows());
+    assemble_normal_matrix();
+  }
+
+  Operator_fit_result run() const
+  {
+    Operator_fit_result result;
+    const Index n = m_start.size(), nL = m_stiffness.size();
+    Vector g;
+    result.objective_before = objective(m_start, g);
+    // Slacks s and multipliers z, both positive; g is half the gradient.
+    Vector s = (m_start - m_lowest).cwiseMax(0.01 * m_typical);
+    double f = objective(m_lowest + s, g);
+    Vector z = (0.1 * f / n) * s.cwiseInverse();
+    while(!result.converged && result.iterations < m_options.maximum_iterations) {
+      if(m_options.progress && !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
+        throw Cancelled();
+      const Vector barrier = z.cwiseQuotient(s), target = (0.2 * s.dot(z) / n) * s.cwiseInverse();
+      Vector dx, Qdx;
+      const double newton = newton_step(target - g, barrier, dx, Qdx);
+      const Vector dz = target - z - barrier.cwiseProduct(dx);
+      const double primal = step_inside(s, dx), dual = step_inside(z, dz);
+      f += 2. * primal * g.dot(dx) + primal * primal * Qdx.dot(dx);
+      s += primal * dx;
+      g += primal * Qdx;
+      z += dual * dz;
+      ++result.iterations;
+      result.converged = (std::max)(s.dot(z), newton) <= m_options.tolerance * f;
+    }
+    Vector x = m_lowest + s;
+    result.objective_after = objective(x, g);
+    if(!(result.objective_after < result.objective_before)) {
+      x = m_start;
+      result.objective_after = result.objective_before;
+    }
+    result.unknowns = n;
+    result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
+    x /= m_total.dot(x);
+    result.op.L = m_stiffness.matrix(x.head(nL));
+    result.op.B = m_area * m_mass.matrix(x.tail(n - nL));
+    result.op.mass = result.op.B * Vector::Ones(m_G.rows());
+    return result;
+  }
+
+private:
+  struct Edge
+  {
+    Index i, j;
+    double weight, mass;
+    std::vector<Index> opposite; // common neighbours of i and j
+    int thin = 0;                // number of negative edges that lean on this one
+    double left = 0.;            // what they leave of its weight
+  };
+
+  void collect_terms(const Laplace_operator& own)
+  {
+    const Index N = m_G.rows();
+    const bool diagonal = m_options.mass == Operator_fit_options::Mass_pattern::diagonal;
+    std::vector<Edge> edges;
+    std::vector<std::vector<std::pair<Index, Index>>> rings(N); // neighbour and edge, ascending
+    std::vector<double> sizes;
+    for(Index j = 0; j < N; ++j)
+      for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
+        if(it.row() < j) {
+          rings[it.row()].push_back({j, static_cast<Index>(edges.size())});
+          rings[j].push_back({it.row(), static_cast<Index>(edges.size())});
+          edges.push_back({it.row(), j, -it.value(), own.B.coeff(it.row(), j) / m_area, {}});
+          sizes.push_back(std::abs(it.value()));
+        }
+    double scale = 1.; // the median weight
+    if(!sizes.empty()) {
+      std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
+      scale = sizes[sizes.size() / 2] > 0. ? sizes[sizes.size() / 2] : 1.;
+    }
+    const double largest = 1e3 * scale;
+    for(auto& ring : rings)
+      std::sort(ring.begin(), ring.end());
+    const auto edge = [&](Index a, Index b) -> Edge& {
+      return edges[std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)))->second];
+    };
+    for(Edge& e : edges) {
+      e.weight = e.left = (std::min)((std::max)(e.weight, -largest), largest);
+      auto p = rings[e.i].begin(), q = rings[e.j].begin();
+      while(p != rings[e.i].end() && q != rings[e.j].end())
+        if(p->first == q->first) {
+          e.opposite.push_back((p++)->first);
+          ++q;
+        } else
+          ++(p->first < q->first ? p : q);
+      if(e.weight < 0.)
+        for(const Index k : e.opposite) {
+          ++edge(e.i, k).thin;
+          ++edge(e.j, k).thin;
+        }
+    }
+    for(Edge& e : edges)
+      if(e.weight < 0.)
+        add_thin_triangles(e, edge, scale);
+
+    Vector b = (diagonal ? own.mass : Vector(own.B.diagonal())) / m_area;
+    for(const Edge& e : edges) {
+      m_stiffness.add({{e.i, 1.}, {e.j, -1.}}, e.left,
+                      m_options.smallest_weight * (std::max)(scale * 0.05, e.left), scale);
+      if(m_options.rings == 2 && e.opposite.size() == 2)
+        m_stiffness.add({{e.i, 1.}, {e.j, 1.}, {e.opposite[0], -1.}, {e.opposite[1], -1.}}, 0., 0., scale);
+      if(!diagonal) {
+        m_mass.add({{e.i, 1.}, {e.j, 1.}}, e.mass, 0., 1. / N);
+        b(e.i) -= e.mass;
+        b(e.j) -= e.mass;
+      }
+    }
+    for(Index v = 0; v < N; ++v) {
+      m_mass.add({{v, 1.}}, b(v), m_options.smallest_mass * m_row_mass(v), 1. / N);
+      if(m_options.rings == 2 && !rings[v].empty()) {
+        Rank_one_terms::Entries star{{v, 0.}};
+        double sum = 0.;
+        for(const auto& r : rings[v])
+          sum += std::abs(edges[r.second].weight) + 1e-3 * scale;
+        for(const auto& r : rings[v]) {
+          const double w = 2. * edges[r.second].weight / sum;
+          star.push_back({r.first, -w});
+          star[0].second += w;
+        }
+        m_stiffness.add(star, 0., 0., scale);
+      }
+    }
+    m_stiffness.assemble(N);
+    m_mass.assemble(N);
+  }
+
+  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T has q t (1-t) at ij and takes q (1-t) from a,
+  // q t from b. With t = b / (a + b) neither turns negative as long as -w_ij <= a b / (a + b).
+  template <class Find>
+  void add_thin_triangles(Edge& e, const Find& edge, double scale)
+  {
+    double capacity = 0.;
+    std::vector<std::array<double, 3>> shares; // a b / (a + b), t, k
+    for(const Index k : e.opposite) {
+      const Edge &ik = edge(e.i, k), &jk = edge(e.j, k);
+      const double a = (std::max)(ik.weight, 0.) / ik.thin, b = (std::max)(jk.weight, 0.) / jk.thin;
+      if(a > 0. && b > 0.) {
+        shares.push_back({a * b / (a + b), b / (a + b), double(k)});
+        capacity += shares.back()[0];
+      }
+    }
+    const double part = capacity > 0. ? (std::min)(1., -e.weight / capacity) : 0.;
+    for(const auto& share : shares) {
+      const double t = share[1], q = part * share[0] / (t * (1. - t));
+      const Index k = static_cast<Index>(share[2]);
+      m_stiffness.add({{k, 1.}, {e.i, t - 1.}, {e.j, -t}}, q, 0., scale + q);
+      edge(e.i, k).left -= q * (1. - t);
+      edge(e.j, k).left -= q * t;
+      e.left += q * t * (1. - t);
+    }
+  }
+
+  // The lower triangle of H = sum_v A_v^T A_v / D_v, where row v of R, times the root of W, is A_v^T x.
+  void assemble_normal_matrix()
+  {
+    const Index nL = m_stiffness.size();
+    const Sparse_matrix DL = m_stiffness.vectors(), DB = m_mass.vectors();
+    const Eigen::RowVectorXd of_stiffness = -m_weight.cwiseSqrt().transpose(),
+                             of_mass = -of_stiffness.cwiseProduct(m_lambda.transpose());
+    std::vector<Eigen::Triplet<double>> lower;
+    std::vector<Index> unknowns;
+    Eigen::RowVectorXd y;
+    for(Index v = 0; v < m_G.rows(); ++v) {
+      Rows A(DL.col(v).nonZeros() + DB.col(v).nonZeros(), m_G.cols());
+      unknowns.clear();
+      for(Sparse_matrix::InnerIterator d(DL, v); d; ++d) {
+        m_stiffness.row(d.row(), m_G, y);
+        A.row(unknowns.size()) = d.value() * y.cwiseProduct(of_stiffness);
+        unknowns.push_back(d.row());
+      }
+      for(Sparse_matrix::InnerIterator d(DB, v); d; ++d) {
+        m_mass.row(d.row(), m_G, y);
+        A.row(unknowns.size()) = d.value() * y.cwiseProduct(of_mass);
+        unknowns.push_back(nL + d.row());
+      }
+      const Matrix S = A * A.transpose() / m_row_mass(v);
+      for(Index j = 0; j < S.cols(); ++j)
+        for(Index i = j; i < S.rows(); ++i)
+          lower.emplace_back(static_cast<int>(unknowns[i]), static_cast<int>(unknowns[j]), S(i, j));
+    }
+    m_H.resize(m_start.size(), m_start.size());
+    m_H.setFromTriplets(lower.begin(), lower.end());
+  }
+
+  double objective(const Vector& x, Vector& g) const { return evaluate(x, true, g); }
+
+  // The objective and half its gradient; or, for a direction, Q x.
+  double evaluate(const Vector& x, bool affine, Vector& g) const
+  {
+    const Index nL = m_stiffness.size(), nB = m_mass.size();
+    const Rows BG = m_mass.times(x.tail(nB), m_G);
+    Rows R = BG * m_lambda.asDiagonal() - m_stiffness.times(x.head(nL), m_G);
+    Matrix T = m_G.transpose() * BG;
+    if(affine)
+      T.diagonal().array() -= 1.;
+    const Matrix X = m_G.transpose() * R;
+    const double total = m_total.dot(x) - affine;
+    const Vector change = affine ? Vector(x - m_start) : x;
+    const Vector row_weight = m_options.plain * m_row_mass.cwiseInverse();
+    const double f = affine
+                         ? (row_weight.transpose() * R.cwiseAbs2() * m_weight).value() +
+                               (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
+                               penalty * total * total + change.cwiseAbs2().dot(m_tie)
+                         : 0.;
+    R = (row_weight.asDiagonal() * R + m_G * X).eval() * m_weight.asDiagonal();
+    g.resize(x.size());
+    g.head(nL) = -m_stiffness.derivatives(R, m_G);
+    R = R * m_lambda.asDiagonal();
+    R.noalias() += m_G * (m_options.orthonormality * T);
+    g.tail(nB) = m_mass.derivatives(R, m_G);
+    g += penalty * total * m_total + m_tie.cwiseProduct(change);
+    return f;
+  }
+
+  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta + 1/10) H + tie + barrier + penalty;
+  // returns the square of that norm of r.
+  double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx) const
+  {
+    Sparse_matrix M = (m_options.plain + 0.1) * m_H;
+    M.diagonal() += m_tie + barrier;
+    Cholesky cholesky(M);
+    Vector Mc(r.size()), y(r.size()), q, p;
+    cholesky.solve(m_total, Mc);
+    const double rank_one = penalty / (1. + penalty * m_total.dot(Mc));
+    dx = Qdx = Vector::Zero(r.size());
+    double first = 0., last = 0.;
+    for(int k = 0; k < 20; ++k) {
+      cholesky.solve(r, y);
+      y -= (rank_one * m_total.dot(y)) * Mc;
+      const double next = r.dot(y);
+      if(k == 0)
+        first = next;
+      if(!(next > 0.01 * first))
+        break;
+      p = k == 0 ? y : Vector(y + (next / last) * p);
+      last = next;
+      evaluate(p, false, q);
+      const Vector Mp = q + barrier.cwiseProduct(p);
+      const double step = next / p.dot(Mp);
+      dx += step * p;
+      Qdx += step * q;
+      r -= step * Mp;
+    }
+    return first;
+  }
+
+  // The part of a step, at most 1, that leaves a twentieth of each entry at least.
+  static double step_inside(const Vector& v, const Vector& dv)
+  {
+    return 1. / (std::max)(1., (-dv.cwiseQuotient(v)).maxCoeff() / 0.95);
+  }
+
+  static constexpr double penalty = 1e4; // of the total of the mass; the other terms are about 1 or less
+  const Operator_fit_options& m_options;
+  const Rows m_G;
+  const Vector m_lambda;
+  const double m_area;
+  const Vector m_row_mass;
+  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie;
+  Rank_one_terms m_stiffness, m_mass;
+  Sparse_matrix m_H;
+};
+
+inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+                               const Laplace_operator& fine, const Eigenpairs& pairs,
+                               const Operator_fit_options& o)
+{
+  const auto require = [](bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("operator fit: " + sentence);
+  };
+  const auto size = [](Eigen::Index rows, Eigen::Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+  };
+  const Eigen::Index N = P.rows(), n = P.cols(), K = pairs.size();
+  require(N > 0 && coarse.L.rows() == N && coarse.L.cols() == N && coarse.B.rows() == N &&
+              coarse.B.cols() == N && coarse.mass.size() == N,
+          "P is " + size(N, n) + " but the coarse operator has L " + size(coarse.L.rows(), coarse.L.cols()) +
+              ", B " + size(coarse.B.rows(), coarse.B.cols()) + " and " + std::to_string(coarse.mass.size()) +
+              " masses, pass matrices of one coarse mesh.");
+  require(fine.mass.size() == n && pairs.vectors.rows() == n && pairs.vectors.cols() == K && K > 0,
+          "P is " + size(N, n) + " but there are " + std::to_string(fine.mass.size()) + " fine masses, " +
+              std::to_string(K) + " eigenvalues and eigenvectors of " +
+              size(pairs.vectors.rows(), pairs.vectors.cols()) +
+              ", pass the operator and at least one eigenpair of the fine mesh.");
+  for(Eigen::Index v = 0; v < N; ++v)
+    require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)),
+            "the mass of " + vertex_name(v) + " of the coarse mesh is not a positive number.");
+  const double area = fine.mass.sum();
+  require(area > 0. && std::isfinite(area), "the area of the fine mesh is not a positive number.");
+  for(Eigen::Index k = 0; k < K; ++k)
+    require(pairs.values(k) >= 0. && std::isfinite(pairs.values(k)) && pairs.vectors.col(k).allFinite(),
+            "eigenpair " + std::to_string(k) +
+                " (counted from 0) has a number that is negative or not finite.");
+  const auto check_entries = [&](const Eigen::SparseMatrix<double>& A, const char* name) {
+    for(Eigen::Index j = 0; j < A.outerSize(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
+        require(std::isfinite(it.value()), std::string("entry ") + std::to_string(it.row()) + ", " +
+                                               std::to_string(it.col()) + " (counted from 0) of " + name +
+                                               " is not a finite number.");
+  };
+  check_entries(P, "P");
+  check_entries(coarse.L, "the coarse L");
+  check_entries(coarse.B, "the coarse B");
+  require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
+  require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
+          "orthonormality and plain must be numbers from 0.");
+  require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
+  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
+          "smallest_weight and smallest_mass must lie in ]0, 1].");
+  require(o.tolerance > 0. && o.tolerance < 1., "tolerance must lie between 0 and 1.");
+  require(o.maximum_iterations >= 0, "maximum_iterations must not be negative.");
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_operator& coarse,
+                                                                const Eigen::SparseMatrix<double>& P,
+                                                                const Laplace_operator& fine,
+                                                                const Eigenpairs& fine_pairs,
+                                                                const Operator_fit_options& options)
+{
+  internal::check_operator_fit(coarse, P, fine, fine_pairs, options);
+  const double area = fine.mass.sum();
+  const Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
+  Operator_fit_result result = internal::Operator_fit(coarse, G, area * fine_pairs.values, options).run();
+  result.op.theta = options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
+  return result;
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FITTED_OPERATORS_IMPL_H
