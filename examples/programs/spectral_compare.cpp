@@ -22,6 +22,7 @@
 #include "report/json_text.h"
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
 #include <CGAL/version_macros.h>
 
@@ -198,6 +199,8 @@ private:
       row.note = coarse.note;
       judge_mesh(coarse, row);
       m_comparison.results.push_back(row);
+      if(s.fits_operators)
+        judge_fitted(coarse, row);
     } catch(const SG::Cancelled&) {
       throw;
     } catch(const std::bad_alloc&) {
@@ -226,6 +229,34 @@ private:
         write_coloured(coarse.mesh, candidate, judged, row);
       row.judgements.push_back(std::move(judged.judgement));
     }
+  }
+
+  // The same mesh with operators that have the fine spectrum as nearly as its edges allow, the mass on the diagonal where it is
+  // lumped. Figures of the shape are those of the row before.
+  void judge_fitted(const Coarse_mesh& coarse, Simplified row)
+  {
+    const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
+    Coarse_candidate candidate;
+    candidate.carried = coarse.carried;
+    candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
+    row.simplifier += ", fitted operators";
+    row.judgements.clear();
+    for(const Fine_reference& reference : m_references) {
+      SG::Operator_fit_options options;
+      options.mass = reference.op.theta == 0 ? SG::Operator_fit_options::Mass_pattern::diagonal
+                                             : SG::Operator_fit_options::Mass_pattern::edges;
+      options.progress = [](double) { return !interrupted; };
+      SG::Eigenpairs pairs = reference.pairs;
+      pairs.values = reference.pairs.values.head(reference.K).eval();
+      pairs.vectors = reference.pairs.vectors.leftCols(reference.K).eval();
+      const auto begin = std::chrono::steady_clock::now();
+      candidate.op = SG::fit_operators(SG::laplace_operator(matrices.V, matrices.T, reference.op.theta),
+                                       candidate.restriction(), reference.op, pairs, options)
+                         .op;
+      row.seconds += seconds_since(begin);
+      row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
+    }
+    m_comparison.results.push_back(std::move(row));
   }
 
   // For `rows` coarse vertices and those of the file of the fine mesh.

@@ -22,6 +22,7 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -47,6 +48,9 @@ constexpr const char* eigenpairs_files[] = {
     "fine_mass.mtx",        "coarse_eigenvalues.npy", "coarse_eigenvectors.npy",
     "coarse_L.mtx",         "coarse_mass.mtx",        "C.npy"};
 
+// Those of --fit-operators.
+constexpr const char* fitted_files[] = {"L.mtx", "mass.mtx", "eigenvalues.npy", "eigenvectors.npy"};
+
 // The name of a level: "coarse-600.ply" beside "coarse.ply".
 std::string level_name(const std::string& path, const std::size_t level)
 {
@@ -66,11 +70,20 @@ void announce(Output_files& files, const Arguments& a)
     for(const std::string& path : {a.output, a.restriction, a.map})
       if(!path.empty())
         files.add(level_name(path, level));
-  if(!a.eigenpairs.empty()) {
-    files.add_folder(a.eigenpairs);
-    for(const std::string name : eigenpairs_files)
-      files.add(a.eigenpairs + "/" + name);
-  }
+  const auto add_folder = [&files](const std::string& folder, const auto& names) {
+    if(folder.empty())
+      return;
+    files.add_folder(folder);
+    for(const std::string name : names)
+      files.add(folder + "/" + name);
+  };
+  add_folder(a.eigenpairs, eigenpairs_files);
+  add_folder(a.fit_operators, fitted_files);
+}
+
+double seconds_since(const std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // Both meshes as matrices, as far as the outputs need them.
@@ -207,6 +220,33 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
                                meshes.coarse_pairs, result.restriction, K);
 }
 
+// Fits a Laplacian and a mass on the coarse mesh to the fine eigenpairs, and judges them by the norms of the mesh's own.
+Fitted_operators fit(const Arguments& a, const Both_meshes& meshes, const Eigen::SparseMatrix<double>& P,
+                     const SG::Mass mass, Progress_bar& bar)
+{
+  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
+  const auto progress = [&bar](double fraction) {
+    bar.show("fit", fraction);
+    return !interrupted;
+  };
+  Fitted_operators result;
+  result.options.rings = a.fit_rings;
+  result.options.mass = a.fit_mass == "diagonal" || (a.fit_mass.empty() && mass == SG::Mass::lumped)
+                            ? Mass_pattern::diagonal
+                            : Mass_pattern::edges;
+  result.options.progress = progress;
+  const auto begin = std::chrono::steady_clock::now();
+  result.fit =
+      SG::fit_operators(meshes.coarse_operator, P, meshes.fine_operator, *meshes.fine_pairs, result.options);
+  result.seconds = seconds_since(begin);
+  SG::Eigenpairs_options options;
+  options.progress = progress;
+  result.pairs = SG::eigenpairs(result.fit.op, meshes.coarse_pairs.size(), options);
+  result.evaluation = SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, result.fit.op,
+                                            result.pairs, P, meshes.fine_pairs->size());
+  return result;
+}
+
 // Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors holds between the files
 // unless vertices of INPUT were doubled.
 void write_eigenpairs(const Output_files& files, const std::string& folder, const Both_meshes& meshes,
@@ -256,7 +296,11 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   run.seconds = result.seconds_collapse;
   run.seconds_eigenpairs = result.seconds_eigenpairs;
   run.note = result.explanation;
-  Comparison comparison = single_run(*report.evaluation, std::move(run));
+  Comparison comparison = single_run(*report.evaluation, run);
+  if(report.fitted) {
+    run.simplifier += ", fitted operators";
+    comparison.results.push_back(single_run(report.fitted->evaluation, std::move(run)).results.front());
+  }
   comparison.command = a.command;
   comparison.mesh = std::filesystem::path(a.input).filename().string();
   comparison.vertices = result.input_vertices;
@@ -273,6 +317,16 @@ void write_evaluation(const Output_files& files, const Arguments& a, const Mesh&
 {
   if(!a.eigenpairs.empty())
     write_eigenpairs(files, a.eigenpairs, meshes, numbering, report.result);
+  if(report.fitted) {
+    const auto path = [&a](const std::string& name) { return a.fit_operators + "/" + name; };
+    write_matrix_market(files.temporary(path("L.mtx")), report.fitted->fit.op.L, path("L.mtx"));
+    write_matrix_market(files.temporary(path("mass.mtx")), report.fitted->fit.op.B, path("mass.mtx"));
+    const Eigen::Index K = meshes.fine_pairs->size();
+    const Eigen::VectorXd values = report.fitted->pairs.values.head(K);
+    const Eigen::MatrixXd vectors = report.fitted->pairs.vectors.leftCols(K);
+    write_npy(files.temporary(path("eigenvalues.npy")), values, path("eigenvalues.npy"));
+    write_npy(files.temporary(path("eigenvectors.npy")), vectors, path("eigenvectors.npy"));
+  }
   if(!a.report.empty()) {
     std::ofstream stream(files.temporary(a.report));
     stream << page(a, mesh, meshes, report);
@@ -324,11 +378,6 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
     levels.push_back(level);
   }
   return levels;
-}
-
-double seconds_since(const std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // How well the spectrum was kept.
@@ -395,10 +444,14 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   try {
     if(!a.no_evaluation && !interrupted) {
       evaluate(report, a, meshes, mass, bar);
+      if(!a.fit_operators.empty())
+        report.fitted = fit(a, meshes, report.result.restriction, mass, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);
       written.push_back(a.report);
       for(const std::string name : eigenpairs_files)
         written.push_back(a.eigenpairs + "/" + name);
+      for(const std::string name : fitted_files)
+        written.push_back(a.fit_operators + "/" + name);
     }
     write_json(files, a, report);
     files.commit(written);

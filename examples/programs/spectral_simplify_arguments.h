@@ -39,13 +39,17 @@ struct Arguments
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
        strict = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
+  std::string fit_operators;                                                      // the same
+  std::string fit_mass;                                                           // empty: as the mass has it
+  int fit_rings = 1;
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
   std::string help;    // the text, if it was asked for
 
   bool wants_matrices() const
   {
-    return !(restriction.empty() && prolongation.empty() && map.empty() && eigenpairs.empty());
+    return !(restriction.empty() && prolongation.empty() && map.empty() && eigenpairs.empty() &&
+             fit_operators.empty());
   }
 };
 
@@ -148,6 +152,15 @@ inline boost::program_options::options_description described(Arguments& a)
       "write {fine,coarse}_{eigenvalues,eigenvectors}.npy, {fine,coarse}_{L,mass}.mtx and C.npy, all at the "
       "scale "
       "of the meshes as they are");
+  add("fit-operators", text(a.fit_operators, "DIR"),
+      "choose the entries of a Laplacian and a mass on OUTPUT's edges so that they have INPUT's spectrum as "
+      "nearly as they can, and "
+      "write L.mtx, mass.mtx, eigenvalues.npy and eigenvectors.npy: for functional maps and spectral "
+      "distances");
+  add("fit-mass", text(a.fit_mass, "diagonal|edges"),
+      "where the fitted mass has entries (lumped mass: diagonal, averaged: edges)");
+  add("fit-rings", po::value(&a.fit_rings)->value_name("1|2")->default_value(a.fit_rings),
+      "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings");
   add("json", text(a.json, "out.json"), "write the figures of the table and more");
   add("report", text(a.report, "report.html"),
       "write a page with the figures, the functional map and the eigenvalues");
@@ -212,6 +225,7 @@ inline void check(const Arguments& a)
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
   check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});
   check_choice("--on-interrupt", a.on_interrupt, {"discard", "write"});
+  check_choice("--fit-mass", a.fit_mass, {"diagonal", "edges"});
   check_choice("--flips", a.flips, {"none", "spectral", "delaunay"});
   if(a.shape && !(*a.shape >= 0 && std::isfinite(*a.shape)))
     refuse("--shape is " + shown(*a.shape) + ", it must be a number from 0.");
@@ -222,6 +236,12 @@ inline void check(const Arguments& a)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be positive.");
   if(a.no_evaluation && !a.eigenpairs.empty())
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
+  if(a.no_evaluation && !a.fit_operators.empty())
+    refuse("--fit-operators uses what the evaluation computes: leave out --no-evaluation.");
+  if(a.fit_operators.empty() && (!a.fit_mass.empty() || a.fit_rings != 1))
+    refuse("--fit-mass and --fit-rings belong to --fit-operators.");
+  if(a.fit_rings != 1 && a.fit_rings != 2)
+    refuse("--fit-rings is " + std::to_string(a.fit_rings) + ", it must be 1 or 2.");
   if(a.no_evaluation && !a.report.empty())
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
   if(!a.repaired.empty() && !a.repair)

@@ -8,6 +8,8 @@
 #include "io/mesh_repair.h"
 #include "io/program.h"
 
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -22,10 +24,21 @@
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
 
+// Operators fitted to the fine spectrum, and how they are judged.
+struct Fitted_operators
+{
+  CGAL::Spectral_geometry::Operator_fit_options options;
+  CGAL::Spectral_geometry::Operator_fit_result fit;
+  CGAL::Spectral_geometry::Eigenpairs pairs; // 1.1 K
+  CGAL::Spectral_geometry::Spectral_evaluation evaluation;
+  double seconds = 0; // of the fit
+};
+
 struct Simplification_report
 {
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result result;
   std::optional<CGAL::Spectral_geometry::Spectral_evaluation> evaluation;
+  std::optional<Fitted_operators> fitted;
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset;
@@ -51,6 +64,24 @@ inline void print_norm(const char* name, double norm, double floor)
   std::printf("\n");
 }
 
+// Where fitted operators have entries.
+inline const char* mass_pattern_name(const CGAL::Spectral_geometry::Operator_fit_options& options)
+{
+  return options.mass == CGAL::Spectral_geometry::Operator_fit_options::Mass_pattern::diagonal ? "diagonal"
+                                                                                               : "edges";
+}
+
+inline void print_errors(const CGAL::Spectral_geometry::Spectral_evaluation& e)
+{
+  if(e.errors.modes > 0) {
+    std::printf("  eigenvalue error, mean    %8.2f %%\n", 100 * e.errors.mean);
+    std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
+  }
+  if(e.errors_low.modes > 0)
+    std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n", static_cast<int>(e.judged_modes / 5),
+                100 * e.errors_low.mean);
+}
+
 inline void print_table(const Simplification_report& r)
 {
   std::printf("%s, %zu vertices -> %s, %zu vertices (%s)\n\n", printable(r.input).c_str(),
@@ -61,14 +92,16 @@ inline void print_table(const Simplification_report& r)
     std::printf("  %d eigenvectors, %s mass, unit area\n", static_cast<int>(e.judged_modes), e.mass.c_str());
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
     print_norm("|C|_D", e.norm_D, e.floor_norm_D);
-    if(e.errors.modes > 0) {
-      std::printf("  eigenvalue error, mean    %8.2f %%\n", 100 * e.errors.mean);
-      std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
-    }
-    if(e.errors_low.modes > 0)
-      std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n", static_cast<int>(e.judged_modes / 5),
-                  100 * e.errors_low.mean);
+    print_errors(e);
     std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
+  }
+  if(r.fitted) {
+    std::printf("  fitted operators, %d ring%s, mass: %s\n", r.fitted->options.rings,
+                r.fitted->options.rings == 1 ? "" : "s", mass_pattern_name(r.fitted->options));
+    print_norm("|C|_L", r.fitted->evaluation.norm_L, 0);
+    print_norm("|C|_D", r.fitted->evaluation.norm_D, 0);
+    print_errors(r.fitted->evaluation);
+    std::printf("\n");
   }
   std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
               r.result.relative_error);
@@ -92,6 +125,8 @@ inline void print_table(const Simplification_report& r)
   std::printf("  writing                   %8.2f s\n", r.seconds_writing);
   std::printf("  total                     %8.2f s\n",
               r.seconds_reading + r.result.seconds_total + r.seconds_writing);
+  if(r.fitted)
+    std::printf("  fit, not in total         %8.2f s\n", r.fitted->seconds);
   if(r.evaluation)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
 }
@@ -120,9 +155,33 @@ inline nlohmann::json relocation_json(const Simplification_report& r)
 }
 
 // Numbers that were not computed are null.
+inline nlohmann::json number_json(const double x)
+{
+  return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
+}
+
+// All of them null where nothing was evaluated.
+inline nlohmann::json evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
+{
+  const CGAL::Spectral_geometry::Spectral_evaluation none, &e = evaluation != nullptr ? *evaluation : none;
+  const auto number = [&](const double x) {
+    return evaluation != nullptr ? number_json(x) : nlohmann::json();
+  };
+  return {{"norm_L", number(e.norm_L)},
+          {"norm_D", number(e.norm_D)},
+          {"norm_L_input_scale", number(e.norm_L_input_scale)},
+          {"norm_D_extended", number(e.norm_D_extended)},
+          {"floor_norm_L", number(e.floor_norm_L)},
+          {"floor_norm_D", number(e.floor_norm_D)},
+          {"eigenvalue_error_mean", number(e.errors.mean)},
+          {"eigenvalue_error_max", number(e.errors.max)},
+          {"eigenvalue_error_low_mean", number(e.errors_low.mean)},
+          {"eigenvalue_error_input_scale_mean", number(e.errors_input_scale.mean)},
+          {"area_ratio", number(e.area_ratio)}};
+}
+
 inline nlohmann::json to_json(const Simplification_report& r)
 {
-  const auto number = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(); };
   nlohmann::json json = {
       {"input_vertices", r.result.input_vertices},
       {"output_vertices", r.result.output_vertices},
@@ -133,14 +192,14 @@ inline nlohmann::json to_json(const Simplification_report& r)
       {"shape", r.options.shape},
       {"keep_free_of_self_intersections", r.options.keep_free_of_self_intersections},
       {"binary", r.options.binary},
-      {"max_error", number(r.options.maximum_error)},
+      {"max_error", number_json(r.options.maximum_error)},
       {"kept_vertices", r.options.kept_vertices.size()},
       {"signals", r.options.signals.cols()},
       {"flips", edge_flips_name(r.options.flips)},
       {"flipped_edges", r.result.flips.flips.size()},
       {"relocation", relocation_json(r)},
       {"levels", r.levels},
-      {"relative_error", number(r.result.relative_error)},
+      {"relative_error", number_json(r.result.relative_error)},
       {"seconds_reading", r.seconds_reading},
       {"seconds_writing", r.seconds_writing},
       {"seconds_pre_simplification", r.result.seconds_pre_simplification},
@@ -153,26 +212,21 @@ inline nlohmann::json to_json(const Simplification_report& r)
       {"repairs", nlohmann::json::object()}};
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count
-  for(const char* name :
-      {"norm_L", "norm_D", "norm_L_input_scale", "norm_D_extended", "floor_norm_L", "floor_norm_D",
-       "eigenvalue_error_mean", "eigenvalue_error_max", "eigenvalue_error_low_mean",
-       "eigenvalue_error_input_scale_mean", "area_ratio", "seconds_evaluation"})
-    json[name] = nullptr;
-  if(r.evaluation) {
-    const auto& e = *r.evaluation;
-    json["norm_L"] = number(e.norm_L);
-    json["norm_D"] = number(e.norm_D);
-    json["norm_L_input_scale"] = number(e.norm_L_input_scale);
-    json["norm_D_extended"] = number(e.norm_D_extended);
-    json["floor_norm_L"] = number(e.floor_norm_L);
-    json["floor_norm_D"] = number(e.floor_norm_D);
-    json["eigenvalue_error_mean"] = number(e.errors.mean);
-    json["eigenvalue_error_max"] = number(e.errors.max);
-    json["eigenvalue_error_low_mean"] = number(e.errors_low.mean);
-    json["eigenvalue_error_input_scale_mean"] = number(e.errors_input_scale.mean);
-    json["area_ratio"] = number(e.area_ratio);
-    json["seconds_evaluation"] = r.seconds_evaluation;
-  }
+  json.update(evaluation_json(r.evaluation ? &*r.evaluation : nullptr));
+  json["seconds_evaluation"] = r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
+  if(r.fitted) {
+    json["fitted"] = evaluation_json(&r.fitted->evaluation);
+    json["fitted"].update({{"mass_pattern", mass_pattern_name(r.fitted->options)},
+                           {"rings", r.fitted->options.rings},
+                           {"unknowns", r.fitted->fit.unknowns},
+                           {"at_bound", r.fitted->fit.at_bound},
+                           {"iterations", r.fitted->fit.iterations},
+                           {"converged", r.fitted->fit.converged},
+                           {"objective_before", r.fitted->fit.objective_before},
+                           {"objective_after", r.fitted->fit.objective_after},
+                           {"seconds", r.fitted->seconds}});
+  } else
+    json["fitted"] = nullptr;
   return json;
 }
 

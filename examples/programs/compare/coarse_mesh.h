@@ -43,6 +43,7 @@ struct Simplifier
   std::function<Coarse_mesh(const Mesh& fine, std::size_t N)> run;
   std::string relocation = "none"; // by which signals vertices are moved afterwards
   double shape = 0;                // weight of the shape term
+  bool fits_operators = false;     // a row with operators fitted to the fine spectrum follows
 };
 
 // The basis that the policies compute when they are given none: their own accuracy, not that of the judge.

@@ -146,7 +146,8 @@ Simplifier spectral(const std::string& name, Options options, const Basis& basis
           basis.seconds,
           [options](const Mesh& fine, std::size_t N) { return simplify_spectrally(fine, N, options); },
           options.relocate ? SG::relocation_signals_name(options.relocation.signals) : "none",
-          options.shape};
+          options.shape,
+          false};
 }
 
 // The presets, in the mass of each, and what lies between them.
@@ -165,8 +166,10 @@ std::vector<Simplifier> spectral_simplifiers(const Mesh& fine, const Basis& basi
   const bool averaged = basis.mass == SG::Mass::averaged;
   const Options paper = Options::paper();
   Options best = Options::best();
-  if(averaged)
+  if(averaged) {
     add("spectral, best", best);
+    result.back().fits_operators = true;
+  }
   if(averaged && !CGAL::is_closed(fine)) {
     Options border = best;
     border.preserve_border = true;
