@@ -523,6 +523,16 @@ TEST_CASE("Options that cannot be used are refused in a sentence that names them
   CHECK_THROWS_WITH(Policies(mesh, options), ContainsSubstring(text));
 }
 
+TEST_CASE("Policies take their own eigenpairs back where all triangles are thin")
+{
+  shapes::Matrices input = wavy_grid_matrices(12, 10);
+  input.V.col(0) *= 1e6;
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(8);
+  options.eigenpairs = Policies(mesh, options).eigenpairs();
+  CHECK_NOTHROW(Policies(mesh, options));
+}
+
 TEST_CASE("Meshes that cannot be used are refused by the name of the first offender")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));

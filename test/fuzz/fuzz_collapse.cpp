@@ -391,13 +391,6 @@ std::string fault_of_kept(const Mesh& mesh, const Policies& policies, const shap
   return "";
 }
 
-// Needles leave them rough, by a measure that is not the solver's.
-bool pairs_are_refused(const shapes::Matrices& fine, const SG::Eigenpairs& pairs, const SG::Mass mass)
-{
-  const SG::Laplace_operator op = SG::laplace_operator(fine.V, fine.T, SG::mass_blend(mass));
-  return !(SMS::internal::spectral_residuals(op, pairs).maxCoeff() < 1e-3);
-}
-
 std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagnosis& diagnosis,
                               SMS::Spectral_edge_collapse_options options, const std::size_t N, Bytes& bytes)
 {
@@ -419,8 +412,7 @@ std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagn
   auto handles = std::make_unique<Handles>(Policies(*policies), handling, tracker);
   std::string fault = fault_of_moves(policies, handling);
   if(handling.does(Handling::others)) {
-    // Those of meshes with needles are refused, and found again.
-    if(policies->eigenpairs() && !pairs_are_refused(fine, *policies->eigenpairs(), options.mass))
+    if(policies->eigenpairs())
       options.eigenpairs = policies->eigenpairs();
     others = std::make_unique<Policies>(*mesh, options);
   }
