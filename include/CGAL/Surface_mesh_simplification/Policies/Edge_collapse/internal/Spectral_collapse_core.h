@@ -51,6 +51,7 @@ class Spectral_collapse_core
 {
 public:
   Spectral_collapse_core();
+  Spectral_collapse_core(Spectral_collapse_core&&);
   ~Spectral_collapse_core();
 
   /// `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.

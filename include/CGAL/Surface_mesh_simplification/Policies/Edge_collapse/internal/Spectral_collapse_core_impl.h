@@ -60,6 +60,7 @@ inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const S
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core() = default;
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = default;
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() = default;
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
