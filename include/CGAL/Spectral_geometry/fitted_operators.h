@@ -38,17 +38,18 @@ struct Operator_fit_options
   double orthonormality = 0.01;
   /// eta: weight of the whole residual beside the part of it that the functional map sees, the projection on the restricted
   /// eigenvectors. Less lowers \f$ \|C\|_L \f$, more keeps the modes beyond K; from 0.
-  double plain = 0.3;
+  double plain = 0.2;
   /// tau: weight of the mean squared change of an entry, relative to the entry and a typical one. Positive: it alone decides on
   /// what the eigenvectors do not.
   double tie = 0.05;
-  /// No weight of an edge falls below this part of its own, nor this part of the median one. In ]0, 1].
+  /// No weight of an edge falls below this part of its own, nor of a twentieth of the median one: what keeps each component
+  /// together. In ]0, 1].
   double smallest_weight = 0.02;
-  /// No diagonal mass of a vertex falls below this part of its own. In ]0, 1].
+  /// No b_v falls below this part of the vertex' own row sum, or of a thousandth of the mean one where that is more. In ]0, 1].
   double smallest_mass = 0.01;
 
-  /// Ends when the objective is known to this part of itself. In ]0, 1[.
-  double tolerance = 0.01;
+  /// Ends when gap and Newton decrement are below this part of the objective. In ]0, 1[.
+  double tolerance = 0.05;
   /// Ends after so many iterations, each of one factorisation and a few products; from 0.
   int maximum_iterations = 30;
   /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns false to cancel.
@@ -95,14 +96,15 @@ a penalty that leaves little to do).
 
 This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the own entries on, each step by
 conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky factor of the sparse normal matrix of the second term
-preconditions. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is inside of the bounds, and not
+preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is inside of the bounds, and not
 worse than the own entries.
 
 @param coarse operator of the coarse mesh. What is off the diagonal of L gives pattern and start, B likewise; the mass gives D
   and the total
 @param P      restriction, coarse x fine
 @param fine   operator of the fine mesh, of which the area is taken
-@param fine_pairs its eigenpairs, orthonormal in its mass. With a third more of them than are to be judged the modes beyond gain, too
+@param fine_pairs its eigenpairs, orthonormal in its mass. With a fifth more of them than are to be judged the modes beyond, and
+  \f$ \|C\|_D \f$, gain more
 @param options weights, bounds, pattern, when to stop
 
 Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do not belong together, a number

@@ -125,13 +125,19 @@ public:
     c->supernodal = positive_definite ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     c->final_ll = positive_definite;
     m_factor = cholmod_analyze(&view, c);
-    m_ok = m_factor != nullptr && cholmod_factorize(&view, m_factor, c) && c->status == CHOLMOD_OK &&
-           m_factor->minor == m_factor->n;
-    m_status = c->status;
+    factorise(view);
   }
   ~Cholmod_factor() { cholmod_free_factor(&m_factor, m_context.common()); }
   Cholmod_factor(const Cholmod_factor&) = delete;
   Cholmod_factor& operator=(const Cholmod_factor&) = delete;
+
+  // Another matrix with the entries of the first in the same places: the ordering is kept.
+  void refactorise(const Sparse_matrix& A)
+  {
+    const Sparse_matrix lower = A.triangularView<Eigen::Lower>();
+    cholmod_sparse view = cholmod_view(lower);
+    factorise(view);
+  }
 
   bool ok() const { return m_ok; }
   int status() const { return m_status; }
@@ -150,6 +156,14 @@ public:
   }
 
 private:
+  void factorise(cholmod_sparse& view)
+  {
+    cholmod_common* c = m_context.common();
+    m_ok = m_factor != nullptr && cholmod_factorize(&view, m_factor, c) && c->status == CHOLMOD_OK &&
+           m_factor->minor == m_factor->n;
+    m_status = c->status;
+  }
+
   Cholmod_context m_context;
   cholmod_factor* m_factor = nullptr;
   bool m_ok = false;
@@ -167,17 +181,24 @@ public:
     : m_n(A.rows())
 #ifdef CGAL_SPECTRAL_WITH_CHOLMOD
     , m_factor(A, true)
-  {
-    if(!m_factor.ok())
-      factorisation_failed(m_factor.status());
-  }
-#else
-  {
-    m_llt.compute(A);
-    if(m_llt.info() != Eigen::Success)
-      factorisation_failed();
-  }
 #endif
+  {
+#ifndef CGAL_SPECTRAL_WITH_CHOLMOD
+    m_llt.compute(A);
+#endif
+    check();
+  }
+
+  // Another matrix with the entries of the first in the same places.
+  void refactorise(const Sparse_matrix& A)
+  {
+#ifdef CGAL_SPECTRAL_WITH_CHOLMOD
+    m_factor.refactorise(A);
+#else
+    m_llt.factorize(A);
+#endif
+    check();
+  }
 
   static std::string name()
   {
@@ -204,6 +225,17 @@ public:
   }
 
 private:
+  void check() const
+  {
+#ifdef CGAL_SPECTRAL_WITH_CHOLMOD
+    if(!m_factor.ok())
+      factorisation_failed(m_factor.status());
+#else
+    if(m_llt.info() != Eigen::Success)
+      factorisation_failed();
+#endif
+  }
+
   Eigen::Index m_n;
 #ifdef CGAL_SPECTRAL_WITH_CHOLMOD
   Cholmod_factor m_factor;

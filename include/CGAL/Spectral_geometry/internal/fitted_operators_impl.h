@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -140,7 +141,7 @@ public:
     assemble_normal_matrix();
   }
 
-  Operator_fit_result run() const
+  Operator_fit_result run()
   {
     Operator_fit_result result;
     const Index n = m_start.size(), nL = m_stiffness.size();
@@ -354,27 +355,33 @@ private:
     return f;
   }
 
-  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta + 1/10) H + tie + barrier + penalty;
-  // returns the square of that norm of r.
-  double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx) const
+  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta + 1/10) H + tie + barrier +
+  // penalty; returns the square of that norm of r.
+  double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx)
   {
-    Sparse_matrix M = (m_options.plain + 0.1) * m_H;
-    M.diagonal() += m_tie + barrier;
-    Cholesky cholesky(M);
-    Vector Mc(r.size()), y(r.size()), q, p;
-    cholesky.solve(m_total, Mc);
-    const double rank_one = penalty / (1. + penalty * m_total.dot(Mc));
+    Vector y(r.size()), q, p;
+    if(m_steps > 5) { // products are cheaper than a factorisation
+      Sparse_matrix M = (m_options.plain + 0.1) * m_H;
+      M.diagonal() += m_tie + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
+      if(m_cholesky)
+        m_cholesky->refactorise(M);
+      else
+        m_cholesky = std::make_unique<Cholesky>(M);
+      m_solved_total.resize(r.size());
+      m_cholesky->solve(m_total, m_solved_total);
+      m_rank_one = penalty / (1. + penalty * m_total.dot(m_solved_total));
+    }
     dx = Qdx = Vector::Zero(r.size());
     double first = 0., last = 0.;
-    for(int k = 0; k < 20; ++k) {
-      cholesky.solve(r, y);
-      y -= (rank_one * m_total.dot(y)) * Mc;
+    for(m_steps = 0; m_steps < 20; ++m_steps) {
+      m_cholesky->solve(r, y);
+      y -= (m_rank_one * m_total.dot(y)) * m_solved_total;
       const double next = r.dot(y);
-      if(k == 0)
+      if(m_steps == 0)
         first = next;
       if(!(next > 0.01 * first))
         break;
-      p = k == 0 ? y : Vector(y + (next / last) * p);
+      p = m_steps == 0 ? y : Vector(y + (next / last) * p);
       last = next;
       evaluate(p, false, q);
       const Vector Mp = q + barrier.cwiseProduct(p);
@@ -401,6 +408,10 @@ private:
   Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie;
   Rank_one_terms m_stiffness, m_mass;
   Sparse_matrix m_H;
+  std::unique_ptr<Cholesky> m_cholesky; // of a recent preconditioner
+  Vector m_solved_total;                // its solution for m_total
+  double m_rank_one = 0.;
+  int m_steps = 1000; // of conjugate gradients, the last time
 };
 
 inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
