@@ -71,6 +71,22 @@ runs "what overrides the preset" shape.off a.off --vertices 250 --eigenvectors 2
 runs "the paper's preset" shape.off b.off --vertices 250 --eigenvectors 25 --preset paper
 cmp -s a.off b.off || fail "the paper's preset is not what its options are"
 
+runs "fitted operators" shape.off a.off --vertices 250 --eigenvectors 25 --fit-operators fitted --json fit.json
+for file in L.mtx mass.mtx; do
+  grep -q '^250 250 ' "fitted/$file" || fail "fitted/$file is not 250 x 250"
+done
+for file in eigenvalues.npy eigenvectors.npy; do
+  [ -s "fitted/$file" ] || fail "no fitted/$file"
+done
+grep -q 'fitted operators, 1 ring, mass: edges' said || fail "no fitted operators in the table"
+of_both() { sed -n "s/^$1\"norm_L\": \([0-9.e+-]*\).*/\1/p" fit.json; }
+awk "BEGIN { exit !($(of_both '    ') < 0.8 * $(of_both '  ')) }" ||
+  fail "the fit has |C|_L $(of_both '    '), the mesh itself $(of_both '  ')"
+runs "a diagonal fit on two rings" shape.off b.off --vertices 250 --eigenvectors 25 --fit-operators fitted --fit-mass diagonal \
+  --fit-rings 2 --report fit.html
+[ "$(sed -n '/^250 250 /s/.* //p' fitted/mass.mtx)" = 250 ] || fail "the mass of a diagonal fit has entries off the diagonal"
+grep -q 'fitted operators' fit.html || fail "no fitted operators in the report"
+
 runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
 runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
 cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"
@@ -247,6 +263,9 @@ refuses "an unknown relocation" "--relocate is 'much'" shape.off out.off --verti
 refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --flips up
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
+refuses "a fit without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --fit-operators d
+refuses "how to fit what is not asked for" "belong to --fit-operators" shape.off out.off --vertices 200 --fit-mass diagonal
+refuses "three rings" "--fit-rings is 3" shape.off out.off --vertices 200 --fit-operators d --fit-rings 3
 refuses "pairs without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --eigenpairs d
 refuses "unknown output format" "'out.xyz' is unknown" shape.off out.xyz --vertices 200
 refuses "unknown input format" "'shape' is unknown" shape out.off --vertices 200

@@ -246,9 +246,10 @@ private:
       options.mass = reference.op.theta == 0 ? SG::Operator_fit_options::Mass_pattern::diagonal
                                              : SG::Operator_fit_options::Mass_pattern::edges;
       options.progress = [](double) { return !interrupted; };
-      SG::Eigenpairs pairs = reference.pairs;
-      pairs.values = reference.pairs.values.head(reference.K).eval();
-      pairs.vectors = reference.pairs.vectors.leftCols(reference.K).eval();
+      const Eigen::Index fitted = (std::min)(reference.K + reference.K / 5, reference.pairs.size());
+      SG::Eigenpairs pairs; // a fifth more than are judged, for the sake of the modes beyond
+      pairs.values = reference.pairs.values.head(fitted);
+      pairs.vectors = reference.pairs.vectors.leftCols(fitted);
       const auto begin = std::chrono::steady_clock::now();
       candidate.op = SG::fit_operators(SG::laplace_operator(matrices.V, matrices.T, reference.op.theta),
                                        candidate.restriction(), reference.op, pairs, options)

@@ -59,10 +59,10 @@ public:
     m_entries = {};
   }
 
-  // y = d_a^T G
+  // y = d_a^T G, with room for it
   void row(Index a, const Rows& G, Row& y) const
   {
-    y.setZero(G.cols());
+    y.setZero();
     for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
       y += d.value() * G.row(d.col());
   }
@@ -71,7 +71,7 @@ public:
   Rows times(const Vector& x, const Rows& G) const
   {
     Rows result = Rows::Zero(G.rows(), G.cols());
-    Row y;
+    Row y(G.cols());
     for(Index a = 0; a < size(); ++a) {
       row(a, G, y);
       for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
@@ -84,7 +84,7 @@ public:
   Vector derivatives(const Rows& R, const Rows& G) const
   {
     Vector result(size());
-    Row y, z;
+    Row y(G.cols()), z(G.cols());
     for(Index a = 0; a < size(); ++a) {
       row(a, G, y);
       row(a, R, z);
@@ -302,7 +302,7 @@ private:
                              of_mass = -of_stiffness.cwiseProduct(m_lambda.transpose());
     std::vector<Eigen::Triplet<double>> lower;
     std::vector<Index> unknowns;
-    Eigen::RowVectorXd y;
+    Eigen::RowVectorXd y(m_G.cols());
     for(Index v = 0; v < m_G.rows(); ++v) {
       Rows A(DL.col(v).nonZeros() + DB.col(v).nonZeros(), m_G.cols());
       unknowns.clear();
@@ -437,20 +437,21 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
               size(pairs.vectors.rows(), pairs.vectors.cols()) +
               ", pass the operator and at least one eigenpair of the fine mesh.");
   for(Eigen::Index v = 0; v < N; ++v)
-    require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)),
-            "the mass of " + vertex_name(v) + " of the coarse mesh is not a positive number.");
+    if(!(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v))))
+      require(false, "the mass of " + vertex_name(v) + " of the coarse mesh is not a positive number.");
   const double area = fine.mass.sum();
   require(area > 0. && std::isfinite(area), "the area of the fine mesh is not a positive number.");
+  const double rounding = 1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
   for(Eigen::Index k = 0; k < K; ++k)
-    require(pairs.values(k) >= 0. && std::isfinite(pairs.values(k)) && pairs.vectors.col(k).allFinite(),
-            "eigenpair " + std::to_string(k) +
-                " (counted from 0) has a number that is negative or not finite.");
+    if(!(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) && pairs.vectors.col(k).allFinite()))
+      require(false, "eigenpair " + std::to_string(k) +
+                         " (counted from 0) has a number that is negative or not finite.");
   const auto check_entries = [&](const Eigen::SparseMatrix<double>& A, const char* name) {
     for(Eigen::Index j = 0; j < A.outerSize(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
-        require(std::isfinite(it.value()), std::string("entry ") + std::to_string(it.row()) + ", " +
-                                               std::to_string(it.col()) + " (counted from 0) of " + name +
-                                               " is not a finite number.");
+        if(!std::isfinite(it.value()))
+          require(false, std::string("entry ") + std::to_string(it.row()) + ", " + std::to_string(it.col()) +
+                             " (counted from 0) of " + name + " is not a finite number.");
   };
   check_entries(P, "P");
   check_entries(coarse.L, "the coarse L");
@@ -476,7 +477,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
   internal::check_operator_fit(coarse, P, fine, fine_pairs, options);
   const double area = fine.mass.sum();
   const Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
-  Operator_fit_result result = internal::Operator_fit(coarse, G, area * fine_pairs.values, options).run();
+  Operator_fit_result result =
+      internal::Operator_fit(coarse, G, area * fine_pairs.values.cwiseMax(0.), options).run();
   result.op.theta = options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
   return result;
 }
