@@ -84,7 +84,7 @@ awk "BEGIN { exit !($(of_both '    ') < 0.8 * $(of_both '  ')) }" ||
   fail "the fit has |C|_L $(of_both '    '), the mesh itself $(of_both '  ')"
 runs "a diagonal fit on two rings" shape.off b.off --vertices 250 --eigenvectors 25 --fit-operators fitted --fit-mass diagonal \
   --fit-rings 2 --report fit.html
-[ "$(sed -n '/^250 250 /s/.* //p' fitted/mass.mtx)" = 250 ] || fail "the mass of a diagonal fit has entries off the diagonal"
+[ "$(sed -n '2s/.* //p' fitted/mass.mtx)" = 250 ] || fail "the mass of a diagonal fit has entries off the diagonal"
 grep -q 'fitted operators' fit.html || fail "no fitted operators in the report"
 
 runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx

@@ -9,7 +9,6 @@
 #include <CGAL/exceptions.h>
 
 #include <boost/functional/hash.hpp>
-#include <boost/iterator/counting_iterator.hpp>
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -42,12 +41,12 @@ void close_edges(const Polygon_soup& soup, Mended& mended)
       if(soup.points[v] == soup.points[w])
         sets.union_set(v, w);
     }
-  sets.normalize_sets(
-      boost::counting_iterator<std::size_t>(0),
-      boost::counting_iterator<std::size_t>(soup.points.size())); // the first stands for the others
   std::size_t merged = 0;
+  std::vector<std::size_t> first_of(mended.vertex.size(), mended.vertex.size()); // by representatives
   for(std::size_t v = 0; v < mended.vertex.size(); ++v) {
-    mended.vertex[v] = sets.find_set(v);
+    std::size_t& first = first_of[sets.find_set(v)];
+    first = (std::min)(first, v);
+    mended.vertex[v] = first;
     merged += mended.vertex[v] != v;
   }
   for(auto& p : mended.polygons) {

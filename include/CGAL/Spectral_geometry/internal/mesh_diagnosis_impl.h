@@ -7,7 +7,6 @@
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
-#include <boost/iterator/counting_iterator.hpp>
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
@@ -275,21 +274,20 @@ private:
   void collect_components()
   {
     boost::disjoint_sets_with_storage<> sets(m_n);
-    std::vector<std::size_t> component(m_n, std::size_t(-1));
+    std::vector<bool> has_face(m_n, false); // by representatives
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
       for(std::size_t i = 1; m_sound[f] && i < m_polygons[f].size(); ++i)
         sets.union_set(m_polygons[f][0], m_polygons[f][i]);
-    sets.normalize_sets(boost::counting_iterator<std::size_t>(0),
-                        boost::counting_iterator<std::size_t>(m_n)); // by first vertices
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
       if(m_sound[f])
-        component[sets.find_set(m_polygons[f][0])] = 0;
+        has_face[sets.find_set(m_polygons[f][0])] = true;
+    std::vector<std::size_t> component(m_n, std::size_t(-1)); // the same
     for(std::size_t v = 0; v < m_n; ++v) {
       const std::size_t root = sets.find_set(v);
-      if(component[root] == std::size_t(-1)) // isolated
+      if(!has_face[root]) // isolated
         continue;
-      if(root == v) {
-        component[v] = m_result.components.size();
+      if(component[root] == std::size_t(-1)) {
+        component[root] = m_result.components.size();
         m_result.components.emplace_back();
         m_result.components.back().first = v;
       }
