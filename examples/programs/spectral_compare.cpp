@@ -231,8 +231,8 @@ private:
     }
   }
 
-  // The same mesh with operators that have the fine spectrum as nearly as its edges allow, the mass on the diagonal where it is
-  // lumped. Figures of the shape are those of the row before.
+  // The same mesh with operators that have the fine spectrum as nearly as its edges allow, or, with a mass on the diagonal where it
+  // is lumped, two rings. Figures of the shape are those of the row before.
   void judge_fitted(const Coarse_mesh& coarse, Simplified row)
   {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
@@ -245,6 +245,7 @@ private:
       SG::Operator_fit_options options;
       options.mass = reference.op.theta == 0 ? SG::Operator_fit_options::Mass_pattern::diagonal
                                              : SG::Operator_fit_options::Mass_pattern::edges;
+      options.rings = reference.op.theta == 0 ? 2 : 1;
       options.progress = [](double) { return !interrupted; };
       const Eigen::Index fitted = (std::min)(reference.K + reference.K / 5, reference.pairs.size());
       SG::Eigenpairs pairs; // a fifth more than are judged, for the sake of the modes beyond

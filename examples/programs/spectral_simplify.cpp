@@ -231,10 +231,11 @@ Fitted_operators fit(const Arguments& a, const Both_meshes& meshes, const Eigen:
     return !interrupted;
   };
   Fitted_operators result;
-  result.options.rings = a.fit_rings;
   result.options.mass = a.fit_mass == "diagonal" || (a.fit_mass.empty() && mass == SG::Mass::lumped)
                             ? Mass_pattern::diagonal
                             : Mass_pattern::edges;
+  // On edges alone a diagonal mass is at the expense of the low modes.
+  result.options.rings = a.fit_rings ? *a.fit_rings : result.options.mass == Mass_pattern::diagonal ? 2 : 1;
   result.options.progress = progress;
   SG::Eigenpairs_options options;
   options.progress = progress;

@@ -41,7 +41,7 @@ struct Arguments
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string fit_operators;                                                      // the same
   std::string fit_mass;                                                           // empty: as the mass has it
-  int fit_rings = 1;
+  std::optional<int> fit_rings;                                                   // the same
   std::string keep, signals, on_interrupt = "discard";
   std::string command; // as it was typed
   std::string help;    // the text, if it was asked for
@@ -159,8 +159,9 @@ inline boost::program_options::options_description described(Arguments& a)
       "distances");
   add("fit-mass", text(a.fit_mass, "diagonal|edges"),
       "where the fitted mass has entries (lumped mass: diagonal, averaged: edges)");
-  add("fit-rings", po::value(&a.fit_rings)->value_name("1|2")->default_value(a.fit_rings),
-      "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings");
+  add("fit-rings", po::value<int>()->value_name("1|2"),
+      "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings (mass on edges: 1, "
+      "diagonal: 2)");
   add("json", text(a.json, "out.json"), "write the figures of the table and more");
   add("report", text(a.report, "report.html"),
       "write a page with the figures, the functional map and the eigenvalues");
@@ -238,10 +239,10 @@ inline void check(const Arguments& a)
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
   if(a.no_evaluation && !a.fit_operators.empty())
     refuse("--fit-operators uses what the evaluation computes: leave out --no-evaluation.");
-  if(a.fit_operators.empty() && (!a.fit_mass.empty() || a.fit_rings != 1))
+  if(a.fit_operators.empty() && (!a.fit_mass.empty() || a.fit_rings))
     refuse("--fit-mass and --fit-rings belong to --fit-operators.");
-  if(a.fit_rings != 1 && a.fit_rings != 2)
-    refuse("--fit-rings is " + std::to_string(a.fit_rings) + ", it must be 1 or 2.");
+  if(a.fit_rings && *a.fit_rings != 1 && *a.fit_rings != 2)
+    refuse("--fit-rings is " + std::to_string(*a.fit_rings) + ", it must be 1 or 2.");
   if(a.no_evaluation && !a.report.empty())
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
   if(!a.repaired.empty() && !a.repair)
@@ -273,6 +274,7 @@ inline Arguments parse_arguments(int argc, char* argv[])
   a.ratio = arguments_internal::optional_value<double>(values, "ratio");
   a.shape = arguments_internal::optional_value<double>(values, "shape");
   a.max_error = arguments_internal::optional_value<double>(values, "max-error");
+  a.fit_rings = arguments_internal::optional_value<int>(values, "fit-rings");
   if(values.count("levels"))
     a.levels = arguments_internal::parsed_levels(values["levels"].as<std::string>());
   arguments_internal::check(a);
