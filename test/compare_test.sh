@@ -35,13 +35,14 @@ refuses "an unknown simplifier" "no simplifier" shape.off --vertices 200 --eigen
 refuses "a folder that does not exist" "folder" shape.off --vertices 200 --json none/out.json
 
 runs "all simplifiers, two sizes" shape.off --vertices 10%,120 --eigenvectors 20 --report report.html --json out.json --coloured ply
-for name in "spectral, best" "spectral with shape term" "spectral, paper" "spectral" "Garland-Heckbert plane" \
+for name in "spectral, best" "spectral, best, fitted operators" "spectral with shape term" "spectral, paper" "spectral" "Garland-Heckbert plane" \
   "Garland-Heckbert triangle" "Garland-Heckbert probabilistic plane, area 20000" \
   "Lindstrom-Turk" "edge length" "isotropic remeshing"; do
   [ "$(grep -c "\"simplifier\": \"$name\"" out.json)" -ge 4 ] || fail "'$name' is not in the JSON for each size and mass"
   grep -q "$name" report.html || fail "'$name' is not on the page"
   grep -q "$name" said || fail "'$name' is not in the table"
 done
+grep -q 'is missing' out.json && fail "simplifiers are missing: $(grep 'is missing' out.json)"
 grep -q "judged in the averaged mass" said || fail "the table does not name the mass"
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ -s ply/fine.ply ] || fail "there is no coloured fine mesh"

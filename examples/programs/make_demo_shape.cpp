@@ -14,6 +14,7 @@
 // isotropic remeshing gives well-shaped triangles of the wanted number, a few Newton steps put the vertices back
 // onto the zero set.
 
+#include "io/command_line.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
@@ -393,13 +394,10 @@ int run(int argc, char* argv[])
       ("map", po::value(&map),
        "write for each vertex its number in OUTPUT, one per line, counted from 0: that of the same vertex in "
        "another pose");
-  po::positional_options_description positions;
-  positions.add("output", 1);
   po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(options).positional(positions).run(), values);
-  po::notify(values);
-  if(values.count("help")) {
-    std::cout << options;
+  const std::string help = read_command_line(argc, argv, options, {{"output", nullptr}}, "OUTPUT", values);
+  if(!help.empty()) {
+    std::cout << help;
     return 0;
   }
   if(output.empty())
@@ -409,8 +407,7 @@ int run(int argc, char* argv[])
     throw std::runtime_error("--vertices is " + std::to_string(number_of_vertices) +
                              ", it must lie between 1000 and 1000000.");
 
-  if(pose_name != "stand" && pose_name != "walk" && pose_name != "bend")
-    throw std::runtime_error("--pose is '" + pose_name + "', it must be stand, walk or bend.");
+  check_choice("--pose", pose_name, {"stand", "walk", "bend"});
   if(values.count("shuffle") && (seed < 0 || seed > 1000000000))
     throw std::runtime_error("--shuffle is " + std::to_string(seed) +
                              ", it must lie between 0 and 1000000000.");

@@ -10,6 +10,7 @@
 #include "compare/evaluation.h"
 #include "compare/shape_measures.h"
 #include "io/Progress_bar.h"
+#include "io/command_line.h"
 #include "io/input_mesh.h"
 #include "io/matrix_io.h"
 #include "io/matrix_market_reader.h"
@@ -164,7 +165,7 @@ private:
         m_bar.show("comparison",
                    static_cast<double>(done++) / static_cast<double>(sizes.size() * simplifiers.size()));
         stop_if_interrupted();
-        if(is_wanted(s.name))
+        if(is_wanted(s.name) || is_wanted(fitted_name(s)))
           try_simplifier(s, N);
       }
     if(!m_arguments.without.empty())
@@ -182,7 +183,13 @@ private:
            (m_arguments.without.empty() || name.find(m_arguments.without) == std::string::npos);
   }
 
-  // A simplifier that fails does not end the comparison.
+  // Of the row that follows with fitted operators; that of the simplifier if there is none.
+  static std::string fitted_name(const Simplifier& s)
+  {
+    return s.fits_operators ? s.name + ", fitted operators" : s.name;
+  }
+
+  // A simplifier or a fit that fails does not end the comparison.
   void try_simplifier(const Simplifier& s, std::size_t N)
   {
     Simplified row;
@@ -197,10 +204,16 @@ private:
       const Coarse_mesh coarse = s.run(m_fine, N);
       row.seconds = coarse.seconds;
       row.note = coarse.note;
-      judge_mesh(coarse, row);
-      m_comparison.results.push_back(row);
-      if(s.fits_operators)
+      if(is_wanted(s.name)) {
+        Simplified own = row;
+        judge_mesh(coarse, own);
+        m_comparison.results.push_back(std::move(own));
+      }
+      if(s.fits_operators && is_wanted(fitted_name(s))) {
+        row.simplifier = fitted_name(s);
         judge_fitted(coarse, row);
+        m_comparison.results.push_back(row);
+      }
     } catch(const SG::Cancelled&) {
       throw;
     } catch(const std::bad_alloc&) {
@@ -232,15 +245,16 @@ private:
   }
 
   // The same mesh with operators that have the fine spectrum as nearly as its edges allow, or, with a mass on the diagonal where it
-  // is lumped, two rings. Figures of the shape are those of the row before.
-  void judge_fitted(const Coarse_mesh& coarse, Simplified row)
+  // is lumped, two rings. Its seconds are those of the mesh and of the fits in all masses.
+  void judge_fitted(const Coarse_mesh& coarse, Simplified& row)
   {
+    row.vertices = coarse.mesh.number_of_vertices();
+    row.faces = coarse.mesh.number_of_faces();
     const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
     Coarse_candidate candidate;
     candidate.carried = coarse.carried;
     candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
-    row.simplifier += ", fitted operators";
-    row.judgements.clear();
+    row.shape = shape_measures(m_fine, coarse.mesh);
     for(const Fine_reference& reference : m_references) {
       SG::Operator_fit_options options;
       options.mass = reference.op.theta == 0 ? SG::Operator_fit_options::Mass_pattern::diagonal
@@ -258,7 +272,6 @@ private:
       row.seconds += seconds_since(begin);
       row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
-    m_comparison.results.push_back(std::move(row));
   }
 
   // For `rows` coarse vertices and those of the file of the fine mesh.
@@ -419,13 +432,10 @@ int main(int argc, char* argv[])
 {
   return run_program("spectral_compare", [&] {
     const Compare_arguments arguments = parse_compare_arguments(argc, argv);
-    std::string command = "spectral_compare";
-    for(int i = 1; i < argc; ++i)
-      command += std::string(" ") + argv[i];
     if(!arguments.help.empty())
       std::cout << arguments.help;
     else
-      Run(arguments, command).run();
+      Run(arguments, command_line("spectral_compare", argc, argv)).run();
     return 0;
   });
 }

@@ -400,16 +400,30 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
         "gone: ask for more vertices, or remesh so that faces differ less in size.");
 }
 
-// What the fit minimises is neither norm: it says so where the mesh's own operators are better.
-void add_fit(Simplification_report& report, Fitted_operators fitted)
+// What the fit minimises is neither norm: a warning says where the mesh's own operators are better. A fit that fails is one, too: the rest of the
+// evaluation is written all the same.
+void add_fit(Simplification_report& report, const Arguments& a, const Both_meshes& meshes, SG::Mass mass,
+             Progress_bar& bar)
 {
-  const SG::Spectral_evaluation &own = *report.evaluation, &e = fitted.evaluation;
-  if(e.norm_L > own.norm_L || e.errors.mean > own.errors.mean)
-    report.result.warnings.push_back(
-        std::string("The fitted operators have ") +
-        (e.norm_L > own.norm_L ? "a larger |C|_L" : "larger errors of the eigenvalues") +
-        " than the mesh's own: use these, or try --fit-rings 2.");
-  report.fitted = std::move(fitted);
+  std::vector<std::string>& warnings = report.result.warnings;
+  try {
+    report.fitted = fit(a, meshes, report.result.restriction, mass, bar);
+  } catch(const SG::Cancelled&) {
+    throw;
+  } catch(const std::runtime_error& error) {
+    warnings.push_back(std::string("The operators were not fitted: ") + error.what());
+    return;
+  }
+  const SG::Spectral_evaluation &own = *report.evaluation, &e = report.fitted->evaluation;
+  const auto larger = [](const double fitted, const double own_figure) { return fitted > 1.1 * own_figure; };
+  const std::string worse = larger(e.norm_L, own.norm_L)             ? "|C|_L"
+                            : larger(e.norm_D, own.norm_D)           ? "|C|_D"
+                            : larger(e.errors.mean, own.errors.mean) ? "mean error of the eigenvalues"
+                                                                     : "";
+  if(!worse.empty())
+    warnings.push_back("The fitted operators have a " + worse +
+                       " more than a tenth larger than the mesh's own" +
+                       (report.fitted->options.rings == 1 ? ": --fit-rings 2 may do better." : "."));
 }
 
 void say(const Arguments& a, const Simplification_report& report)
@@ -461,7 +475,7 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
     if(!a.no_evaluation && !interrupted) {
       evaluate(report, a, meshes, mass, bar);
       if(!a.fit_operators.empty())
-        add_fit(report, fit(a, meshes, report.result.restriction, mass, bar));
+        add_fit(report, a, meshes, mass, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);
       written.push_back(a.report);
       for(const std::string name : eigenpairs_files)

@@ -36,7 +36,13 @@
 #include <system_error>
 #include <vector>
 
-#if defined(__linux__) && !defined(SPECTRAL_LIBFUZZER) && !defined(SPECTRAL_SANITIZED)
+#ifdef __has_feature
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SPECTRAL_SANITIZED
+#endif
+#endif
+#if defined(__linux__) && !defined(SPECTRAL_LIBFUZZER) && !defined(SPECTRAL_SANITIZED) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <sys/resource.h>
 #define SPECTRAL_LIMITS_MEMORY
 #endif

@@ -61,7 +61,7 @@ struct Operator_fit_result
 {
   /// L, B, and the row sums of B; `theta` is that of the coarse operator, 0 for a diagonal mass
   Laplace_operator op;
-  double objective_before = 0; ///< what was minimised, for the own entries brought inside of the bounds
+  double objective_before = 0; ///< what was minimised, for the own entries brought inside of the bounds and to the total
   double objective_after = 0;  ///< and for those of `op`, never larger
   int iterations = 0;          ///< of the barrier method
   bool converged =
@@ -96,8 +96,8 @@ a penalty that leaves little to do).
 
 This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the own entries on, each step by
 conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky factor of the sparse normal matrix of the second term
-preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is inside of the bounds, and not
-worse than the own entries.
+preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is inside of the bounds, up to that
+scaling, and its objective not larger than that of the own entries.
 
 @param coarse operator of the coarse mesh. What is off the diagonal of L gives pattern and start, B likewise; the mass gives D
   and the total
@@ -108,7 +108,7 @@ worse than the own entries.
 @param options weights, bounds, pattern, when to stop
 
 Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do not belong together, a number
-that is not finite, an option out of range; `Cancelled` when the progress callback returned false.
+that is not finite, an option out of range; `std::runtime_error` when a preconditioner cannot be factorised; `Cancelled` when the progress callback returned false.
 
 References: the operator-based view is that of H.-T. D. Liu, A. Jacobson, M. Ovsjanikov, *Spectral Coarsening of Geometric Operators*,
 2019, and H. Chen et al., *Chordal Decomposition for Spectral Coarsening*, 2020; the barrier method is in J. Nocedal, S. Wright, *Numerical

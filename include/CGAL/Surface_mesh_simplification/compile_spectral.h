@@ -18,7 +18,6 @@ only declared, and exactly one source file includes this header, which defines i
 */
 
 #include <CGAL/Spectral_geometry/compile.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core_impl.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/compile_loop.h>
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H

@@ -146,7 +146,8 @@ public:
     Operator_fit_result result;
     const Index n = m_start.size(), nL = m_stiffness.size();
     Vector g;
-    result.objective_before = objective(m_start, g);
+    const Vector own = m_start / m_total.dot(m_start);
+    result.objective_before = objective(own, g);
     // Slacks s and multipliers z, both positive; g is half the gradient.
     Vector s = (m_start - m_lowest).cwiseMax(0.01 * m_typical);
     double f = objective(m_lowest + s, g);
@@ -167,14 +168,14 @@ public:
       result.converged = (std::max)(s.dot(z), newton) <= m_options.tolerance * f;
     }
     Vector x = m_lowest + s;
+    result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
+    x /= m_total.dot(x);
     result.objective_after = objective(x, g);
     if(!(result.objective_after < result.objective_before)) {
-      x = m_start;
+      x = own;
       result.objective_after = result.objective_before;
     }
     result.unknowns = n;
-    result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
-    x /= m_total.dot(x);
     result.op.L = m_stiffness.matrix(x.head(nL));
     result.op.B = m_area * m_mass.matrix(x.tail(n - nL));
     result.op.mass = result.op.B * Vector::Ones(m_G.rows());
@@ -477,8 +478,16 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
   internal::check_operator_fit(coarse, P, fine, fine_pairs, options);
   const double area = fine.mass.sum();
   const Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
-  Operator_fit_result result =
-      internal::Operator_fit(coarse, G, area * fine_pairs.values.cwiseMax(0.), options).run();
+  Operator_fit_result result;
+  try {
+    result = internal::Operator_fit(coarse, G, area * fine_pairs.values.cwiseMax(0.), options).run();
+  } catch(const Cancelled&) {
+    throw;
+  } catch(const std::runtime_error&) { // of Cholesky, whose sentence is that of the eigensolvers
+    throw std::runtime_error(
+        "operator fit: the preconditioner could not be factorised; look for needle faces in the "
+        "coarse mesh, or raise Operator_fit_options::tie.");
+  }
   result.op.theta = options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
   return result;
 }
