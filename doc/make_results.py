@@ -3,13 +3,14 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Writes the tables of results.md:
+# Writes the tables of results.md, and the summary in it and in README.md:
 #   doc/make_results.py BUILD FOLDER MESH...
 # BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER where the meshes
-# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text of results.md
-# outside of its two marks stays.
+# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text of both
+# outside of the marks stays.
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -17,7 +18,12 @@ import sys
 SIZES = "3%,600"
 # Simplifiers that do not come to an end on a mesh.
 WITHOUT = {"nefertiti.obj": "centroidal"}
-BEGIN, END = "<!-- tables: begin -->\n", "<!-- tables: end -->\n"
+# The rows of the summary: the two presets, and CGAL's own that are used most or come nearest.
+SUMMARY = {"spectral, best": "**this package**", "spectral, paper": "the same, preset `paper`",
+           "spectral, best, fitted operators": "preset `best`, operators fitted",
+           "Garland-Heckbert plane": "Garland-Heckbert, plane quadrics",
+           "Garland-Heckbert probabilistic plane, area 20000": "Garland-Heckbert, probabilistic plane quadrics",
+           "Lindstrom-Turk": "Lindstrom-Turk", "isotropic remeshing": "isotropic remeshing"}
 
 
 def options(mesh):
@@ -131,6 +137,37 @@ def overview(results, mass, restriction=norms, suffix=""):
     return text
 
 
+# Geometric means over all pairs of a mesh and a size from 3 vertices per eigenvector on, in the averaged mass and with the P of the
+# closest points for all.
+def summary(results):
+    columns = [("mass of the metric", lambda r: r["metric_mass"].replace("none", "–"), None, 1),
+               ("C_L", lambda r: r["closest_point_P"]["norm_L"], 1, 1),
+               ("C_D", lambda r: r["closest_point_P"]["norm_D"], 2, 1),
+               ("eigenvalues %", lambda r: r["eigenvalue_error_mean"], 2, 100),
+               ("modes 2 to 20 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
+               ("biharmonic distance %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
+               ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100)]
+    cases = sum(len({r["requested_vertices"] for r in result["rows"] if r["requested_vertices"] >= 3 * result["K"]})
+                for result in results)
+    found = {name: [r for result in results for r in result["rows"] if r["simplifier"] == name and
+                    r["judged_mass"] == "averaged" and r["requested_vertices"] >= 3 * result["K"]]
+             for name in SUMMARY}
+    found = {name: rows for name, rows in found.items() if len(rows) == cases}
+    values = {name: [value(rows[0]) if digits is None else
+                     math.exp(sum(math.log(value(r)) for r in rows) / cases) for _, value, digits, _ in columns]
+              for name, rows in found.items()}
+    text = f"| {cases} pairs of a mesh and a size | " + " | ".join(c[0] for c in columns) + " |\n|---|"
+    text += "---|" * len(columns) + "\n"
+    for name, row in values.items():
+        cells = []
+        for k, (_, _, digits, factor) in enumerate(columns):
+            cell = row[k] if digits is None else number(row[k], digits, factor)
+            best = digits is not None and row[k] == min(v[k] for v in values.values())
+            cells.append(f"**{cell}**" if best else cell)
+        text += f"| {SUMMARY[name]} | " + " | ".join(cells) + " |\n"
+    return text
+
+
 def tables(results):
     first = results[0]
     text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread. The command for each mesh:\n\n"
@@ -156,13 +193,19 @@ def main():
     if len(sys.argv) < 4:
         sys.exit("usage: make_results.py BUILD FOLDER MESH...")
     results = [compare(sys.argv[1], sys.argv[2], mesh) for mesh in sys.argv[3:]]
-    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results.md")
+    here = os.path.dirname(os.path.abspath(__file__))
+    replace(os.path.join(here, "results.md"), "tables", tables(results))
+    replace(os.path.join(here, "results.md"), "summary", summary(results))
+    replace(os.path.join(here, "..", "README.md"), "summary", summary(results))
+
+
+# What stands between the two marks of that name.
+def replace(path, name, text):
+    begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->\n"
     with open(path) as file:
-        old = file.read()
-    before, rest = old.split(BEGIN)
-    after = rest.split(END)[1]
+        before, rest = file.read().split(begin)
     with open(path, "w") as file:
-        file.write(before + BEGIN + tables(results) + END + after)
+        file.write(before + begin + text + end + rest.split(end)[1])
 
 
 if __name__ == "__main__":
