@@ -316,6 +316,28 @@ TEST_CASE("Two sheets close to each other do not cross, and would without the gu
   CHECK(crossings() > 0);
 }
 
+TEST_CASE("Where two sheets cross in one place the crossing does not spread")
+{
+  // A shell and one inside of it, which comes out at its pole.
+  shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(4), 2);
+  const Eigen::Index half = input.V.rows() / 2;
+  for(Eigen::Index v = 0; v < half; ++v) {
+    const Eigen::Vector3d p = input.V.row(v);
+    input.V.row(half + v) = (p.normalized().z() > 0.98 ? 1.01 : 0.975) * p;
+  }
+  const auto number_crossing = [](const shapes::Matrices& m) {
+    return SG::internal::self_intersecting_faces(m.V, m.T).size();
+  };
+  const std::size_t before = number_crossing(input);
+  REQUIRE(before > 20);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.relocate = false;
+  Mesh mesh = make_mesh(input);
+  CHECK(SMS::spectral_edge_collapse(mesh, 300, options).output_vertices == 300);
+  CHECK(number_crossing(SG::mesh_matrices(mesh)) < before / 2);
+}
+
 TEST_CASE("Sheets that lie in each other from the start do not hold a run up")
 {
   shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(3), 2);

@@ -113,7 +113,7 @@ struct Spectral_options
   /// kept they must not be: then infinite, as `spectral_edge_collapse()` has it with `maximum_error`. Positive.
   double largest_loss = 10;
 
-  /// Collapses put no face through another, unless one that they replace went through another already. Where the placement found would, the
+  /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement found would, the
   /// ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Placements of a wrapper are
   /// looked at by `Spectral_filter` alone. The quadrics of `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
   bool keep_free_of_self_intersections = true;

@@ -41,10 +41,12 @@ public:
     for(std::size_t w = 0; w < points.size(); ++w)
       boxes[w] = box_of_owned(points, rings, Spectral_slot(w));
     m_tree.build(boxes);
+    m_refusals = points.size() / 20;
   }
 
-  /// Whether the triangles of u and v that are left would cross others once both are at x, where none of those around u and v
-  /// crosses anything now: sheets that lie in each other already, as in scans, are not to hold a run up.
+  /// Whether the triangles of u and v that are left would cross others once both are at x, which none of those around u and v
+  /// crosses now. Sheets that lie in each other all over, as in scans, are not to hold a run up: after so many refusals
+  /// beside triangles that cross already there are no more of these.
   bool crosses(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
                const Spectral_slot v, const Eigen::Vector3d& x)
   {
@@ -55,12 +57,18 @@ public:
       const Spectral_slot end = std::size_t(&t - m_new.data()) < m_new_of_u ? u : v;
       m_boxes.push_back(x == points[end] ? Box() : box_of(t));
     }
-    if(!fan_intersects(m_new.data(), m_new.size()) && !meet_others(points, rings, u, v, m_new))
+    const bool fan = fan_intersects(m_new.data(), m_new.size());
+    if((!fan || old_intersect()) && !meet_others(points, rings, u, v, m_new, m_old))
       return false;
     m_boxes.clear();
     for(const Corners& t : m_old)
       m_boxes.push_back(box_of(t));
-    return !old_intersect() && !meet_others(points, rings, u, v, m_old);
+    if(!old_intersect() && !meet_others(points, rings, u, v, m_old, {}))
+      return true;
+    if(m_refusals == 0)
+      return false;
+    --m_refusals;
+    return true;
   }
 
   /// Follows a collapse, once rings and points have.
@@ -180,38 +188,36 @@ private:
     }
   }
 
-  // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v. One walk through the tree for all.
+  // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v, and that none of `known` meets. One
+  // walk through the tree for all.
   bool meet_others(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
-                   const Spectral_slot v, const std::vector<Corners>& triangles) const
+                   const Spectral_slot v, const std::vector<Corners>& triangles,
+                   const std::vector<Corners>& known) const
   {
     Box all;
     for(const Box& box : m_boxes)
       all.extend(box);
     return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
-      return owner != u && owner != v &&
-             meet_owned(points, rings, Spectral_slot(owner), u, v, triangles, all);
+      bool result = false;
+      if(owner != u && owner != v)
+        for_each_owned(rings, Spectral_slot(owner), [&](const Spectral_slot a, const Spectral_slot b) {
+          if(result || a == u || a == v || b == u || b == v)
+            return;
+          const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
+          const Box box = box_of(other);
+          for(std::size_t i = 0; i < triangles.size() && !result && box.intersects(all); ++i)
+            result = m_boxes[i].intersects(box) &&
+                     Spectral_geometry::internal::triangles_intersect(triangles[i], other);
+          for(std::size_t i = 0; i < known.size() && result; ++i)
+            result = !triangles_intersect(known[i], other);
+        });
+      return result;
     });
-  }
-
-  bool meet_owned(const Points& points, const Spectral_rings& rings, const Spectral_slot owner,
-                  const Spectral_slot u, const Spectral_slot v, const std::vector<Corners>& triangles,
-                  const Box& all) const
-  {
-    bool result = false;
-    for_each_owned(rings, owner, [&](const Spectral_slot a, const Spectral_slot b) {
-      if(result || a == u || a == v || b == u || b == v)
-        return;
-      const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
-      const Box box = box_of(other);
-      for(std::size_t i = 0; i < triangles.size() && !result && box.intersects(all); ++i)
-        result = m_boxes[i].intersects(box) &&
-                 Spectral_geometry::internal::triangles_intersect(triangles[i], other);
-    });
-    return result;
   }
 
   Spectral_geometry::internal::Box_tree m_tree;
-  std::vector<Box> m_boxes; // of the triangles that are looked at, empty for those that are not
+  std::size_t m_refusals = 0; // that are left, beside triangles that cross already
+  std::vector<Box> m_boxes;   // of the triangles that are looked at, empty for those that are not
   // Scratch: the triangles around u, then those of v alone; what is left of them.
   std::vector<Corners> m_old, m_new;
   std::size_t m_old_of_u = 0, m_new_of_u = 0;
