@@ -243,6 +243,10 @@ TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]
   {
     check(shapes::components_matrices(shapes::icosphere_matrices(1), 3), 30, 3);
   }
+  SECTION("fans, whose centres have hundreds of unknowns in their rows")
+  {
+    check(shapes::gear_matrices(150, 2), 20, 1);
+  }
   SECTION("needles")
   {
     shapes::Matrices mesh = shapes::icosphere_matrices(2);
@@ -252,6 +256,21 @@ TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]
     mesh.V.col(2) *= 1e-5;
     check(mesh, 30, 1);
   }
+}
+
+TEST_CASE("Two rings stay linear in the degree of a vertex, and fit all the same", "[fitted_operators]")
+{
+  const shapes::Matrices gear = shapes::gear_matrices(500, 3);
+  Problem p = of_itself(SG::laplace_operator(gear.V, gear.T, 0.5), 20);
+  p.coarse = SG::laplace_operator(gear.V, gear.T, 0.); // lumped, to the spectrum of the averaged mass
+  Operator_fit_options options;
+  options.rings = 2;
+  options.mass = Mass_pattern::diagonal;
+  const SG::Operator_fit_result result = fit(p, options);
+  CHECK(result.op.L.nonZeros() < 30 * gear.V.rows()); // a row of the centre would have 250,000
+  CHECK(result.unknowns < 10 * gear.V.rows());
+  CHECK(result.converged);
+  CHECK(result.objective_after < 0.5 * result.objective_before);
 }
 
 TEST_CASE("Stopping early is said, and what there is can be used", "[fitted_operators]")

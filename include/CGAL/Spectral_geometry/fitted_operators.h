@@ -61,9 +61,10 @@ struct Operator_fit_result
 {
   /// L, B, and the row sums of B; `theta` is that of the coarse operator, 0 for a diagonal mass
   Laplace_operator op;
-  double objective_before = 0; ///< what was minimised, for the own entries brought inside of the bounds and to the total
-  double objective_after = 0;  ///< and for those of `op`, never larger
-  int iterations = 0;          ///< of the barrier method
+  double objective_before =
+      0; ///< what was minimised, for the own entries brought inside of the bounds and to the total
+  double objective_after = 0; ///< and for those of `op`, never larger
+  int iterations = 0;         ///< of the barrier method
   bool converged =
       false; ///< within `Operator_fit_options::tolerance`; otherwise stopped, and valid all the same
   Eigen::Index unknowns = 0; ///< number of weights that were chosen
@@ -78,18 +79,19 @@ needs the cotangents or the areas of the actual triangles.
 
 With \f$ G = P \Phi \f$, all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
 it minimises
-\f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2 + \tau \ldots \f]
+\f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
+   + \frac{\tau}{N} \sum_a \Bigl( \frac{x_a - x_a^0}{x_a^0 + s_a} \Bigr)^2 \f]
 where W weights the signals by \f$ 1/(\lambda_k + 4\pi) \f$, made relative by \f$ \mathrm{mean}(W \lambda^2) \f$: 4 pi is the mean spacing of
 eigenvalues at unit area (Weyl's law). The first term is \f$ \|C \Lambda - \widetilde\Lambda C\| \f$ when G stands for the coarse
-eigenvectors, the second the metric E (Eq. 2 of Lescoat et al. 2020), the last a tie to the own entries, see
-`Operator_fit_options`.
+eigenvectors, the second the metric E (Eq. 2 of Lescoat et al. 2020). The last ties the N and more unknowns x (the weights w, m, b below) to what they
+are of the mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or the mean mass of a vertex.
 
 **Both matrices are definite, whatever the input.**
 \f[ \widetilde L = \sum_a w_a \, d_a d_a^\top, \qquad
    \widetilde B = \sum_v b_v \, e_v e_v^\top + \sum_{ij} m_{ij} (e_i + e_j) (e_i + e_j)^\top, \qquad w, m \ge 0, \; b > 0, \f]
 with \f$ d_a = e_i - e_j \f$ for each edge and positive bounds on these, so that \f$ \widetilde L \f$ has one zero for each connected component of
 the graph. An edge of negative weight (an obtuse or thin triangle) lies in this cone together with the other two edges of its triangles:
-\f$ d_a = e_k - (1-t) e_i - t e_j \f$ with k opposite to ij, as much as it needs. Two rings add for each vertex its row of L, and for each edge between
+\f$ d_a = e_k - (1-t) e_i - t e_j \f$ with k opposite to ij, as much as it needs. Two rings add for each vertex of up to 64 neighbours its row of L, and for each edge between
 two triangles \f$ d_a = e_i + e_j - e_k - e_l \f$, the second difference across it: these, not edges
 to far vertices, make up for a diagonal mass. The total of the mass is that of the coarse mesh (an exact scaling of both matrices follows
 a penalty that leaves little to do).

@@ -220,13 +220,13 @@ private:
     };
     for(Edge& e : edges) {
       e.weight = e.left = (std::min)((std::max)(e.weight, -largest), largest);
-      auto p = rings[e.i].begin(), q = rings[e.j].begin();
-      while(p != rings[e.i].end() && q != rings[e.j].end())
-        if(p->first == q->first) {
-          e.opposite.push_back((p++)->first);
-          ++q;
-        } else
-          ++(p->first < q->first ? p : q);
+      const bool i_has_less = rings[e.i].size() < rings[e.j].size();
+      const auto &few = rings[i_has_less ? e.i : e.j], &many = rings[i_has_less ? e.j : e.i];
+      for(const auto& p : few) {
+        const auto q = std::lower_bound(many.begin(), many.end(), std::make_pair(p.first, Index(0)));
+        if(q != many.end() && q->first == p.first)
+          e.opposite.push_back(p.first);
+      }
       if(e.weight < 0.)
         for(const Index k : e.opposite) {
           ++edge(e.i, k).thin;
@@ -251,7 +251,7 @@ private:
     }
     for(Index v = 0; v < N; ++v) {
       m_mass.add({{v, 1.}}, b(v), m_options.smallest_mass * m_row_mass(v), 1. / N);
-      if(m_options.rings == 2 && !rings[v].empty()) {
+      if(m_options.rings == 2 && !rings[v].empty() && Index(rings[v].size()) <= largest_star) {
         Rank_one_terms::Entries star{{v, 0.}};
         double sum = 0.;
         for(const auto& r : rings[v])
@@ -294,7 +294,8 @@ private:
     }
   }
 
-  // The lower triangle of H = sum_v A_v^T A_v / D_v, where row v of R, times the root of W, is A_v^T x.
+  // The lower triangle of H = sum_v A_v^T A_v / D_v, where row v of R, times the root of W, is A_v^T x. It only preconditions: of
+  // a vertex in whose row very many unknowns are, the diagonal is enough.
   void assemble_normal_matrix()
   {
     const Index nL = m_stiffness.size();
@@ -316,6 +317,12 @@ private:
         m_mass.row(d.row(), m_G, y);
         A.row(unknowns.size()) = d.value() * y.cwiseProduct(of_mass);
         unknowns.push_back(nL + d.row());
+      }
+      if(A.rows() > largest_block) {
+        for(Index j = 0; j < A.rows(); ++j)
+          lower.emplace_back(static_cast<int>(unknowns[j]), static_cast<int>(unknowns[j]),
+                             A.row(j).squaredNorm() / m_row_mass(v));
+        continue;
       }
       const Matrix S = A * A.transpose() / m_row_mass(v);
       for(Index j = 0; j < S.cols(); ++j)
@@ -400,6 +407,9 @@ private:
     return 1. / (std::max)(1., (-dv.cwiseQuotient(v)).maxCoeff() / 0.95);
   }
 
+  // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left out, a block of more unknowns
+  // of the preconditioner is diagonal.
+  static constexpr Index largest_star = 64, largest_block = 256;
   static constexpr double penalty = 1e4; // of the total of the mass; the other terms are about 1 or less
   const Operator_fit_options& m_options;
   const Rows m_G;
