@@ -15,7 +15,9 @@
 
 #include "spectral_test_helpers.h"
 
+#include <algorithm>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -123,6 +125,62 @@ std::string fault_of_run(const Mesh& mesh, const Policies& policies, const Input
   if(!(relative_difference(E, policies.error()) < check.tolerance))
     return "E is " + std::to_string(E) + ", tracked as " + std::to_string(policies.error());
   return "";
+}
+
+inline std::vector<std::size_t> every(const std::size_t step, const Eigen::Index n,
+                                      const std::size_t first = 0)
+{
+  std::vector<std::size_t> result;
+  for(std::size_t i = first; i < std::size_t(n); i += step)
+    result.push_back(i);
+  return result;
+}
+
+// How many of the vertices are where they were, alone in their row of P.
+inline std::size_t survivors(const std::vector<std::size_t>& kept, const shapes::Matrices& input,
+                             const Mesh& mesh, const Eigen::SparseMatrix<double, Eigen::RowMajor>& P,
+                             const std::vector<std::size_t>& map)
+{
+  const Eigen::MatrixXd V = positions(mesh);
+  std::set<std::size_t> rows;
+  for(const std::size_t i : kept) {
+    const Eigen::Index row = Eigen::Index(map[i]);
+    if(V.row(row) == input.V.row(Eigen::Index(i)) && P.row(row).nonZeros() == 1 &&
+       P.coeff(row, Eigen::Index(i)) == 1)
+      rows.insert(map[i]);
+  }
+  return rows.size();
+}
+
+inline std::string fault_of_result(const Mesh& mesh, const Eigen::SparseMatrix<double>& P,
+                                   const std::vector<std::size_t>& map, const shapes::Matrices& input)
+{
+  if(!CGAL::is_valid_polygon_mesh(mesh))
+    return "the mesh is not valid";
+  if(P.rows() != Eigen::Index(count_vertices(mesh)) || P.cols() != input.V.rows())
+    return "the size of P";
+  return fault_of_restriction(P, map);
+}
+
+// The same vertices, faces and coordinates in the same order, garbage included.
+inline bool identical(const Mesh& a, const Mesh& b)
+{
+  if(a.num_vertices() != b.num_vertices() || a.num_halfedges() != b.num_halfedges() ||
+     a.num_faces() != b.num_faces())
+    return false;
+  for(std::size_t i = 0; i < a.num_vertices(); ++i) {
+    const Mesh::Vertex_index v(static_cast<Mesh::size_type>(i));
+    if(a.is_removed(v) != b.is_removed(v) ||
+       (!a.is_removed(v) && (a.point(v) != b.point(v) || a.halfedge(v) != b.halfedge(v))))
+      return false;
+  }
+  for(std::size_t i = 0; i < a.num_halfedges(); ++i) {
+    const Mesh::Halfedge_index h(static_cast<Mesh::size_type>(i));
+    if(a.is_removed(h) != b.is_removed(h) ||
+       (!a.is_removed(h) && (a.target(h) != b.target(h) || a.next(h) != b.next(h) || a.face(h) != b.face(h))))
+      return false;
+  }
+  return std::equal(a.faces().begin(), a.faces().end(), b.faces().begin());
 }
 
 } // namespace spectral_test

@@ -2,13 +2,13 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Relocation: the energies against slow ones and finite differences, the guards, the one-call form.
+// Relocation: what it gains, its guards, the one-call form.
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include "catch.h"
-#include "collapse_helpers.h"
+#include "relocation_helpers.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
@@ -28,54 +28,9 @@
 
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
-using Positions = SG::Relocation_energy::Positions;
-using Rows = SG::Position_dependent_signals::Rows;
 using Signals = SG::Relocation_options::Signals;
 
 namespace {
-
-// A coarse mesh that a run made, with all that relocation asks for.
-struct Simplified_mesh
-{
-  shapes::Matrices fine, coarse;
-  Eigen::SparseMatrix<double> P;
-  SG::Laplace_operator op;
-  SG::Eigenpairs pairs; // half as many again as the run used
-
-  Eigen::MatrixXd F() const { return pairs.vectors.leftCols(K); }
-  Eigen::MatrixXd Z() const { return F() * pairs.values.head(K).asDiagonal(); }
-  static constexpr Eigen::Index K = 20;
-};
-
-Simplified_mesh simplified(const shapes::Matrices& fine, const std::size_t N)
-{
-  Simplified_mesh s;
-  s.fine = fine;
-  s.op = SG::laplace_operator(fine.V, fine.T, 0.5);
-  s.pairs = SG::eigenpairs(s.op, 3 * Simplified_mesh::K / 2);
-  auto basis = std::make_shared<SG::Eigenpairs>();
-  basis->values = s.pairs.values.head(Simplified_mesh::K);
-  basis->vectors = s.pairs.vectors.leftCols(Simplified_mesh::K);
-  SMS::Spectral_edge_collapse_options options = SMS::Spectral_edge_collapse_options::paper();
-  options.mass = SG::Mass::averaged;
-  options.eigenpairs = basis;
-  Mesh mesh = make_mesh(fine);
-  s.P = SMS::spectral_edge_collapse(mesh, N, options).restriction;
-  s.coarse = SG::mesh_matrices(mesh);
-  return s;
-}
-
-const Simplified_mesh& closed_example()
-{
-  static const Simplified_mesh s = simplified(shapes::bumpy_icosphere_matrices(4), 160);
-  return s;
-}
-
-const Simplified_mesh& open_example()
-{
-  static const Simplified_mesh s = simplified(wavy_grid_matrices(36, 30), 150);
-  return s;
-}
 
 Eigen::MatrixXd relocated(const Simplified_mesh& s, SG::Relocation_result& result,
                           const SG::Relocation_options& options = {}, const std::vector<bool>& fixed = {})
@@ -98,74 +53,10 @@ Eigen::SparseMatrix<double> sampled(const Simplified_mesh& s, const Eigen::Matri
   return SG::closest_point_interpolation(V, s.fine);
 }
 
-// Quadratic functions of the position.
-class Polynomial_signals : public SG::Position_dependent_signals
-{
-public:
-  Eigen::Index number_of_signals() const override { return 35; } // more than one panel
-  void evaluate(const Positions& V, Rows& F, Rows& Z) override
-  {
-    m_V = V;
-    F.resize(V.rows(), 35);
-    Z.resize(V.rows(), 35);
-    for(Eigen::Index w = 0; w < V.rows(); ++w)
-      for(int k = 0; k < 35; ++k) {
-        F(w, k) = std::sin(axis(k).dot(V.row(w)) + k);
-        Z(w, k) = 3 * std::cos(axis(k).dot(V.row(w)));
-      }
-  }
-  void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
-  {
-    for(Eigen::Index w = 0; w < m_V.rows(); ++w)
-      for(int k = 0; k < 35; ++k) {
-        const double t = axis(k).dot(m_V.row(w));
-        gradient.row(w) +=
-            (by_F(w, k) * std::cos(t + k) - 3 * by_Z(w, k) * std::sin(t)) * axis(k).transpose();
-      }
-  }
-
-private:
-  static Eigen::Vector3d axis(const int k) { return {1. + k % 3, 0.5 * (k % 5), 1.5 - k % 2}; }
-  Positions m_V;
-};
-
-template <class Energy>
-double gradient_error(Energy& energy, const Positions& V)
-{
-  Positions gradient, direction = Positions::Zero(V.rows(), 3);
-  energy.value_and_gradient(V, gradient);
-  double worst = 0;
-  const double h = 1e-5;
-  for(int trial = 0; trial < 6; ++trial) {
-    for(Eigen::Index i = 0; i < direction.size(); ++i)
-      direction.data()[i] = std::sin(17. * double(i) * (trial + 1) + trial);
-    if(trial > 3) { // one vertex alone
-      const Eigen::Index w = 7 * trial;
-      const Eigen::RowVector3d d = direction.row(w);
-      direction.setZero();
-      direction.row(w) = d;
-    }
-    // Five points: small triangles bend the energy too much for two.
-    const auto difference = [&](const double step) {
-      return energy.value(V + step * direction) - energy.value(V - step * direction);
-    };
-    const double slope = (8 * difference(h) - difference(2 * h)) / (12 * h);
-    const double expected = gradient.cwiseProduct(direction).sum();
-    worst = (std::max)(worst, std::abs(slope - expected) / gradient.cwiseProduct(direction).norm());
-  }
-  return worst;
-}
-
 double smallest_angle(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
 {
   const SG::Triangle_cotangents t = SG::triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
   return std::atan2(1., t.cot.maxCoeff());
-}
-
-Eigen::Vector3d normal(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
-{
-  const Eigen::Vector3d a = V.row(T(f, 1)) - V.row(T(f, 0)), b = V.row(T(f, 2)) - V.row(T(f, 0));
-  return a.cross(b).normalized();
 }
 
 double volume(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
@@ -215,131 +106,6 @@ std::string broken_guard(const Simplified_mesh& s, const Eigen::MatrixXd& V,
 }
 
 } // namespace
-
-TEST_CASE("the cached inner products give E as the assembled matrices do")
-{
-  const Simplified_mesh& s = closed_example();
-  for(const double theta : {0., 0.5, 1.}) {
-    SG::Relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), theta);
-    const double slow =
-        SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, theta), s.P, s.F(), s.Z());
-    CHECK(relative_difference(energy.value(s.coarse.V), slow) < 1e-10);
-    CHECK(energy.values_by_vertex().minCoeff() >= 0);
-    CHECK(relative_difference(energy.values_by_vertex().sum(), slow) < 1e-10);
-  }
-}
-
-TEST_CASE("the smoothed energy is that of dense matrices")
-{
-  const Simplified_mesh& s = open_example();
-  const double tau = 0.01, mu = 0.3;
-  const SG::Laplace_operator op = SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5);
-  const Eigen::MatrixXd B = op.B, A = B + tau * Eigen::MatrixXd(op.L);
-  const Eigen::MatrixXd R = B * (s.P * s.Z()) - op.L * (s.P * s.F());
-  const Eigen::MatrixXd Y = A.llt().solve(R);
-  const double smoothed = Y.cwiseProduct(B * Y).sum();
-  const double plain = SG::restriction_energy(op, s.P, s.F(), s.Z());
-  SG::Smoothed_relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), 0.5, tau, mu);
-  CHECK(relative_difference(energy.value(s.coarse.V), smoothed + mu * plain) < 1e-9);
-  CHECK(relative_difference(energy.smoothed_part(), smoothed) < 1e-9);
-  CHECK(relative_difference(energy.plain_part(), plain) < 1e-9);
-}
-
-TEST_CASE("gradients agree with finite differences, in every mass, with a boundary and without")
-{
-  for(const Simplified_mesh* s : {&closed_example(), &open_example()})
-    for(const double theta : {0., 0.5, 1.}) {
-      CAPTURE(theta);
-      const Eigen::MatrixXd F = s->P * s->F(), Z = s->P * s->Z();
-      const Positions V = s->coarse.V;
-      SG::Relocation_energy plain(s->coarse.T, F, Z, theta);
-      CHECK(gradient_error(plain, V) < 1e-6);
-      SG::Smoothed_relocation_energy smoothed(s->coarse.T, F, Z, theta, 0.02, 0.5);
-      CHECK(gradient_error(smoothed, V) < 1e-6);
-      Polynomial_signals moving;
-      SG::Smoothed_relocation_energy both(s->coarse.T, F, Z, theta, 0.02, 0.5, &moving);
-      CHECK(gradient_error(both, V) < 1e-6);
-      SG::Smoothed_relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0.,
-                                                  &moving);
-      CHECK(gradient_error(moving_alone, V) < 1e-6);
-    }
-}
-
-TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, and its gradient is right")
-{
-  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
-    const Positions V = s->coarse.V;
-    Positions W = V;
-    for(Eigen::Index i = 0; i < W.size(); ++i)
-      W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
-    SG::internal::Spectrum_guard guard(s->coarse.T, V, 0.5, 20, 30);
-    REQUIRE(guard.is_active());
-    CHECK(std::abs(guard.change(V)) < 1e-4);
-    const double before = guard.change(W); // with the eigenvectors of V
-    guard.refresh(W);
-    const auto values = [&](const Positions& at) {
-      const SG::Laplace_operator op = SG::laplace_operator(at, s->coarse.T, 0.5);
-      return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 30).values.tail(10).array());
-    };
-    const double change = (values(W) / values(V)).mean() - 1;
-    CHECK(guard.change(W) == Catch::Approx(change).margin(1e-4));
-    CHECK(before > change);   // eigenvectors of another mesh
-    REQUIRE(change < 0.0015); // the penalty begins at 0.002
-    struct Penalty
-    {
-      SG::internal::Spectrum_guard& guard;
-      double value(const Positions& at)
-      {
-        Positions gradient = Positions::Zero(at.rows(), 3);
-        return guard.penalty(at, 3., gradient);
-      }
-      double value_and_gradient(const Positions& at, Positions& gradient)
-      {
-        gradient.setZero(at.rows(), 3);
-        return guard.penalty(at, 3., gradient);
-      }
-    } penalty{guard};
-    CHECK(gradient_error(penalty, W) < 1e-6);
-    CHECK(penalty.value(W) > 0);
-    CHECK(!SG::internal::Spectrum_guard(s->coarse.T, V, 0.5, 20, 20).is_active());
-  }
-}
-
-TEST_CASE("signals read off a surface have the slope of its triangles")
-{
-  const shapes::Matrices fine = wavy_grid_matrices(9, 9);
-  const Rows F = rough_signals(fine, 4), Z = 2 * F;
-  const SG::internal::Closest_point_query closest(fine);
-  SG::internal::Surface_signals signals(closest, fine.T, F, Z);
-  Positions V(20, 3); // inside of faces, and off the surface
-  for(Eigen::Index i = 0; i < V.rows(); ++i) {
-    Eigen::Matrix3d corners;
-    for(int k = 0; k < 3; ++k)
-      corners.row(k) = fine.V.row(fine.T(5 * i + 3, k));
-    V.row(i) = (Eigen::RowVector3d(0.3, 0.45, 0.25) * corners) +
-               0.003 * normal(fine.V, fine.T, 5 * i + 3).transpose();
-  }
-  const auto value = [&](const Positions& at) {
-    Rows f, z;
-    signals.evaluate(at, f, z);
-    double sum = 0;
-    for(Eigen::Index i = 0; i < f.size(); ++i)
-      sum += std::sin(double(i)) * f.data()[i] + std::cos(double(i)) * z.data()[i];
-    return sum;
-  };
-  Rows by_F(V.rows(), 4), by_Z(V.rows(), 4);
-  for(Eigen::Index i = 0; i < by_F.size(); ++i) {
-    by_F.data()[i] = std::sin(double(i));
-    by_Z.data()[i] = std::cos(double(i));
-  }
-  value(V);
-  Positions gradient = Positions::Zero(V.rows(), 3), direction(V.rows(), 3);
-  signals.add_gradient(by_F, by_Z, gradient);
-  for(Eigen::Index i = 0; i < direction.size(); ++i)
-    direction.data()[i] = std::sin(5. * double(i) + 1);
-  const double slope = (value(V + 1e-6 * direction) - value(V - 1e-6 * direction)) / 2e-6;
-  CHECK(slope == Catch::Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
-}
 
 TEST_CASE("relocation lowers the commutativity with either restriction and keeps every guard")
 {

@@ -7,8 +7,6 @@
 #include <CGAL/Spectral_geometry/internal/Lanczos_eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -22,7 +20,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,17 +48,6 @@ SG::Eigenpairs_options with_method(Method method, double tolerance = 1e-10)
   options.method = method;
   options.tolerance = tolerance;
   return options;
-}
-
-double area(const shapes::Matrices& mesh)
-{
-  double sum = 0.;
-  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    const Eigen::Vector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
-                          r = mesh.V.row(mesh.T(f, 2));
-    sum += 0.5 * (q - p).cross(r - p).norm();
-  }
-  return sum;
 }
 
 double orthonormality_error(const Laplace_operator& op, const Eigenpairs& pairs)
@@ -99,153 +85,6 @@ double mean_error(const Eigenpairs& pairs, const std::vector<double>& exact)
 }
 
 } // namespace
-
-TEST_CASE("The Laplacian is symmetric, semidefinite and its rows sum to zero")
-{
-  for(const shapes::Matrices& mesh :
-      {shapes::bumpy_icosphere_matrices(2), shapes::irregular_grid_matrices(9, 7),
-       shapes::tetrahedron_matrices()}) {
-    const Laplace_operator op = laplace(mesh);
-    const Eigen::MatrixXd L = op.L;
-    CHECK(L == L.transpose());
-    CHECK((op.L * Eigen::VectorXd::Ones(L.rows())).cwiseAbs().maxCoeff() < 1e-12 * L.cwiseAbs().maxCoeff());
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(L);
-    CHECK(solver.eigenvalues()(0) > -1e-12);
-    CHECK(solver.eigenvalues()(1) > 1e-3); // connected: one constant only
-  }
-}
-
-TEST_CASE("Off-diagonal entries are half the sum of the opposite cotangents")
-{
-  const Laplace_operator op = laplace(shapes::tetrahedron_matrices());
-  CHECK(op.L.coeff(0, 1) == Approx(-1. / std::sqrt(3.)));
-  CHECK(op.L.coeff(0, 0) == Approx(std::sqrt(3.)));
-  const Laplace_operator square = laplace(shapes::grid_matrices(1, 1));
-  CHECK(square.L.coeff(0, 1) == Approx(-0.5));
-  CHECK(square.L.coeff(0, 3) == Approx(0.).margin(1e-15)); // the diagonal faces two right angles
-}
-
-TEST_CASE("Linear functions are harmonic in the interior of a planar mesh")
-{
-  const shapes::Matrices mesh = shapes::irregular_grid_matrices(12, 10);
-  const Eigen::MatrixXd LV = laplace(mesh).L * mesh.V;
-  for(Eigen::Index v = 0; v < LV.rows(); ++v) {
-    const double x = mesh.V(v, 0), y = mesh.V(v, 1);
-    if(x > 0. && x < 1. && y > 0. && y < 1.)
-      CHECK(LV.row(v).cwiseAbs().maxCoeff() < 1e-13);
-  }
-}
-
-TEST_CASE("The Dirichlet energy of a linear function on a square is its area times the squared slope")
-{
-  const shapes::Matrices mesh = shapes::irregular_grid_matrices(8, 8);
-  const Eigen::VectorXd f = 3. * mesh.V.col(0) - 4. * mesh.V.col(1);
-  CHECK(f.dot(laplace(mesh).L * f) == Approx(25.));
-}
-
-TEST_CASE("Masses sum to the area and are the row sums of B, lumped, averaged and consistent")
-{
-  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(3);
-  const Eigen::VectorXd lumped = laplace(mesh).mass;
-  for(const double theta : {0., 0.5, 1.}) {
-    const Laplace_operator op = laplace(mesh, theta);
-    CHECK(op.theta == theta);
-    CHECK(op.mass.sum() == Approx(area(mesh)));
-    CHECK((op.B * Eigen::VectorXd::Ones(op.B.cols()) - op.mass).cwiseAbs().maxCoeff() < 1e-15);
-    CHECK((op.mass - lumped).cwiseAbs().maxCoeff() < 1e-15);
-    CHECK(op.B.nonZeros() == (theta > 0. ? op.L.nonZeros() : op.B.rows()));
-  }
-  CHECK(SG::mass_blend(SG::Mass::lumped) == 0.);
-  CHECK(SG::mass_blend(SG::Mass::averaged) == 0.5);
-  CHECK(SG::mass_name(SG::Mass::averaged) == std::string("averaged"));
-}
-
-TEST_CASE("The consistent mass integrates products of linear functions exactly")
-{
-  const shapes::Matrices mesh = shapes::irregular_grid_matrices(6, 5);
-  const Eigen::VectorXd x = mesh.V.col(0), y = mesh.V.col(1);
-  const Laplace_operator op = laplace(mesh, 1.);
-  CHECK(x.dot(op.B * x) == Approx(1. / 3.));
-  CHECK(x.dot(op.B * y) == Approx(1. / 4.));
-}
-
-TEST_CASE("Another lumping is a choice of corner masses")
-{
-  const shapes::Matrices mesh = shapes::icosphere_matrices(1);
-  Eigen::MatrixXd corner_masses = SG::barycentric_corner_masses(mesh.V, mesh.T);
-  CHECK(corner_masses.sum() == Approx(area(mesh)));
-  corner_masses *= 2.;
-  const Laplace_operator doubled = SG::laplace_operator(mesh.V, mesh.T, corner_masses, 0.);
-  CHECK((doubled.mass - 2. * laplace(mesh).mass).cwiseAbs().maxCoeff() < 1e-14);
-  CHECK_THROWS_WITH(SG::laplace_operator(mesh.V, mesh.T, corner_masses.topRows(3), 0.),
-                    ContainsSubstring("corner masses"));
-}
-
-TEST_CASE("The Laplacian does not depend on scale, the mass is an area, at any magnitude of coordinates")
-{
-  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
-  const Laplace_operator op = laplace(mesh);
-  for(const double scale : {1e-140, 1e-5, 1e7, 1e140}) {
-    shapes::Matrices scaled = mesh;
-    scaled.V *= scale;
-    const Laplace_operator other = laplace(scaled);
-    CHECK((other.L - op.L).norm() < 1e-12 * op.L.norm());
-    CHECK((other.mass / scale / scale - op.mass).cwiseAbs().maxCoeff() < 1e-13);
-    const Eigenpairs pairs = SG::eigenpairs(other, 10);
-    CHECK(orthonormality_error(other, pairs) < 1e-10);
-    CHECK(pairs.values(9) * scale * scale == Approx(SG::eigenpairs(op, 10).values(9)));
-  }
-}
-
-TEST_CASE("Zero-area faces contribute nothing, exact or degenerate to rounding")
-{
-  // A square of two triangles, one diagonal of which is doubled by a face without area.
-  shapes::Matrices mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
-                                           {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
-  shapes::Matrices without = mesh;
-  without.T.conservativeResize(3, 3);
-  CHECK((Eigen::MatrixXd(laplace(mesh).L) - Eigen::MatrixXd(laplace(without).L)).norm() == 0.);
-  CHECK((laplace(mesh).mass - laplace(without).mass).norm() == 0.);
-
-  // Collinear on a slanted line, no coordinate is exact.
-  const Eigen::Vector3d p(0.1, 0.7, 0.3), d(0.3, 0.1, 0.7);
-  const SG::Triangle_cotangents t = SG::triangle_cotangents(p, p + d / 3., p + d);
-  CHECK(t.area == 0.);
-  CHECK(t.cot == Eigen::Vector3d::Zero());
-}
-
-TEST_CASE("A mesh and its matrices give the same operators, for every mesh type and kernel")
-{
-  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
-  Surface_mesh surface_mesh;
-  CGAL::Polyhedron_3<CGAL::Simple_cartesian<double>> polyhedron;
-  CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3> exact;
-  shapes::make_mesh(surface_mesh, mesh);
-  shapes::make_mesh(polyhedron, mesh);
-  shapes::make_mesh(exact, mesh);
-  CHECK(SG::mesh_matrices(surface_mesh).V == mesh.V);
-  CHECK(SG::mesh_matrices(polyhedron).V == mesh.V);
-  CHECK(SG::mesh_matrices(exact).V == mesh.V);
-  const Eigen::MatrixXd L = laplace(mesh, 0.5).L, B = laplace(mesh, 0.5).B;
-  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(surface_mesh, SG::Mass::averaged).L).isApprox(L, 1e-14));
-  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(polyhedron, SG::Mass::averaged).L).isApprox(L, 1e-14));
-  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(exact, SG::Mass::averaged).B).isApprox(B, 1e-14));
-}
-
-TEST_CASE("Removed vertices and faces are skipped, a vertex point map is respected")
-{
-  Surface_mesh mesh;
-  shapes::make_grid(mesh, 3, 3);
-  CGAL::Euler::remove_face(halfedge(*faces(mesh).begin(), mesh), mesh);
-  REQUIRE(mesh.has_garbage() == true);
-  auto doubled = mesh.add_property_map<Surface_mesh::Vertex_index, Point>("v:doubled").first;
-  for(const auto v : vertices(mesh))
-    doubled[v] = Point(2. * mesh.point(v).x(), 2. * mesh.point(v).y(), 0.);
-  const Laplace_operator op =
-      SG::cotangent_laplacian(mesh, SG::Mass::lumped, CGAL::parameters::vertex_point_map(doubled));
-  CHECK(op.mass.size() == 16);
-  CHECK(op.mass.sum() == Approx(4. * 17. / 18.));
-}
 
 TEST_CASE("Residuals and orthonormality of eigenpairs in either mass, by either method")
 {
@@ -570,6 +409,61 @@ TEST_CASE("Panel solves agree with the Cholesky wrapper")
       CHECK(std::abs(panel.row(i)[c] - x(factor.order()[i], c)) < 1e-10);
 }
 
+TEST_CASE("The kernels on panels compute what Eigen does, for either kind of rows")
+{
+  namespace I = SG::internal;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, I::panel_width, Eigen::RowMajor>;
+  using Small = Eigen::Matrix<double, I::panel_width, I::panel_width, Eigen::RowMajor>;
+  const Eigen::Index n = 37;
+  const Rows P = Rows::Random(n, 8), W = Rows::Random(n, 8);
+  const Small H = Small::Random();
+  const auto check = [&](auto gram, auto subtract_product, auto multiply, auto forward, auto backward) {
+    Small sum = H;
+    gram(P.data(), W.data(), n, sum.data());
+    CHECK((sum - (H + P.transpose() * W)).norm() < 1e-13);
+
+    Rows left = W;
+    subtract_product(left.data(), P.data(), n, H.data());
+    CHECK((left - (W - P * H)).norm() < 1e-13);
+
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> A = Eigen::MatrixXd(P * W.transpose()).sparseView();
+    Rows product = W;
+    multiply(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), P.data(), product.data(), 5, n);
+    CHECK((product.bottomRows(n - 5) - (A * P).bottomRows(n - 5)).norm() < 1e-12);
+    CHECK(product.topRows(5) == W.topRows(5));
+
+    // One supernode of 7 columns that begins at row 3, and 11 rows below; its diagonal holds inverses.
+    const int width = 7, below = 11;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> L =
+        Eigen::MatrixXd::Random(width + below, width);
+    L.diagonal().array() += 3;
+    const Eigen::MatrixXd lower = L.topRows(width).triangularView<Eigen::Lower>();
+    L.topRows(width).diagonal() = L.topRows(width).diagonal().cwiseInverse().eval();
+    std::vector<int> rows;
+    for(int i = 0; i < below; ++i)
+      rows.push_back(12 + 2 * i);
+    const I::Supernode s{L.data(), rows.data(), 3, width, below};
+    Rows expected = W, found = W;
+    expected.middleRows(3, width) = lower.triangularView<Eigen::Lower>().solve(W.middleRows(3, width));
+    for(int i = 0; i < below; ++i)
+      expected.row(rows[i]) -= L.row(width + i) * expected.middleRows(3, width);
+    forward(s, found.data());
+    CHECK((found - expected).norm() < 1e-12);
+
+    Eigen::MatrixXd right = found.middleRows(3, width);
+    for(int i = 0; i < below; ++i)
+      right -= L.row(width + i).transpose() * found.row(rows[i]);
+    expected = found;
+    expected.middleRows(3, width) = lower.transpose().triangularView<Eigen::Upper>().solve(right);
+    backward(s, found.data());
+    CHECK((found - expected).norm() < 1e-12);
+  };
+  check(I::gram, I::subtract_product, I::multiply, I::forward, I::backward);
+  using Row = I::Panel_row;
+  check(I::gram_body<Row>, I::subtract_product_body<Row>, I::multiply_body<Row>, I::forward_body<Row>,
+        I::backward_body<Row>);
+}
+
 TEST_CASE("The Cholesky wrapper solves for many columns at once")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
@@ -608,61 +502,6 @@ TEST_CASE("Progress is reported in [0, 1] and can cancel")
     CHECK(fractions.back() == 1.);
     options.progress = [](double fraction) { return fraction < 0.5; };
     CHECK_THROWS_AS(SG::eigenpairs(op, 20, options), SG::Cancelled);
-  }
-}
-
-TEST_CASE("Bad meshes are refused by the name of the first offender")
-{
-  shapes::Matrices mesh = shapes::grid_matrices(4, 4);
-  SECTION("a coordinate that is not a number")
-  {
-    mesh.V(7, 1) = std::numeric_limits<double>::quiet_NaN();
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 7 "));
-    Surface_mesh graph;
-    shapes::make_mesh(graph, mesh);
-    CHECK_THROWS_WITH(SG::mesh_matrices(graph), ContainsSubstring("vertex 7 "));
-  }
-  SECTION("a face that is not a triangle")
-  {
-    Surface_mesh graph;
-    shapes::make_grid(graph, 4, 4);
-    const auto first = faces(graph).begin();
-    CGAL::Euler::join_face(halfedge(*first, graph), graph);
-    CHECK_THROWS_WITH(SG::mesh_matrices(graph),
-                      ContainsSubstring("face 0 ") && ContainsSubstring("triangulate"));
-  }
-  SECTION("an isolated vertex")
-  {
-    mesh.V.conservativeResize(26, 3);
-    mesh.V.row(25).setConstant(0.5);
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
-  }
-  SECTION("a vertex with only zero-area faces")
-  {
-    mesh.T(0, 1) = mesh.T(0, 0) = 0;
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{0, 1, 2}, {0, 3, 1}});
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 3 ") && ContainsSubstring("zero area"));
-  }
-  SECTION("a needle")
-  {
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}}, {{0, 1, 2}, {0, 3, 1}});
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("face 1 ") && ContainsSubstring("needle"));
-  }
-  SECTION("an area that overflows")
-  {
-    mesh.V *= 1e160;
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("face 0 "));
-  }
-  SECTION("indices")
-  {
-    shapes::Matrices bad = mesh;
-    bad.T(5, 2) = 25;
-    CHECK_THROWS_WITH(laplace(bad), ContainsSubstring("face 5 ") && ContainsSubstring("0..24"));
-    bad = mesh;
-    bad.T(6, 0) = bad.T(6, 1);
-    CHECK_THROWS_WITH(laplace(bad), ContainsSubstring("face 6 ") && ContainsSubstring("twice"));
-    CHECK_THROWS_AS(SG::laplace_operator(mesh.V, Eigen::MatrixXi(0, 3)), std::invalid_argument);
-    CHECK_THROWS_AS(SG::laplace_operator(mesh.V, mesh.T, 1.5), std::invalid_argument);
   }
 }
 

@@ -1,0 +1,226 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// Vertices that survive in place.
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include "catch.h"
+#include "collapse_helpers.h"
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+using Policies = SMS::Spectral_policies<Mesh, Kernel>;
+using Result = SMS::Spectral_edge_collapse_result;
+using SMS::Spectral_edge_collapse_options;
+using SMS::Spectral_placement_strategy;
+
+TEST_CASE("Vertices to keep survive with their position and their values")
+{
+  const bool bordered = GENERATE(false, true);
+  Spectral_edge_collapse_options options = options_with(10);
+  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.binary = GENERATE(false, true);
+  options.preserve_border = bordered;
+  const bool as_map = GENERATE(false, true);
+  CAPTURE(bordered, SMS::placement_name(options.placement), options.binary, as_map);
+  const shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
+  const std::vector<std::size_t> kept = every(17, input.V.rows(), 3);
+  Mesh mesh = make_mesh(input);
+
+  auto flags = mesh.add_property_map<Mesh::Vertex_index, bool>("v:kept", false).first;
+  if(as_map)
+    for(const std::size_t i : kept)
+      flags[Mesh::Vertex_index(Mesh::size_type(i))] = true;
+  else
+    options.kept_vertices = kept;
+  const Policies policies(mesh, options, CGAL::parameters::vertex_is_constrained_map(flags));
+  collapse(mesh, policies, 60);
+  CHECK(count_vertices(mesh) == 60);
+  CHECK(survivors(kept, input, mesh, policies.restriction(), policies.vertex_map()) == kept.size());
+  const Input fine = eigen_input(input, SG::Mass::lumped, *policies.eigenpairs());
+  CHECK(fault_of_run(mesh, policies, fine, Check{options.binary, true, 1e-8}) == "");
+
+  // They would not by themselves.
+  Mesh other = make_mesh(input);
+  options.kept_vertices.clear();
+  const Policies free(other, options);
+  collapse(other, free, 60);
+  CHECK(survivors(kept, input, other, free.restriction(), free.vertex_map()) < kept.size() / 2);
+}
+
+TEST_CASE("A second run keeps the vertices of the first")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Mesh mesh = make_mesh(input);
+  Spectral_edge_collapse_options options = options_with(10);
+  options.kept_vertices = every(20, 642);
+  const Policies policies(mesh, options);
+  for(const std::size_t N : {300, 100}) {
+    collapse(mesh, policies, N);
+    mesh.collect_garbage();
+    CHECK(survivors(options.kept_vertices, input, mesh, policies.restriction(), policies.vertex_map()) == 33);
+  }
+}
+
+TEST_CASE("Vertices to keep are more than the target: the run ends when nothing else is left")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Mesh mesh = make_mesh(input);
+  Spectral_edge_collapse_options options = options_with(5);
+  options.kept_vertices = every(8, 642);
+  const Result result = SMS::spectral_edge_collapse(mesh, 40, options);
+  CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
+  CHECK(result.output_vertices >= options.kept_vertices.size());
+  CHECK(result.output_vertices < 2 * options.kept_vertices.size());
+  CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 81);
+  CHECK(result.refusals.placement > 0);
+}
+
+TEST_CASE("Vertices to keep and edge constraints hold at the same time, in one stage or two")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  Mesh mesh = make_mesh(input);
+  Spectral_edge_collapse_options options = options_with(10);
+  options.pre_simplify = GENERATE(0, 400);
+  CAPTURE(options.pre_simplify);
+  auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  std::set<Kernel::Point_3> ends, after;
+  for(const auto e : edges(mesh))
+    if(e.idx() % 60 == 0) {
+      constraints[e] = true;
+      ends.insert({mesh.point(source(e, mesh)), mesh.point(target(e, mesh))});
+    }
+  // Next to the constrained edges: there the two must disagree.
+  for(const auto e : edges(mesh))
+    if(constraints[e])
+      options.kept_vertices.push_back(std::size_t(mesh.target(mesh.next(mesh.halfedge(e))).idx()));
+  std::sort(options.kept_vertices.begin(), options.kept_vertices.end());
+  const auto last = std::unique(options.kept_vertices.begin(), options.kept_vertices.end());
+  options.kept_vertices.erase(last, options.kept_vertices.end());
+
+  const Result result =
+      SMS::spectral_edge_collapse(mesh, 10, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  CHECK(fault_of_result(mesh, result.restriction, result.vertex_map, input) == "");
+  CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
+  CHECK(result.output_vertices < 200);
+  CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) ==
+        options.kept_vertices.size());
+  for(const auto e : edges(mesh))
+    if(constraints[e])
+      after.insert({mesh.point(source(e, mesh)), mesh.point(target(e, mesh))});
+  CHECK(ends == after);
+  CHECK(result.refusals.filter > 0);
+}
+
+TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of them are refused")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  const int a = input.T(100, 0), b = input.T(100, 1), c = input.T(100, 2);
+  input.V.row(a) = input.V.row(b);
+  Mesh mesh = make_mesh(input);
+  Spectral_edge_collapse_options options = options_with(8);
+  options.pre_simplify = GENERATE(0, 120);
+  SECTION("one")
+  {
+    const std::size_t one = std::size_t(GENERATE(true, false) ? a : b);
+    options.kept_vertices = {one};
+    const Result result = SMS::spectral_edge_collapse(mesh, 50, options);
+    CHECK(survivors({one}, input, mesh, result.restriction, result.vertex_map) == 1);
+    CHECK(positions(mesh).row(Eigen::Index(result.vertex_map[one])) == input.V.row(Eigen::Index(one)));
+  }
+  SECTION("two, with a third between them")
+  {
+    input.V.row(c) = input.V.row(b);
+    Mesh folded = make_mesh(input);
+    options.kept_vertices = {std::size_t(a), std::size_t(c)};
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(folded, 50, options), std::invalid_argument);
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(folded, 50, options),
+                      ContainsSubstring("without length") && ContainsSubstring(std::to_string(a)) &&
+                          ContainsSubstring(std::to_string(c)));
+    CHECK(positions(folded) == input.V);
+  }
+  SECTION("a vertex that is not there")
+  {
+    options.kept_vertices = {7, 162};
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 50, options), std::invalid_argument);
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring("vertex 162"));
+    CHECK(positions(mesh) == input.V);
+  }
+}
+
+TEST_CASE("Pre-simplification never brings two vertices to keep together that share a position")
+{
+  // Two triangles on one edge, of which every other edge leads from an end to one of the two.
+  shapes::Matrices input{Eigen::MatrixXd(4, 3), Eigen::MatrixXi(2, 3)};
+  input.V << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0;
+  input.T << 0, 1, 2, 0, 3, 1;
+  Spectral_edge_collapse_options options = options_with(1);
+  options.kept_vertices = {2, 3};
+  options.pre_simplify = 2;
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 2, options);
+  CHECK(result.pre_simplified_vertices == 4);
+  CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
+}
+
+namespace {
+
+// A placement that happens to lie on an end of the edge: the one that is not to be kept.
+template <class Tracker>
+struct Other_end_placement
+{
+  std::shared_ptr<const Tracker> tracker;
+
+  template <class Profile>
+  SMS::internal::Spectral_optional<Kernel::Point_3> operator()(const Profile& profile) const
+  {
+    return tracker->is_kept(profile.v0()) ? profile.p1() : profile.p0();
+  }
+};
+
+} // namespace
+
+TEST_CASE("A vertex to keep takes in a neighbour on which the placement happens to lie, unless constraints "
+          "hold that one")
+{
+  using Tracker = SMS::internal::Restriction_tracker<Mesh>;
+  const bool constrained = GENERATE(false, true);
+  CAPTURE(constrained);
+  // A fan around the vertex to keep: every edge that may be collapsed leads to it or is on the border.
+  Mesh mesh = make_mesh(shapes::disc_matrices(12));
+  std::vector<char> flags(13, 0);
+  flags[0] = 1;
+  const auto tracker = std::make_shared<Tracker>(mesh, flags);
+  const auto shared = std::make_shared<const SMS::internal::Shared_positions>();
+  auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  for(const auto e : edges(mesh))
+    constraints[e] = constrained && is_border(e, mesh);
+  using Is_constrained = SMS::internal::Ends_of_constrained_edges<decltype(constraints)>;
+  using Placement =
+      SMS::internal::Kept_vertices_placement<Tracker, Other_end_placement<Tracker>, Is_constrained>;
+  const Placement placement(tracker, shared, Other_end_placement<Tracker>{tracker},
+                            Is_constrained{constraints});
+  int at_centre = 0, refused = 0;
+  for(const auto h : halfedges(mesh)) {
+    using Profile = SMS::Edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_3>, Kernel>;
+    const Kernel traits;
+    const Profile profile(h, mesh, traits, get(boost::vertex_index, mesh), mesh.points(),
+                          get(boost::halfedge_index, mesh), true);
+    if(!tracker->is_kept(profile.v0()) && !tracker->is_kept(profile.v1()))
+      continue;
+    const auto point = placement(profile);
+    at_centre += point && *point == mesh.point(Mesh::Vertex_index(0));
+    refused += !point;
+  }
+  CHECK(at_centre == (constrained ? 0 : 24));
+  CHECK(refused == (constrained ? 24 : 0));
+}
