@@ -9,13 +9,10 @@
 #include "core_helpers.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <random>
-#include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -498,48 +495,6 @@ TEST_CASE("Candidates evaluated ahead are those evaluated one at a time, before 
     REQUIRE(c != nullptr);
     if(c->collapsible)
       CHECK((c->point - on_edge(mesh, e, c->weight)).norm() < 1e-14);
-  }
-}
-
-TEST_CASE("Where the system refuses a thread the pool does with those it has got")
-{
-  int started = 0;
-  SMS::internal::Spectral_thread_pool<int> pool(8, [&](auto&& worker) {
-    if(started == 2)
-      throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
-    ++started;
-    return std::thread(worker);
-  });
-  CHECK(pool.number_of_threads() == 3);
-  std::vector<int> calls(1000, 0);
-  for(int loop = 0; loop < 20; ++loop)
-    pool.for_each(calls.size(), 4, [&](const std::size_t i, int&) { ++calls[i]; });
-  CHECK(std::all_of(calls.begin(), calls.end(), [](const int n) { return n == 20; }));
-}
-
-TEST_CASE("What the pool has started is done once, at the latest when it is finished")
-{
-  for(const int threads : {1, 2, 5}) {
-    std::vector<std::atomic<int>> calls(300);
-    SMS::internal::Spectral_thread_pool<int> pool(threads);
-    const auto count = [&](const std::size_t i, int&) { ++calls[i]; };
-    const auto all_are = [&](const int n) {
-      return std::all_of(calls.begin(), calls.end(), [n](const std::atomic<int>& c) { return c == n; });
-    };
-    pool.finish(); // of nothing
-    pool.start(calls.size(), count);
-    pool.finish();
-    CHECK(all_are(1));
-    pool.start(calls.size(), count);
-    pool.start(calls.size(), count); // the one before is finished first
-    pool.for_each(calls.size(), 4, count);
-    CHECK(all_are(4));
-    pool.start(calls.size(), count);
-    if(threads > 1)
-      pool.wait_for([&] { return all_are(5); }); // without a hand of the caller
-    pool.finish();
-    CHECK(all_are(5));
-    pool.start(calls.size(), count); // and gone with the pool, in the middle of it
   }
 }
 

@@ -9,7 +9,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
-#include <CGAL/Spectral_geometry/internal/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
@@ -150,7 +150,7 @@ TEST_CASE("What a call of the pool throws reaches the caller, and the pool goes 
   {
     int used = 0;
   };
-  using Pool = SMS::internal::Spectral_thread_pool<Scratch>;
+  using Pool = CGAL::Spectral_geometry::internal::Thread_pool<Scratch>;
   for(const int threads : {1, 2, 4}) {
     Pool pool(threads);
     for(const std::size_t thrower : {0, 500, 999}) {
@@ -160,42 +160,18 @@ TEST_CASE("What a call of the pool throws reaches the caller, and the pool goes 
           throw std::bad_alloc();
       };
       CHECK_THROWS_AS(pool.for_each(1000, 4, body), std::bad_alloc);
-      pool.start(1000, body);
-      CHECK_THROWS_AS(pool.finish(), std::bad_alloc);
     }
     std::atomic<int> calls{0};
     pool.for_each(1000, 4, [&](std::size_t, Scratch&) { ++calls; });
     CHECK(calls == 1000);
-    pool.start(10, [](std::size_t, Scratch&) { throw std::runtime_error("nobody asks"); });
   }
-}
-
-TEST_CASE("A task that throws does so where its result is asked for")
-{
-  struct Scratch
-  {};
-  SMS::internal::Spectral_thread_pool<Scratch> pool(3);
-  SMS::internal::Spectral_tasks<int, Scratch> tasks;
-  const auto compute = [](const std::size_t i, Scratch&) {
-    if(i == 7)
-      throw std::bad_alloc();
-    return int(i);
-  };
-  tasks.start(pool, 20, compute);
-  CHECK(tasks.take(3) == 3);
-  CHECK_THROWS_AS(tasks.take(7), std::bad_alloc);
-  CHECK_THROWS_AS(tasks.finish([](std::size_t, int) {}), std::bad_alloc);
-  tasks.start(pool, 5, compute);
-  int sum = 0;
-  tasks.finish([&](std::size_t, const int x) { sum += x; });
-  CHECK(sum == 10);
 }
 
 TEST_CASE("A pool does with the threads it gets, and ends them if its construction fails")
 {
   struct Scratch
   {};
-  using Pool = SMS::internal::Spectral_thread_pool<Scratch>;
+  using Pool = CGAL::Spectral_geometry::internal::Thread_pool<Scratch>;
   int left = 0;
   const auto start = [&left](auto error) {
     return [&left, error](auto&& worker) {

@@ -46,7 +46,7 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
 
 TEST_CASE("Rows begin with a cache line and are padded with zeros")
 {
-  using SMS::internal::spectral_cache_line;
+  using SMS::internal::cache_line;
   const Eigen::Index length = GENERATE(1, 8, 13);
   const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(5, length);
   SMS::internal::Spectral_rows rows;
@@ -55,9 +55,9 @@ TEST_CASE("Rows begin with a cache line and are padded with zeros")
   rows.row(0).setOnes();
   rows.assign(matrix);
   REQUIRE(rows.cols() >= length);
-  CHECK(rows.cols() * sizeof(double) % spectral_cache_line == 0);
+  CHECK(rows.cols() * sizeof(double) % cache_line == 0);
   for(std::size_t i = 0; i < 5; ++i) {
-    CHECK(reinterpret_cast<std::uintptr_t>(rows[i]) % spectral_cache_line == 0);
+    CHECK(reinterpret_cast<std::uintptr_t>(rows[i]) % cache_line == 0);
     CHECK(rows.row(i).head(length) == matrix.row(Eigen::Index(i)));
     CHECK(rows.row(i).tail(rows.cols() - length).isZero(0));
   }

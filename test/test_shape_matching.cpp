@@ -214,7 +214,7 @@ TEST_CASE("A permutation goes through its functional map and back")
   Map inverse(p.size());
   for(std::size_t i = 0; i < p.size(); ++i)
     inverse[static_cast<std::size_t>(p[i])] = static_cast<Index>(i);
-  CHECK(SG::source_to_target_map(C, x.pairs.vectors, y.pairs.vectors) == inverse);
+  CHECK(SG::target_to_source_map(C.transpose(), y.pairs.vectors, x.pairs.vectors) == inverse);
   Map wrong = p;
   wrong[3] = X.V.rows();
   CHECK_THROWS_AS(SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, wrong),

@@ -7,6 +7,7 @@
 #include "../../examples/programs/io/input_mesh.h"
 #include "generated_shape.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
@@ -17,18 +18,12 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
-#include <chrono>
 #include <string>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 Mesh load(const std::string& name)
 {
@@ -91,7 +86,8 @@ Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t ta
 {
   Mesh mesh = load(name);
   const std::size_t n = mesh.number_of_vertices();
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   const SMS::Vertex_count_stop_predicate<Mesh> stop(target, mesh);
   if(rival == Rival::garland_heckbert) {
     SMS::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
@@ -101,7 +97,7 @@ Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t ta
     SMS::edge_collapse(mesh, stop,
                        CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Mesh>())
                            .get_placement(SMS::LindstromTurk_placement<Mesh>()));
-  return {seconds_since(begin), n - mesh.number_of_vertices()};
+  return {timer.time(), n - mesh.number_of_vertices()};
 }
 
 Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setting, Solver solver,
@@ -113,9 +109,10 @@ Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setti
   options.tolerance = tolerance;
   options.threads = threads;
   options.verify = false;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   const SG::Eigenpairs pairs = SG::eigenpairs(op, setting.eigenvectors, options);
-  return {seconds_since(begin), pairs.residuals.maxCoeff()};
+  return {timer.time(), pairs.residuals.maxCoeff()};
 }
 
 double estimated_memory(std::size_t vertices, const Setting& setting)

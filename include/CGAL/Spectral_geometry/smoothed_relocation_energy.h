@@ -7,7 +7,7 @@
 
 #include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
 #include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
-#include <CGAL/Spectral_geometry/internal/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -186,8 +186,8 @@ private:
   }
 
   // Derivatives with respect to the entries of F and Z, in which R is linear.
-  CGAL_SPECTRAL_PANEL_INLINE void add_linear_body(const Index first, const Index columns, const Work& work,
-                                                  Rows& by_F, Rows& by_Z) const
+  CGAL_SPECTRAL_INLINE void add_linear_body(const Index first, const Index columns, const Work& work,
+                                            Rows& by_F, Rows& by_Z) const
   {
     for(Index w = 0; w < number_of_vertices(); ++w) {
       Row f{}, z{};
@@ -205,20 +205,8 @@ private:
 
   void add_linear(const Index first, const Index columns, const Work& work, Rows& by_F, Rows& by_Z) const
   {
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-    if(internal::panel_has_avx2())
-      return add_linear_avx2(first, columns, work, by_F, by_Z);
-#endif
-    add_linear_body(first, columns, work, by_F, by_Z);
+    internal::on_vector_units([&] { add_linear_body(first, columns, work, by_F, by_Z); });
   }
-
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-  CGAL_SPECTRAL_PANEL_AVX2 void add_linear_avx2(const Index first, const Index columns, const Work& work,
-                                                Rows& by_F, Rows& by_Z) const
-  {
-    add_linear_body(first, columns, work, by_F, by_Z);
-  }
-#endif
 
   // A = B + tau L, lower triangle.
   bool factorise()
@@ -246,7 +234,7 @@ private:
   }
 
   // x <- A^-1 x, row by row of the factor: what belongs to one vertex is contiguous.
-  CGAL_SPECTRAL_PANEL_INLINE void solve(Panel& x, Panel& scratch) const
+  CGAL_SPECTRAL_INLINE void solve(Panel& x, Panel& scratch) const
   {
     using Entry_of_factor = Eigen::SparseMatrix<double>::InnerIterator;
     const auto& G = m_cholesky.matrixL().nestedExpression();
@@ -278,21 +266,10 @@ private:
   // dS = Y^T dB Y - 2 X^T dA Y + 2 (X + mu Q)^T (dB Z - dL F) - mu E_w / M_w dM_w.
   void add(const Signals& s, const bool derive, Work& work) const
   {
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-    if(internal::panel_has_avx2())
-      return add_avx2(s, derive, work);
-#endif
-    add_body(s, derive, work);
+    internal::on_vector_units([&] { add_body(s, derive, work); });
   }
 
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-  CGAL_SPECTRAL_PANEL_AVX2 void add_avx2(const Signals& s, const bool derive, Work& work) const
-  {
-    add_body(s, derive, work);
-  }
-#endif
-
-  CGAL_SPECTRAL_PANEL_INLINE void add_body(const Signals& s, const bool derive, Work& work) const
+  CGAL_SPECTRAL_INLINE void add_body(const Signals& s, const bool derive, Work& work) const
   {
     const Index n = number_of_vertices();
     Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
@@ -332,7 +309,7 @@ private:
     add_derivatives(s, work);
   }
 
-  CGAL_SPECTRAL_PANEL_INLINE void add_derivatives(const Signals& s, Work& work) const
+  CGAL_SPECTRAL_INLINE void add_derivatives(const Signals& s, Work& work) const
   {
     const Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
     Entries& d = work.derivatives;
@@ -362,27 +339,27 @@ private:
   // the time it takes for Eigen's expressions.
   using Row = double[width];
 
-  CGAL_SPECTRAL_PANEL_INLINE static void add_multiple(const double a, const double* x, double* y)
+  CGAL_SPECTRAL_INLINE static void add_multiple(const double a, const double* x, double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] += a * x[c];
   }
 
-  CGAL_SPECTRAL_PANEL_INLINE static void add_difference(const double a, const double* x, const double* x0,
-                                                        double* y)
+  CGAL_SPECTRAL_INLINE static void add_difference(const double a, const double* x, const double* x0,
+                                                  double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] += a * (x[c] - x0[c]);
   }
 
-  CGAL_SPECTRAL_PANEL_INLINE static void scale(const double a, double* y)
+  CGAL_SPECTRAL_INLINE static void scale(const double a, double* y)
   {
     for(int c = 0; c < width; ++c)
       y[c] *= a;
   }
 
   // Eight partial sums: one alone could not be vectorised.
-  CGAL_SPECTRAL_PANEL_INLINE static double dot(const double* x, const double* y)
+  CGAL_SPECTRAL_INLINE static double dot(const double* x, const double* y)
   {
     double partial[lanes] = {};
     for(int k = 0; k < width; k += lanes)
@@ -391,7 +368,7 @@ private:
     return sum(partial);
   }
 
-  CGAL_SPECTRAL_PANEL_INLINE static double sum(const double* partial)
+  CGAL_SPECTRAL_INLINE static double sum(const double* partial)
   {
     return ((partial[0] + partial[1]) + (partial[2] + partial[3])) +
            ((partial[4] + partial[5]) + (partial[6] + partial[7]));

@@ -78,12 +78,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
 target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
                      const Eigen::MatrixXd& target_vectors, int threads = 1);
 
-/// the vertex map from X to Y of a functional map \f$ C_{X,Y} \f$: for each x the y nearest in the same embedding
-/// as for `target_to_source_map()`, whose parameters it has. The two are inverse to one another for a permutation.
-CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
-source_to_target_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads = 1);
-
 /*!
 returns the map from the vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$: for each vertex y the
 point of the faces of X, embedded by \f$ x \mapsto C \Phi_X(x)^\top \f$, that is nearest to \f$ \Phi_Y(y)^\top \f$

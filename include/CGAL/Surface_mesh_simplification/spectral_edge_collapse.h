@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_H
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
@@ -24,7 +25,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -350,7 +350,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
              ? ", and the metric saw the first " + std::to_string(result.signals) + " eigenvectors."
              : "."));
 
-  const auto begin = std::chrono::steady_clock::now();
+  Real_timer timer;
+  timer.start();
   Loop_end end;
   // An edge that was given up because of another sheet is not asked for again when that sheet changes: once more, while that
   // removes a hundredth of the vertices.
@@ -361,7 +362,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     again = !end.cancelled && !end.error_reached && state.core().number_of_crossings() != 0 &&
             state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
   }
-  result.seconds_collapse = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds_collapse = timer.time();
   result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
   result.seconds_first_costs = state.seconds_first_costs();
@@ -477,22 +478,20 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   static_assert(!internal::overrides_policies<NamedParameters>,
                 "spectral_edge_collapse() takes no get_cost, get_placement, use_relaxed_order or index map");
-  const auto begin = std::chrono::steady_clock::now();
-  const auto seconds = [&begin] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  };
+  Real_timer timer;
+  timer.start();
   Spectral_edge_collapse_result result;
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target(number_of_vertices, result.input_vertices);
   internal::check_edge_collapse_options(options);
   const internal::Pre_simplification first =
       internal::pre_simplify<Geom_traits>(mesh, result.input_vertices, number_of_vertices, options, np);
-  result.seconds_pre_simplification = seconds();
+  result.seconds_pre_simplification = timer.time();
   if(first.done)
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);
   else
     internal::run_spectral_stage(mesh, number_of_vertices, options, np, np, first, result);
-  result.seconds_total = seconds();
+  result.seconds_total = timer.time();
   return result;
 }
 

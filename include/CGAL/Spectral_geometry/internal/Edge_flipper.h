@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EDGE_FLIPPER_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EDGE_FLIPPER_H
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/internal/Flip_connectivity.h>
@@ -15,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <queue>
@@ -39,8 +39,7 @@ public:
   Edge_flipper(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Flip_energy::Rows& F,
                const Flip_energy::Rows& Z, const double theta,
                const std::vector<std::pair<int, int>>& constrained, const Edge_flip_options& options)
-    : m_begin(std::chrono::steady_clock::now())
-    , m_options(options)
+    : m_options(options)
     , m_mesh(T, V.rows())
     , m_energy(V, m_mesh, F, Z, theta)
     , m_guards(V, m_mesh, options)
@@ -48,6 +47,7 @@ public:
     , m_version(std::size_t(m_mesh.number_of_edges()), 0)
     , m_stays(std::size_t(m_mesh.number_of_edges()), false)
   {
+    m_timer.start();
     std::set<std::pair<int, int>> pairs;
     for(const auto& [v, w] : constrained)
       pairs.insert(std::minmax(v, w));
@@ -69,7 +69,7 @@ public:
       push(e);
     const std::size_t budget =
         m_options.maximum_flips != 0 ? m_options.maximum_flips : 4 * std::size_t(m_mesh.number_of_edges());
-    while(!m_queue.empty() && result.flips.size() < budget && seconds() < m_options.maximum_seconds) {
+    while(!m_queue.empty() && result.flips.size() < budget && m_timer.time() < m_options.maximum_seconds) {
       const Candidate candidate = m_queue.top();
       m_queue.pop();
       if(candidate.version != m_version[std::size_t(candidate.edge)])
@@ -79,7 +79,7 @@ public:
       flip(candidate, result);
     }
     result.E_after = m_energy.value();
-    result.seconds = seconds();
+    result.seconds = m_timer.time();
     return m_mesh.triangles();
   }
 
@@ -149,12 +149,7 @@ private:
     return t.shape.cot(std::find(t.corners.begin(), t.corners.end(), v) - t.corners.begin());
   }
 
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_begin).count();
-  }
-
-  std::chrono::steady_clock::time_point m_begin;
+  Real_timer m_timer;
   const Edge_flip_options& m_options;
   Flip_connectivity m_mesh;
   Flip_energy m_energy;

@@ -5,6 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -83,11 +85,12 @@ public:
     for(const Triangle& t : m_triangles) {
       Eigen::Vector3d edge[3];
       edges_of(t, V, edge);
-      const double double_area = edge[0].cross(edge[1]).norm(), area = double_area / 2;
-      if(!(double_area > 0))
+      const Triangle_element element = triangle_element(edge);
+      if(element.is_degenerate())
         return false;
+      const double area = element.twice_area / 2;
       for(int k = 0; k < 3; ++k) {
-        entries.L(t.e[k]) += 0.5 * edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / double_area;
+        entries.L(t.e[k]) -= 0.5 * element.dot[k] / element.twice_area;
         entries.B(t.e[k]) += m_theta * area / 12;
         entries.B_diagonal(t.v[k]) += area * ((1 - m_theta) / 3 + m_theta / 6);
         entries.mass(t.v[k]) += area / 3;
@@ -139,7 +142,7 @@ private:
     return e;
   }
 
-  static void edges_of(const Triangle& t, const Positions& V, Eigen::Vector3d edge[3])
+  static void edges_of(const Triangle& t, const Positions& V, Eigen::Vector3d (&edge)[3])
   {
     for(int k = 0; k < 3; ++k)
       edge[k] = V.row(t.v[(k + 2) % 3]) - V.row(t.v[(k + 1) % 3]);

@@ -5,11 +5,11 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_PANEL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_PANEL_H
 
+#include <CGAL/Spectral_geometry/internal/Aligned_buffer.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -23,23 +23,17 @@ constexpr int panel_width = 8;
 class Panel
 {
 public:
-  explicit Panel(Index n)
-    : m_storage(n * panel_width + panel_width)
-  {
-    const std::uintptr_t address = reinterpret_cast<std::uintptr_t>(m_storage.data());
-    m_offset = (64 - address % 64) % 64 / sizeof(double);
-  }
-  Panel(Panel&&) = default; // moving a vector keeps its address
+  explicit Panel(Index n) { m_storage.assign(std::size_t(n) * panel_width); }
+  Panel(Panel&&) = default;
   Panel& operator=(Panel&&) = default;
-  Panel(const Panel&) = delete;
+  Panel(const Panel&) = delete; // long ones must not be copied unnoticed
   Panel& operator=(const Panel&) = delete;
 
-  double* row(Index i) { return m_storage.data() + m_offset + i * panel_width; }
-  const double* row(Index i) const { return m_storage.data() + m_offset + i * panel_width; }
+  double* row(Index i) { return m_storage.data() + i * panel_width; }
+  const double* row(Index i) const { return m_storage.data() + i * panel_width; }
 
 private:
-  std::vector<double> m_storage;
-  std::size_t m_offset;
+  Aligned_buffer m_storage;
 };
 
 } // namespace internal

@@ -6,104 +6,100 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_PANEL_KERNELS_H
 
 #include <CGAL/Spectral_geometry/internal/Panel.h>
+#include <CGAL/Spectral_geometry/internal/vector_units.h>
+
+#include <Eigen/Core>
 
 #include <cstddef>
 
 // The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is a cache line and eight
-// vectors share every access to a matrix entry. Vectors of four doubles are a language extension of GCC and Clang on every
-// target. A function marked CGAL_SPECTRAL_PANEL_AVX2 is compiled for wide vector units beside its baseline variant, and the
-// machine decides at run time: a build without any -m flag has them too.
-#if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
-#define CGAL_SPECTRAL_PANEL_INLINE inline __attribute__((always_inline))
-#if defined(__x86_64__)
-#define CGAL_SPECTRAL_PANEL_AVX2 __attribute__((flatten, target("avx2,fma")))
-#endif
-#else
-#define CGAL_SPECTRAL_PANEL_INLINE inline
-#define CGAL_SPECTRAL_PANEL_LOOPS
-#endif
+// vectors share every access to a matrix entry.
 
 namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-#ifndef CGAL_SPECTRAL_PANEL_LOOPS
-typedef double Four_doubles __attribute__((vector_size(32), aligned(8), may_alias));
-#else
-struct Four_doubles
-{
-  double v[4];
-  Four_doubles& operator+=(const Four_doubles& o)
-  {
-    for(int i = 0; i < 4; ++i)
-      v[i] += o.v[i];
-    return *this;
-  }
-  Four_doubles& operator-=(const Four_doubles& o)
-  {
-    for(int i = 0; i < 4; ++i)
-      v[i] -= o.v[i];
-    return *this;
-  }
-  friend Four_doubles operator*(double a, Four_doubles b)
-  {
-    for(int i = 0; i < 4; ++i)
-      b.v[i] *= a;
-    return b;
-  }
-};
-#endif
+/// One row of a panel in registers, as Eigen has it for the flags of the build.
+using Panel_row = Eigen::Array<double, panel_width, 1>;
 
-// One row of a panel in registers. Loaded through a pointer of the vector type, which may alias: GCC splits a memcpy in
-// halves before it inlines the function into its AVX2 variant (five times slower solves). Never passed or returned by value:
-// that ABI would depend on -m flags.
-struct Panel_row
+CGAL_SPECTRAL_INLINE void load(Panel_row& x, const double* p)
+{
+  x = Panel_row::Map(p);
+}
+
+CGAL_SPECTRAL_INLINE void store(double* p, const Panel_row& x)
+{
+  Panel_row::Map(p) = x;
+}
+
+CGAL_SPECTRAL_INLINE void clear(Panel_row& x)
+{
+  x.setZero();
+}
+
+CGAL_SPECTRAL_INLINE void add(Panel_row& y, double a, const Panel_row& x)
+{
+  y += a * x;
+}
+
+CGAL_SPECTRAL_INLINE void subtract(Panel_row& y, double a, const Panel_row& x)
+{
+  y -= a * x;
+}
+
+#ifdef CGAL_SPECTRAL_DISPATCH
+/// The same in the registers of wide vector units, in functions compiled for them: elsewhere six times slower than Eigen.
+struct Wide_panel_row
 {
   Four_doubles low, high;
 };
 
-CGAL_SPECTRAL_PANEL_INLINE void load(Panel_row& x, const double* p)
+CGAL_SPECTRAL_INLINE void load(Wide_panel_row& x, const double* p)
 {
   x.low = *reinterpret_cast<const Four_doubles*>(p);
   x.high = *reinterpret_cast<const Four_doubles*>(p + 4);
 }
 
-CGAL_SPECTRAL_PANEL_INLINE void store(double* p, const Panel_row& x)
+CGAL_SPECTRAL_INLINE void store(double* p, const Wide_panel_row& x)
 {
   *reinterpret_cast<Four_doubles*>(p) = x.low;
   *reinterpret_cast<Four_doubles*>(p + 4) = x.high;
 }
 
-CGAL_SPECTRAL_PANEL_INLINE void clear(Panel_row& x)
+CGAL_SPECTRAL_INLINE void clear(Wide_panel_row& x)
 {
   x.low = x.high = Four_doubles{};
 }
 
-// y += a x
-CGAL_SPECTRAL_PANEL_INLINE void add(Panel_row& y, double a, const Panel_row& x)
+CGAL_SPECTRAL_INLINE void add(Wide_panel_row& y, double a, const Wide_panel_row& x)
 {
   y.low += a * x.low;
   y.high += a * x.high;
 }
 
-// y -= a x
-CGAL_SPECTRAL_PANEL_INLINE void subtract(Panel_row& y, double a, const Panel_row& x)
+CGAL_SPECTRAL_INLINE void subtract(Wide_panel_row& y, double a, const Wide_panel_row& x)
 {
   y.low -= a * x.low;
   y.high -= a * x.high;
 }
+#else
+using Wide_panel_row = Panel_row;
+#endif
+
+// What follows is compiled for both kinds of rows.
 
 // H += P^T W over some rows; four columns of P at once fill the registers.
-CGAL_SPECTRAL_PANEL_INLINE void gram_body(const double* P, const double* W, std::ptrdiff_t rows, double* H)
+template <class Row>
+CGAL_SPECTRAL_INLINE void gram_body(const double* P, const double* W, std::ptrdiff_t rows, double* H)
 {
   for(int half = 0; half < panel_width; half += 4) {
-    Panel_row sum[4];
+    Row sum[4];
     for(int c = 0; c < 4; ++c)
       load(sum[c], H + (half + c) * panel_width);
     const double* p = P + half;
     const double* w = W;
     for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
-      Panel_row x;
+      Row x;
       load(x, w);
       for(int c = 0; c < 4; ++c)
         add(sum[c], p[c], x);
@@ -114,17 +110,18 @@ CGAL_SPECTRAL_PANEL_INLINE void gram_body(const double* P, const double* W, std:
 }
 
 // W -= P H over some rows.
-CGAL_SPECTRAL_PANEL_INLINE void subtract_product_body(double* W, const double* P, std::ptrdiff_t rows,
-                                                      const double* H)
+template <class Row>
+CGAL_SPECTRAL_INLINE void subtract_product_body(double* W, const double* P, std::ptrdiff_t rows,
+                                                const double* H)
 {
   for(int half = 0; half < panel_width; half += 4) {
-    Panel_row h[4];
+    Row h[4];
     for(int c = 0; c < 4; ++c)
       load(h[c], H + (half + c) * panel_width);
     const double* p = P + half;
     double* w = W;
     for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
-      Panel_row x;
+      Row x;
       load(x, w);
       for(int c = 0; c < 4; ++c)
         subtract(x, p[c], h[c]);
@@ -134,15 +131,15 @@ CGAL_SPECTRAL_PANEL_INLINE void subtract_product_body(double* W, const double* P
 }
 
 // y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin .. end.
-CGAL_SPECTRAL_PANEL_INLINE void multiply_body(const int* start, const int* column, const double* value,
-                                              const double* x, double* y, std::ptrdiff_t begin,
-                                              std::ptrdiff_t end)
+template <class Row>
+CGAL_SPECTRAL_INLINE void multiply_body(const int* start, const int* column, const double* value,
+                                        const double* x, double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
 {
   for(std::ptrdiff_t i = begin; i < end; ++i) {
-    Panel_row sum;
+    Row sum;
     clear(sum);
     for(int p = start[i]; p < start[i + 1]; ++p) {
-      Panel_row r;
+      Row r;
       load(r, x + std::ptrdiff_t(column[p]) * panel_width);
       add(sum, value[p], r);
     }
@@ -160,12 +157,13 @@ struct Supernode
 };
 
 // x_own: the rows of the panel that belong to the supernode's columns.
-CGAL_SPECTRAL_PANEL_INLINE void forward_body(const Supernode& s, double* x)
+template <class Row>
+CGAL_SPECTRAL_INLINE void forward_body(const Supernode& s, double* x)
 {
   double* own = x + std::ptrdiff_t(s.first) * panel_width;
   for(int k = 0; k < s.width; ++k) {
     const double* l = s.L + std::ptrdiff_t(k) * s.width;
-    Panel_row sum, r, result;
+    Row sum, r, result;
     load(sum, own + k * panel_width);
     for(int t = 0; t < k; ++t) {
       load(r, own + t * panel_width);
@@ -178,7 +176,7 @@ CGAL_SPECTRAL_PANEL_INLINE void forward_body(const Supernode& s, double* x)
   const double* l = s.L + std::ptrdiff_t(s.width) * s.width;
   int i = 0;
   for(; i + 4 <= s.below; i += 4, l += 4 * s.width) { // four rows at once: one access to x_own for all
-    Panel_row sum[4], r;
+    Row sum[4], r;
     for(int q = 0; q < 4; ++q)
       load(sum[q], x + std::ptrdiff_t(s.rows[i + q]) * panel_width);
     for(int t = 0; t < s.width; ++t) {
@@ -190,7 +188,7 @@ CGAL_SPECTRAL_PANEL_INLINE void forward_body(const Supernode& s, double* x)
       store(x + std::ptrdiff_t(s.rows[i + q]) * panel_width, sum[q]);
   }
   for(; i < s.below; ++i, l += s.width) {
-    Panel_row sum, r;
+    Row sum, r;
     load(sum, x + std::ptrdiff_t(s.rows[i]) * panel_width);
     for(int t = 0; t < s.width; ++t) {
       load(r, own + t * panel_width);
@@ -201,12 +199,12 @@ CGAL_SPECTRAL_PANEL_INLINE void forward_body(const Supernode& s, double* x)
 }
 
 // Subtracts the rows below from `Count` neighbouring columns of the supernode.
-template <int Count>
-CGAL_SPECTRAL_PANEL_INLINE void backward_columns(const Supernode& s, double* x, int t)
+template <class Row, int Count>
+CGAL_SPECTRAL_INLINE void backward_columns(const Supernode& s, double* x, int t)
 {
   double* own = x + std::ptrdiff_t(s.first + t) * panel_width;
   const double* l = s.L + std::ptrdiff_t(s.width) * s.width + t;
-  Panel_row sum[Count], r;
+  Row sum[Count], r;
   for(int q = 0; q < Count; ++q)
     load(sum[q], own + q * panel_width);
   for(int i = 0; i < s.below; ++i, l += s.width) {
@@ -218,18 +216,19 @@ CGAL_SPECTRAL_PANEL_INLINE void backward_columns(const Supernode& s, double* x, 
     store(own + q * panel_width, sum[q]);
 }
 
-CGAL_SPECTRAL_PANEL_INLINE void backward_body(const Supernode& s, double* x)
+template <class Row>
+CGAL_SPECTRAL_INLINE void backward_body(const Supernode& s, double* x)
 {
   int t = 0;
   for(; t + 4 <= s.width; t += 4)
-    backward_columns<4>(s, x, t);
+    backward_columns<Row, 4>(s, x, t);
   for(; t + 2 <= s.width; t += 2)
-    backward_columns<2>(s, x, t);
+    backward_columns<Row, 2>(s, x, t);
   if(t < s.width)
-    backward_columns<1>(s, x, t);
+    backward_columns<Row, 1>(s, x, t);
   double* own = x + std::ptrdiff_t(s.first) * panel_width;
   for(int k = s.width - 1; k >= 0; --k) {
-    Panel_row sum, r, result;
+    Row sum, r, result;
     load(sum, own + k * panel_width);
     for(int q = k + 1; q < s.width; ++q) {
       load(r, own + q * panel_width);
@@ -241,52 +240,34 @@ CGAL_SPECTRAL_PANEL_INLINE void backward_body(const Supernode& s, double* x)
   }
 }
 
-inline bool panel_has_avx2()
+inline void gram(const double* P, const double* W, std::ptrdiff_t rows, double* H)
 {
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-  static const bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return result;
-#else
-  return false;
-#endif
+  on_vector_units([&] { gram_body<Wide_panel_row>(P, W, rows, H); },
+                  [&] { gram_body<Panel_row>(P, W, rows, H); });
 }
 
-// For each kernel its two variants and the choice between them.
-#ifdef CGAL_SPECTRAL_PANEL_AVX2
-#define CGAL_SPECTRAL_PANEL_KERNEL(name, parameters, arguments)           \
-  inline void name##_baseline parameters                                  \
-  {                                                                       \
-    name##_body arguments;                                                \
-  }                                                                       \
-  CGAL_SPECTRAL_PANEL_AVX2 inline void name##_avx2 parameters             \
-  {                                                                       \
-    name##_body arguments;                                                \
-  }                                                                       \
-  inline void name parameters                                             \
-  {                                                                       \
-    panel_has_avx2() ? name##_avx2 arguments : name##_baseline arguments; \
-  }
-#else
-#define CGAL_SPECTRAL_PANEL_KERNEL(name, parameters, arguments) \
-  inline void name parameters                                   \
-  {                                                             \
-    name##_body arguments;                                      \
-  }
-#endif
+inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, const double* H)
+{
+  on_vector_units([&] { subtract_product_body<Wide_panel_row>(W, P, rows, H); },
+                  [&] { subtract_product_body<Panel_row>(W, P, rows, H); });
+}
 
-CGAL_SPECTRAL_PANEL_KERNEL(gram, (const double* P, const double* W, std::ptrdiff_t rows, double* H),
-                           (P, W, rows, H))
-CGAL_SPECTRAL_PANEL_KERNEL(subtract_product,
-                           (double* W, const double* P, std::ptrdiff_t rows, const double* H),
-                           (W, P, rows, H))
-CGAL_SPECTRAL_PANEL_KERNEL(multiply,
-                           (const int* start, const int* column, const double* value, const double* x,
-                            double* y, std::ptrdiff_t begin, std::ptrdiff_t end),
-                           (start, column, value, x, y, begin, end))
-CGAL_SPECTRAL_PANEL_KERNEL(forward, (const Supernode& s, double* x), (s, x))
-CGAL_SPECTRAL_PANEL_KERNEL(backward, (const Supernode& s, double* x), (s, x))
+inline void multiply(const int* start, const int* column, const double* value, const double* x, double* y,
+                     std::ptrdiff_t begin, std::ptrdiff_t end)
+{
+  on_vector_units([&] { multiply_body<Wide_panel_row>(start, column, value, x, y, begin, end); },
+                  [&] { multiply_body<Panel_row>(start, column, value, x, y, begin, end); });
+}
 
-#undef CGAL_SPECTRAL_PANEL_KERNEL
+inline void forward(const Supernode& s, double* x)
+{
+  on_vector_units([&] { forward_body<Wide_panel_row>(s, x); }, [&] { forward_body<Panel_row>(s, x); });
+}
+
+inline void backward(const Supernode& s, double* x)
+{
+  on_vector_units([&] { backward_body<Wide_panel_row>(s, x); }, [&] { backward_body<Panel_row>(s, x); });
+}
 
 } // namespace internal
 } // namespace Spectral_geometry

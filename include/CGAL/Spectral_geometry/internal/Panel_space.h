@@ -7,7 +7,7 @@
 
 #include <CGAL/Spectral_geometry/internal/Panel.h>
 #include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
-#include <CGAL/Spectral_geometry/internal/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

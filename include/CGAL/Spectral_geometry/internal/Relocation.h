@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_H
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -18,7 +19,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -122,10 +122,10 @@ public:
     , m_start(V)
     , m_T(T)
     , m_fine(fine)
-    , m_begin(std::chrono::steady_clock::now())
     , m_guards(m_start, T, Positions(P * fine.V), limits())
     , m_size(T, m_start, fine, options.size_tolerance)
   {
+    m_timer.start();
     if(needs_surface())
       m_closest = std::make_unique<Closest_point_query>(fine);
     set_guards(fixed);
@@ -156,7 +156,7 @@ public:
     for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
       if(m_options.progress && !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
         throw Cancelled();
-      if(!(seconds() < m_options.maximum_seconds)) {
+      if(!(m_timer.time() < m_options.maximum_seconds)) {
         result.stop_reason = Reason::seconds;
         break;
       }
@@ -188,7 +188,7 @@ public:
     result.E_after = m_objective->E(V);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
       result.moved_vertices += V.row(v) != m_start.row(v);
-    result.seconds = seconds();
+    result.seconds = m_timer.time();
     return V;
   }
 
@@ -202,11 +202,6 @@ private:
   {
     return m_options.signals != Relocation_options::Signals::carried ||
            std::isfinite(m_options.largest_distance);
-  }
-
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - m_begin).count();
   }
 
   void set_guards(const std::vector<bool>& fixed)
@@ -339,7 +334,7 @@ private:
   Positions m_start;
   Eigen::MatrixXi m_T;
   const Mesh_matrices& m_fine;
-  std::chrono::steady_clock::time_point m_begin;
+  Real_timer m_timer;
   Relocation_guards m_guards;
   Size_bounds m_size;
   std::unique_ptr<Closest_point_query> m_closest;

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDS_H
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -207,14 +207,8 @@ private:
     Eigen::Vector3d edge[3];
     for(int k = 0; k < 3; ++k)
       edge[k] = V.row(m_T(f, (k + 2) % 3)) - V.row(m_T(f, (k + 1) % 3));
-    const double double_area = edge[0].cross(edge[1]).norm();
-    if(!(double_area > 0))
-      return 0;
-    double largest_cotangent = -std::numeric_limits<double>::infinity();
-    for(int k = 0; k < 3; ++k)
-      largest_cotangent =
-          (std::max)(largest_cotangent, -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / double_area);
-    return std::atan2(1., largest_cotangent);
+    const Triangle_element t = triangle_element(edge);
+    return t.is_degenerate() ? 0 : std::atan2(t.twice_area, *std::max_element(t.dot, t.dot + 3));
   }
 
   const Boundary_segment& closest_segment(const Eigen::Index v, const Eigen::Vector3d& p) const

@@ -56,7 +56,7 @@ public:
   {
     const Face face = m_faces.begin() + nearby.face;
     const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
-    const auto hint = std::make_pair(to_point(combination(face->corners, weights)), face);
+    const auto hint = std::make_pair(to_point(face->corners * weights), face);
     return answer(query, m_tree.closest_point_and_primitive(to_point(query), hint).second);
   }
 
@@ -68,7 +68,7 @@ private:
   static Answer answer(const Eigen::Vector3d& query, const Face face)
   {
     const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
-    return {face->id, weights, combination(face->corners, weights)};
+    return {face->id, weights, face->corners * weights};
   }
 
   std::vector<Indexed_face> m_faces;

@@ -7,6 +7,7 @@
 
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/Spectral_geometry/internal/closest_point_of_triangle.h>
 #include <CGAL/version.h>
 #if CGAL_VERSION_MAJOR >= 6
 #include <CGAL/AABB_traits_3.h>
@@ -23,57 +24,6 @@
 namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
-
-// A point of a triangle as a convex combination of its three vertices.
-struct Point_of_triangle
-{
-  Eigen::Vector3d weights;
-  double squared_distance; // to the query
-};
-
-inline Eigen::Vector3d combination(const Eigen::Matrix3d& triangle, const Eigen::Vector3d& weights)
-{
-  return triangle * weights;
-}
-
-// Keeps the candidate if it is strictly closer: a vertex or an edge that is tried first wins against an
-// interior point that only rounding makes as close.
-inline void keep_closer(const Eigen::Vector3d& query, const Eigen::Matrix3d& triangle,
-                        const Eigen::Vector3d& weights, Point_of_triangle& best)
-{
-  const double d = (combination(triangle, weights) - query).squaredNorm();
-  if(d < best.squared_distance)
-    best = {weights, d};
-}
-
-// The point of the triangle (one vertex per column) closest to the query. The best of the projections on the
-// three edges and, when it lies inside, on the plane. Each candidate is a point of the triangle and its
-// distance is measured, so that an ill-conditioned plane (a needle) can lose accuracy but never give a point
-// off the triangle; a face without area is the union of its edges, a face without extent a point. The
-// kernel's projection goes through the normal.
-inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
-                                                   const Eigen::Matrix3d& triangle)
-{
-  Point_of_triangle best{Eigen::Vector3d::UnitX(), (triangle.col(0) - query).squaredNorm()};
-  for(int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const Eigen::Vector3d edge = triangle.col(j) - triangle.col(i);
-    const double length2 = edge.squaredNorm();
-    const double s = length2 > 0 ? std::clamp(edge.dot(query - triangle.col(i)) / length2, 0., 1.) : 0.;
-    Eigen::Vector3d weights = Eigen::Vector3d::Zero();
-    weights(i) = 1 - s;
-    weights(j) = s;
-    keep_closer(query, triangle, weights, best);
-  }
-  const Eigen::Vector3d a = triangle.col(1) - triangle.col(0), b = triangle.col(2) - triangle.col(0);
-  const Eigen::Vector3d q = query - triangle.col(0);
-  const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm(), aq = a.dot(q), bq = b.dot(q);
-  const double determinant = aa * bb - ab * ab; // (2 area)^2
-  const double v = (bb * aq - ab * bq) / determinant, w = (aa * bq - ab * aq) / determinant;
-  if(v > 0 && w > 0 && v + w < 1) // false for NaN as well
-    keep_closer(query, triangle, Eigen::Vector3d(1 - v - w, v, w), best);
-  return best;
-}
 
 using Closest_point_kernel = CGAL::Simple_cartesian<double>;
 
@@ -136,7 +86,7 @@ public:
       const Point_of_triangle closest = closest_point_of_triangle(q, face.id()->corners);
       if(closest.squared_distance >= CGAL::squared_distance(query, bound))
         return bound;
-      return to_point(combination(face.id()->corners, closest.weights));
+      return to_point(face.id()->corners * closest.weights);
     }
   };
 

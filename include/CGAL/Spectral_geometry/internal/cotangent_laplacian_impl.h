@@ -6,12 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_COTANGENT_LAPLACIAN_IMPL_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-
-#include <Eigen/Geometry>
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -67,18 +65,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eige
     for(int c = 0; c < 3; ++c)
       e(c) = std::scalbn(e(c), -exponent);
 
-  // Two shortest edges: the cross product of the others would be a difference of larger numbers.
-  const Eigen::Vector3d length(edge[0].norm(), edge[1].norm(), edge[2].norm());
-  int longest;
-  length.maxCoeff(&longest);
-  const int a = (longest + 1) % 3, b = (longest + 2) % 3;
-  const double cross = edge[a].cross(edge[b]).norm();
-  if(cross <= 4. * std::numeric_limits<double>::epsilon() * length(a) * length(b))
+  const internal::Triangle_element t = internal::triangle_element(edge);
+  if(t.is_degenerate())
     return result;
-
   for(int k = 0; k < 3; ++k)
-    result.cot(k) = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / cross;
-  result.area = std::scalbn(0.5 * cross, 2 * exponent);
+    result.cot(k) = t.dot[k] / t.twice_area;
+  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent);
   return result;
 }
 

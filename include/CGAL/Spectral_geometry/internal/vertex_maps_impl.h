@@ -6,6 +6,8 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_VERTEX_MAPS_IMPL_H
 
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/closest_point_of_triangle.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
 #include <CGAL/Kd_tree.h>
@@ -20,7 +22,6 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace CGAL {
@@ -102,17 +103,11 @@ nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int 
   const Eigen::MatrixXd columns = points.transpose(), query_columns = queries.transpose();
   const internal::Column_search search(columns);
   std::vector<Eigen::Index> result(static_cast<std::size_t>(queries.rows()));
-  const auto work = [&](Eigen::Index begin, Eigen::Index end) {
-    for(Eigen::Index i = begin; i < end; ++i)
+  constexpr Eigen::Index share = 256;
+  internal::for_each_task(static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
+    for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i)
       result[static_cast<std::size_t>(i)] = search.nearest(query_columns.col(i).data());
-  };
-  std::vector<std::thread> others;
-  const Eigen::Index share = (queries.rows() + threads - 1) / threads;
-  for(Eigen::Index begin = share; begin < queries.rows(); begin += share)
-    others.emplace_back(work, begin, (std::min)(begin + share, queries.rows()));
-  work(0, (std::min)(share, queries.rows()));
-  for(std::thread& other : others)
-    other.join();
+  });
   return result;
 }
 
@@ -145,56 +140,6 @@ target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vec
                       threads);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
-source_to_target_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads)
-{
-  if(source_vectors.cols() < C.cols() || target_vectors.cols() < C.rows())
-    throw std::invalid_argument(
-        "vertex map: C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
-        ", but there are " + std::to_string(target_vectors.cols()) + " target and " +
-        std::to_string(source_vectors.cols()) + " source eigenvectors, pass as many.");
-  return nearest_rows(target_vectors.leftCols(C.rows()), source_vectors.leftCols(C.cols()) * C.transpose(),
-                      threads);
-}
-
-namespace internal {
-
-struct Point_of_embedded_triangle
-{
-  Eigen::Vector3d weights;
-  double squared_distance; // to the query
-};
-
-// The point of a triangle in any dimension that is closest to the query, from products of edges: the best of the
-// projections on the three edges and, when it lies inside, on the plane.
-inline Point_of_embedded_triangle
-closest_point_of_embedded_triangle(const Eigen::VectorXd& query, const Eigen::Ref<const Eigen::VectorXd>& p,
-                                   const Eigen::Ref<const Eigen::VectorXd>& q,
-                                   const Eigen::Ref<const Eigen::VectorXd>& r)
-{
-  const Eigen::VectorXd a = q - p, b = r - p, d = query - p;
-  const double aa = a.squaredNorm(), ab = a.dot(b), bb = b.squaredNorm(), ad = a.dot(d), bd = b.dot(d);
-  const double dd = d.squaredNorm(), cc = aa - 2 * ab + bb; // c = b - a
-  Point_of_embedded_triangle best{Eigen::Vector3d::UnitX(), dd};
-  const auto keep_closer = [&](double v, double w) {
-    const double distance = dd - 2 * (v * ad + w * bd) + v * v * aa + 2 * v * w * ab + w * w * bb;
-    if(distance < best.squared_distance)
-      best = {Eigen::Vector3d(1 - v - w, v, w), (std::max)(0., distance)};
-  };
-  keep_closer(aa > 0 ? std::clamp(ad / aa, 0., 1.) : 0., 0.);
-  keep_closer(0., bb > 0 ? std::clamp(bd / bb, 0., 1.) : 0.);
-  const double along = cc > 0 ? std::clamp((bd - ad - ab + aa) / cc, 0., 1.) : 0.;
-  keep_closer(1 - along, along);
-  const double determinant = aa * bb - ab * ab;
-  const double v = (bb * ad - ab * bd) / determinant, w = (aa * bd - ab * ad) / determinant;
-  if(v > 0 && w > 0 && v + w < 1) // false for NaN as well
-    keep_closer(v, w);
-  return best;
-}
-
-} // namespace internal
-
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
                         const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors, int threads)
@@ -213,16 +158,17 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
     const Eigen::VectorXd query = target_vectors.row(y).head(C.rows()).transpose();
     const Eigen::Index vertex = nearest[static_cast<std::size_t>(y)];
     Eigen::Index face = -1;
-    internal::Point_of_embedded_triangle best{Eigen::Vector3d::Zero(),
-                                              (points.col(vertex) - query).squaredNorm()};
+    internal::Point_of_triangle best{Eigen::Vector3d::Zero(), (points.col(vertex) - query).squaredNorm()};
     for(const Eigen::Index around : star[static_cast<std::size_t>(vertex)])
       for(int c = 0; c < 3; ++c)
         for(const Eigen::Index t : star[static_cast<std::size_t>(source_T(around, c))]) {
           if(last_query[static_cast<std::size_t>(t)] == y)
             continue;
           last_query[static_cast<std::size_t>(t)] = y;
-          const auto candidate = internal::closest_point_of_embedded_triangle(
-              query, points.col(source_T(t, 0)), points.col(source_T(t, 1)), points.col(source_T(t, 2)));
+          Eigen::Matrix<double, Eigen::Dynamic, 3> triangle(points.rows(), 3);
+          for(int k = 0; k < 3; ++k)
+            triangle.col(k) = points.col(source_T(t, k));
+          const internal::Point_of_triangle candidate = internal::closest_point_of_triangle(query, triangle);
           if(candidate.squared_distance < best.squared_distance) {
             best = candidate;
             face = t;

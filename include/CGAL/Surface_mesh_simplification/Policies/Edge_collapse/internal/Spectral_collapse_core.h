@@ -13,8 +13,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_cost_parameters.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_shape_term.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_tasks.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/restriction.h>
@@ -44,8 +43,7 @@ struct Spectral_weighted_shape;
  * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
  *
  * Order of calls: set_basis() once; set_geometry() at the start of each run; then, in any order,
- * candidate(), cost_at(), evaluate_around() or start_around(), which read, and commit(), which follows one collapse.
- * What start_around() has left to other threads is finished by whatever changes the state.
+ * candidate(), cost_at() or evaluate_around(), which read, and commit(), which follows one collapse.
  */
 class Spectral_collapse_core
 {
@@ -77,8 +75,7 @@ public:
   const Spectral_cost_parameters& parameters() const { return m_parameters; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
   const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
-  /// With all that is being evaluated.
-  const Spectral_candidates& candidates() const;
+  const Spectral_candidates& candidates() const { return m_candidates; }
 
   /// E, the sum of E_w over the current vertices (Eq. 2).
   double total() const { return m_total.value(); }
@@ -120,13 +117,6 @@ public:
   /// the neighbours of `kept`.
   void evaluate_around(const Spectral_slot kept);
 
-  /// The same on other threads, where there are any, while the caller goes on: each candidate is waited for when it is asked
-  /// for, or evaluated by who asks.
-  void start_around(const Spectral_slot kept);
-
-  /// Waits for what was started. Whatever changes the state does so first.
-  void finish() const;
-
   /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for.
   void defer_around(const Spectral_slot kept) { choose_around(kept); }
 
@@ -149,14 +139,13 @@ private:
   static constexpr double recent_cost_decay = 0.998;
 
   struct Workspace; // the scratch memory of one thread
-  using Pool = Spectral_thread_pool<Workspace>;
+  using Pool = Spectral_geometry::internal::Thread_pool<Workspace>;
 
   // An edge and the place of its candidate among those of u; u < v.
   struct Edge
   {
     Spectral_slot u, v;
     std::size_t place;
-    double factor; // it is put off where it costs so many times more than the collapses of late
   };
 
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
@@ -195,8 +184,6 @@ private:
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift. f changed at `kept` alone: the products in its ring are computed afresh, in those of
   // its neighbours what f of `kept` or R of the centre is in. The rings around them hold neither.
-  //
-  // Meanwhile the edges are gathered that CGAL is to cost again.
   void refresh_around(const Spectral_slot removed, const Spectral_slot kept);
 
   Spectral_slot kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const;
@@ -208,17 +195,8 @@ private:
 
   void evaluate_edges_of(const Spectral_slot u, const double bound, Spectral_collapse_kernel& kernel);
 
-  // The edges incident to the neighbours of `kept`, into m_around.
-  void gather_around(const Spectral_slot kept);
-
-  // What commit() has gathered, into m_batch, without the edges that are put off.
+  // The edges incident to the neighbours of `kept`, into m_batch, without those that are put off.
   void choose_around(const Spectral_slot kept);
-
-  void evaluate_batch();
-
-  void start_batch();
-
-  const Spectral_candidate& take(const std::size_t i) const;
 
   // What all threads read while one of them writes what follows has cache lines of its own.
   Spectral_fields m_fields;
@@ -231,20 +209,16 @@ private:
   std::vector<Spectral_ring_products> m_products;
   std::vector<std::size_t> m_lost; // by the neighbours of the last kept vertex, see Spectral_rings::follow()
   std::vector<Edge> m_batch;
-  double m_bound = 0;
 
-  alignas(spectral_cache_line) Sum m_total;
+  alignas(cache_line) Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses
   Spectral_geometry::Merge_forest m_forest;
-  mutable Spectral_candidates m_candidates; // mutable: what is in work is put in when it is asked for
+  Spectral_candidates m_candidates;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;
-  std::vector<Edge> m_around;
-  Spectral_slot m_gathered = null_spectral_slot; // whose edges m_around has
   std::vector<Spectral_candidate> m_results;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
-  alignas(spectral_cache_line) mutable Spectral_tasks<Spectral_candidate, Workspace> m_tasks;
   std::unique_ptr<Pool> m_pool; // last: its threads look at the rest
 };
 

@@ -7,7 +7,6 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_search.h>
@@ -30,11 +29,10 @@ namespace Surface_mesh_simplification {
 namespace internal {
 
 // The scratch memory of one thread.
-struct alignas(spectral_cache_line) Spectral_collapse_core::Workspace
+struct alignas(cache_line) Spectral_collapse_core::Workspace
 {
   Spectral_collapse_kernel kernel;
   Spectral_ring_product_builder builder;
-  Spectral_change change;
   std::vector<Spectral_row_entry> row;
 };
 
@@ -60,7 +58,8 @@ inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const S
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core() = default;
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = default;
+CGAL_SPECTRAL_GEOMETRY_INLINE
+Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = default;
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() = default;
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
@@ -90,7 +89,6 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points,
                                                                         Spectral_rings rings)
 {
-  finish();
   m_fields.points = std::move(points);
   m_fields.rings = std::move(rings);
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
@@ -121,7 +119,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
   m_total = Sum();
   m_total.add(m_fields.E.sum());
   m_recent_cost = 0;
-  m_gathered = null_spectral_slot;
   m_candidates.clear();
 }
 
@@ -131,12 +128,6 @@ Spectral_collapse_core::moves_kept_vertex(const Spectral_slot u, const Spectral_
 {
   return (is_kept(u) && (is_kept(v) || point != m_fields.points[u])) ||
          (is_kept(v) && point != m_fields.points[v]);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidates& Spectral_collapse_core::candidates() const
-{
-  finish();
-  return m_candidates;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate(
@@ -173,8 +164,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
 Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, const bool any_version)
 {
   const Spectral_candidate* found = m_candidates.find(u, v);
-  if(found != nullptr && found->task != 0)
-    found = &take(found->task - 1);
   if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
     ++m_number_of_evaluations;
     found = &m_candidates.insert(
@@ -215,7 +204,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Spe
                                                                        const double weight,
                                                                        const Eigen::Vector3d& point)
 {
-  return m_pool->workspace().change(m_fields, u, v, weight, point);
+  return m_pool->workspace().kernel.change(m_fields, u, v, weight, point);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double
@@ -228,7 +217,6 @@ Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_s
 CGAL_SPECTRAL_GEOMETRY_INLINE bool
 Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress)
 {
-  finish();
   const double bound = minimiser_bound();
   const std::size_t n = m_fields.points.size(), chunk = 1024;
   for(std::size_t first = 0; first < n; first += chunk) {
@@ -247,30 +235,20 @@ Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const Spectral_slot kept)
 {
   choose_around(kept);
-  evaluate_batch();
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::start_around(const Spectral_slot kept)
-{
-  choose_around(kept);
-  if(m_pool->number_of_threads() == 1)
-    evaluate_batch();
-  else
-    start_batch();
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::finish() const
-{
-  m_tasks.finish([this](const std::size_t i, const Spectral_candidate& c) {
-    m_candidates.put(m_batch[i].u, m_batch[i].place, c);
+  m_number_of_evaluations += m_batch.size();
+  m_results.resize(m_batch.size());
+  const double bound = minimiser_bound();
+  m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
+    m_results[i] = evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
   });
+  for(std::size_t i = 0; i < m_batch.size(); ++i)
+    m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
                                const Eigen::Vector3d& point, Spectral_ring ring)
 {
-  finish();
   const double before = total();
   const Spectral_weighted_shape shape = weighted_shape();
   const double shape_cost =
@@ -301,7 +279,6 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_around(const Spectral_slot kept)
 {
-  m_gathered = null_spectral_slot;
   for(const Spectral_ring_entry& e : m_fields.rings[kept])
     for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
       m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
@@ -382,7 +359,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const 
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(-m_fields.E[kept_or_neighbor(kept, i)]);
   m_products[kept].take_memory(m_products[removed]);
-  m_pool->start(n, [this, kept](const std::size_t i, Workspace& workspace) {
+  m_pool->for_each(n, 1, [this, kept](const std::size_t i, Workspace& workspace) {
     const Spectral_slot c = kept_or_neighbor(kept, i);
     const Spectral_rings& rings = m_fields.rings;
     update_row(c, workspace.row);
@@ -397,8 +374,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const 
     else
       workspace.builder.update(m_fields, c, m_products[c], rings[kept][i - 1].back);
   });
-  gather_around(kept);
-  m_pool->finish();
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(m_fields.E[kept_or_neighbor(kept, i)]);
 }
@@ -426,9 +401,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_edges_of(con
       m_candidates.insert(u, evaluate_for_queue(u, e.vertex, kernel, bound));
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::gather_around(const Spectral_slot kept)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::choose_around(const Spectral_slot kept)
 {
-  m_around.clear();
+  m_batch.clear();
   m_marks.resize(m_fields.points.size(), 0);
   ++m_mark;
   for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
@@ -441,58 +416,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::gather_around(const S
         continue;
       const Spectral_slot u = (std::min)(neighbor.vertex, e.vertex),
                           v = (std::max)(neighbor.vertex, e.vertex);
-      m_around.push_back(Edge{u, v, m_candidates.place(u, v),
-                              e.vertex == kept ? std::numeric_limits<double>::infinity()
-                              : inner          ? inner_deferral_factor
-                                               : outer_deferral_factor});
+      const std::size_t place = m_candidates.place(u, v);
+      const double factor = inner ? inner_deferral_factor : outer_deferral_factor;
+      if(m_parameters.exact_costs || e.vertex == kept ||
+         !m_candidates.defer(u, place, factor * m_recent_cost))
+        m_batch.push_back(Edge{u, v, place});
     }
-  m_gathered = kept;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::choose_around(const Spectral_slot kept)
-{
-  finish();
-  if(m_gathered != kept)
-    gather_around(kept);
-  m_gathered = null_spectral_slot;
-  m_batch.clear();
-  for(const Edge& e : m_around)
-    if(m_parameters.exact_costs || !(e.factor < std::numeric_limits<double>::infinity()) ||
-       !m_candidates.defer(e.u, e.place, e.factor * m_recent_cost))
-      m_batch.push_back(e);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_batch()
-{
-  m_number_of_evaluations += m_batch.size();
-  m_results.resize(m_batch.size());
-  const double bound = minimiser_bound();
-  m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-    m_results[i] = evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
-  });
-  for(std::size_t i = 0; i < m_batch.size(); ++i)
-    m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::start_batch()
-{
-  m_number_of_evaluations += m_batch.size();
-  m_bound = minimiser_bound();
-  Spectral_candidate in_work;
-  for(std::size_t i = 0; i < m_batch.size(); ++i) {
-    in_work.other = m_batch[i].v;
-    in_work.task = std::uint32_t(i + 1);
-    m_candidates.put(m_batch[i].u, m_batch[i].place, in_work);
-  }
-  m_tasks.start(*m_pool, m_batch.size(), [this](const std::size_t i, Workspace& workspace) {
-    return evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, m_bound);
-  });
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
-Spectral_collapse_core::take(const std::size_t i) const
-{
-  return m_candidates.put(m_batch[i].u, m_batch[i].place, m_tasks.take(i));
 }
 
 } // namespace internal

@@ -67,14 +67,8 @@ public:
     m_products = products.data();
     const Topology topology = m_link.set_edge(fields, u, v);
     m_by_rows = topology == Topology::collapsible && !m_link.has_products(fields);
-    if(topology == Topology::collapsible && !m_by_rows) {
-#ifdef CGAL_SPECTRAL_DISPATCH
-      if(spectral_has_avx2())
-        prepare_avx2(products);
-      else
-#endif
-        prepare_body(products);
-    }
+    if(topology == Topology::collapsible && !m_by_rows)
+      Spectral_geometry::internal::on_vector_units([&] { prepare_body(products); });
     return topology;
   }
 
@@ -88,14 +82,16 @@ public:
             m_change.cost(*m_fields, m_link.u(), m_link.v(), samples[s].weight, samples[s].point);
       return;
     }
-#ifdef CGAL_SPECTRAL_DISPATCH
-    if(spectral_has_avx2())
-      evaluate_avx2(samples, count);
-    else
-#endif
-      evaluate_body(samples, count);
+    Spectral_geometry::internal::on_vector_units([&] { evaluate_body(samples, count); });
     if(m_link.roughness() > rough_cotangent)
       correct(samples, count);
+  }
+
+  /// The change of E to rounding, whatever the cotangents are, of any edge: see `Spectral_change`. Needs no prepare().
+  double change(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
+                const double weight, const Eigen::Vector3d& point)
+  {
+    return m_change(fields, u, v, weight, point);
   }
 
 private:
@@ -128,17 +124,6 @@ private:
     const double* operator[](const int i) const { return at[i]; }
   };
   using Link_vertex = Spectral_link_vertex;
-
-#ifdef CGAL_SPECTRAL_DISPATCH
-  CGAL_SPECTRAL_AVX2 void prepare_avx2(const std::vector<Spectral_ring_products>& products)
-  {
-    prepare_body(products);
-  }
-  CGAL_SPECTRAL_AVX2 void evaluate_avx2(Spectral_sample* samples, const int count)
-  {
-    evaluate_body(samples, count);
-  }
-#endif
 
   CGAL_SPECTRAL_INLINE void prepare_body(const std::vector<Spectral_ring_products>& products)
   {
@@ -427,7 +412,7 @@ private:
   std::vector<Spectral_new_entries> m_new;
   std::vector<const double*> m_rows;
   std::vector<double> m_far;
-  Spectral_buffer m_scratch;
+  Aligned_buffer m_scratch;
   Spectral_merged_row m_merged;
   Spectral_change m_change;
 };

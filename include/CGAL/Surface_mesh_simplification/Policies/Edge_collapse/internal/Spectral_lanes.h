@@ -7,29 +7,16 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Spectral_geometry/internal/vector_units.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 
-// Vectors of four doubles are a language extension of GCC and Clang on every target; other compilers
-// run a class that loops. A function marked CGAL_SPECTRAL_AVX2 is compiled for wide vector units, with all that it
-// calls, beside its baseline variant; which of them runs is decided at run time. So a build without any -m flag
-// uses what the machine has.
-#if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
-#define CGAL_SPECTRAL_VECTOR_EXTENSION 1
-#define CGAL_SPECTRAL_INLINE inline __attribute__((always_inline))
-#if defined(__x86_64__)
-#include <immintrin.h>
-#define CGAL_SPECTRAL_DISPATCH 1
-#define CGAL_SPECTRAL_AVX2 __attribute__((flatten, target("avx2,fma")))
-#ifdef __has_builtin
+#if defined(CGAL_SPECTRAL_DISPATCH) && defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector) // GCC from 12
 #define CGAL_SPECTRAL_SHUFFLE 1
 #endif
-#endif
-#endif
-#else
-#define CGAL_SPECTRAL_INLINE inline
 #endif
 
 namespace CGAL {
@@ -37,13 +24,12 @@ namespace Surface_mesh_simplification {
 namespace internal {
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-/// Four doubles anywhere in memory, to load from and to store to.
-typedef double Spectral_lanes_in_memory __attribute__((vector_size(32), aligned(8), may_alias));
+using Spectral_lanes_in_memory = Spectral_geometry::internal::Four_doubles;
 #ifdef __clang__
 // In templates Clang forgets that a type asks for less than its natural alignment: its variables have that.
 typedef double Spectral_lanes __attribute__((vector_size(32), aligned(32), may_alias));
 #else
-// Without -mavx the natural alignment is 16 for GCC, but 32 in functions marked CGAL_SPECTRAL_AVX2: neither is asked for.
+// Without -mavx the natural alignment is 16 for GCC, but 32 in functions for wide vector units: neither is asked for.
 typedef Spectral_lanes_in_memory Spectral_lanes;
 #endif
 #else
@@ -87,10 +73,6 @@ struct Spectral_lanes
   }
 };
 #endif
-
-// Lanes are never returned or passed by value: that ABI would depend on -m flags.
-
-// Not by memcpy: GCC splits that into the halves of the baseline before the AVX2 variant of the caller comes to see it.
 
 CGAL_SPECTRAL_INLINE void spectral_load(Spectral_lanes& x, const double* p)
 {
@@ -191,17 +173,6 @@ CGAL_SPECTRAL_INLINE void spectral_require_positive(const Spectral_lanes& x, Spe
 #else
   for(int i = 0; i < 4; ++i)
     failed[i] += x[i] > 0 ? 0 : 1;
-#endif
-}
-
-/// Whether the machine runs functions marked CGAL_SPECTRAL_AVX2.
-inline bool spectral_has_avx2()
-{
-#ifdef CGAL_SPECTRAL_DISPATCH
-  static const bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return result;
-#else
-  return false;
 #endif
 }
 

@@ -284,7 +284,7 @@ private:
   // Scratch memory that only grows.
   std::vector<std::size_t> m_far;
   std::vector<int> m_at_v;
-  Spectral_buffer m_scratch;
+  Aligned_buffer m_scratch;
   std::vector<double> m_across, m_gram;
   std::vector<const double*> m_a, m_b;
   std::size_t m_n = 0, m_width = 0, m_stride = 0;

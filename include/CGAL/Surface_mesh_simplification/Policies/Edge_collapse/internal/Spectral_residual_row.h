@@ -102,24 +102,13 @@ CGAL_SPECTRAL_INLINE double spectral_combine_rows_body(const Spectral_fields& fi
   return spectral_sum(squares);
 }
 
-#ifdef CGAL_SPECTRAL_DISPATCH
-CGAL_SPECTRAL_AVX2 inline double spectral_combine_rows_avx2(const Spectral_fields& fields,
-                                                            const std::vector<Spectral_row_entry>& row,
-                                                            double* R)
-{
-  return spectral_combine_rows_body(fields, row, R);
-}
-#endif
-
 /// R = sum_j (B_wj z_j - L_wj f_j) over the entries of a row; returns |R|^2.
 inline double spectral_combine_rows(const Spectral_fields& fields, const std::vector<Spectral_row_entry>& row,
                                     double* R)
 {
-#ifdef CGAL_SPECTRAL_DISPATCH
-  if(spectral_has_avx2())
-    return spectral_combine_rows_avx2(fields, row, R);
-#endif
-  return spectral_combine_rows_body(fields, row, R);
+  double square = 0;
+  Spectral_geometry::internal::on_vector_units([&] { square = spectral_combine_rows_body(fields, row, R); });
+  return square;
 }
 
 } // namespace internal

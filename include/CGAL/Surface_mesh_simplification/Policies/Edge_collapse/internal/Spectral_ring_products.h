@@ -317,38 +317,17 @@ public:
   /// All products of the ring of c.
   void compute(const Spectral_fields& fields, const Spectral_slot c, Spectral_ring_products& products)
   {
-#ifdef CGAL_SPECTRAL_DISPATCH
-    if(spectral_has_avx2())
-      return compute_avx2(fields, c, products);
-#endif
-    compute_body(fields, c, products);
+    Spectral_geometry::internal::on_vector_units([&] { compute_body(fields, c, products); });
   }
 
   /// Only the products with R_c, and those with f and z of the neighbour at index `moved`.
   void update(const Spectral_fields& fields, const Spectral_slot c, Spectral_ring_products& products,
               const std::size_t moved)
   {
-#ifdef CGAL_SPECTRAL_DISPATCH
-    if(spectral_has_avx2())
-      return update_avx2(fields, c, products, moved);
-#endif
-    update_body(fields, c, products, moved);
+    Spectral_geometry::internal::on_vector_units([&] { update_body(fields, c, products, moved); });
   }
 
 private:
-#ifdef CGAL_SPECTRAL_DISPATCH
-  CGAL_SPECTRAL_AVX2 void compute_avx2(const Spectral_fields& fields, const Spectral_slot c,
-                                       Spectral_ring_products& products)
-  {
-    compute_body(fields, c, products);
-  }
-  CGAL_SPECTRAL_AVX2 void update_avx2(const Spectral_fields& fields, const Spectral_slot c,
-                                      Spectral_ring_products& products, const std::size_t moved)
-  {
-    update_body(fields, c, products, moved);
-  }
-#endif
-
   CGAL_SPECTRAL_INLINE void compute_body(const Spectral_fields& fields, const Spectral_slot c,
                                          Spectral_ring_products& products)
   {
@@ -445,10 +424,7 @@ private:
 
   // z_i . row is the product of left_of_z()[i] and against_z(row): where Z = F Lambda that of f_i and Lambda row, and no row
   // of Z is formed. What is formed is put at `next`, which goes on behind it.
-  const double* const* left_of_z() const
-  {
-    return m_z.empty() ? m_f.data() : m_z.data();
-  }
+  const double* const* left_of_z() const { return m_z.empty() ? m_f.data() : m_z.data(); }
 
   CGAL_SPECTRAL_INLINE static const double* against_z(const Spectral_fields& fields, const double* row,
                                                       double*& next)
@@ -473,7 +449,7 @@ private:
     return result;
   }
 
-  Spectral_buffer m_scratch;
+  Aligned_buffer m_scratch;
   std::vector<const double*> m_f, m_z, m_g, m_right;
 };
 

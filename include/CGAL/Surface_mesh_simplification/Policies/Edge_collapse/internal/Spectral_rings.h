@@ -7,13 +7,12 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -41,36 +40,21 @@ struct Spectral_triangle
   static constexpr double degenerate_cotangent = 1e10;
 };
 
-/// cot = dot / |cross|, with one division and one square root, where the cross product is that of the two shortest
-/// edges. A triangle that is degenerate to rounding contributes nothing to L and M; the rule is that of
-/// `Spectral_geometry::triangle_cotangents()`, so that E is 0 on the input.
+/// That of `Spectral_geometry::internal::Triangle_element`, with one division and one square root. The rule for what is degenerate is that of
+/// the assembly, so that E is 0 on the input.
 inline Spectral_triangle spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a,
                                            const Eigen::Vector3d& b)
 {
-  const Eigen::Vector3d ca = a - c, cb = b - c, ab = b - a;
-  const double ca2 = ca.squaredNorm(), cb2 = cb.squaredNorm(), ab2 = ab.squaredNorm();
-  Eigen::Vector3d cross;
-  double product;
-  if(ab2 >= ca2 && ab2 >= cb2) {
-    cross = ca.cross(cb);
-    product = ca2 * cb2;
-  } else if(ca2 >= cb2) {
-    cross = ab.cross(cb);
-    product = ab2 * cb2;
-  } else {
-    cross = ca.cross(ab);
-    product = ca2 * ab2;
-  }
-  const double twice_area_squared = cross.squaredNorm();
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const Spectral_geometry::internal::Triangle_element element =
+      Spectral_geometry::internal::triangle_element({b - a, c - b, a - c});
   Spectral_triangle t;
-  if(!(twice_area_squared > rounding * rounding * product))
+  if(element.is_degenerate())
     return t;
-  const double twice_area = std::sqrt(twice_area_squared), inverse = 1 / twice_area;
-  t.cot_center = ca.dot(cb) * inverse;
-  t.cot_first = -ca.dot(ab) * inverse;
-  t.cot_second = cb.dot(ab) * inverse;
-  t.area = twice_area / 2;
+  const double inverse = 1 / element.twice_area;
+  t.cot_center = element.dot[0] * inverse;
+  t.cot_first = element.dot[1] * inverse;
+  t.cot_second = element.dot[2] * inverse;
+  t.area = element.twice_area / 2;
   return t;
 }
 

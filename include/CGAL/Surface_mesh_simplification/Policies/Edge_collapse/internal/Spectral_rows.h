@@ -7,49 +7,21 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Spectral_geometry/internal/Aligned_buffer.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
-/// The size of a cache line. What one thread writes while another reads something else is kept that far apart.
-constexpr std::size_t spectral_cache_line = 64;
-
-/// Numbers that begin with a cache line. A vector register that is loaded across the end of one costs two loads.
-class Spectral_buffer
-{
-public:
-  double* data() { return m_lines.empty() ? nullptr : m_lines.front().numbers; }
-  const double* data() const { return m_lines.empty() ? nullptr : m_lines.front().numbers; }
-
-  /// n numbers, all zero.
-  void assign(const std::size_t n) { m_lines.assign(lines(n), Line()); }
-
-  /// Room for n numbers, for scratch memory: it only grows, and what was in it is lost then.
-  double* at_least(const std::size_t n)
-  {
-    if(m_lines.size() < lines(n))
-      assign(n);
-    return data();
-  }
-
-private:
-  static constexpr std::size_t line_size = spectral_cache_line / sizeof(double);
-  struct alignas(spectral_cache_line) Line
-  {
-    double numbers[line_size] = {};
-  };
-  static std::size_t lines(const std::size_t n) { return (n + line_size - 1) / line_size; }
-
-  std::vector<Line> m_lines;
-};
+using Spectral_geometry::internal::Aligned_buffer;
+using Spectral_geometry::internal::cache_line;
 
 /// The rows of F, Z and R are padded with zeros to a multiple of this.
-constexpr std::size_t spectral_padding = spectral_cache_line / sizeof(double);
+constexpr std::size_t spectral_padding = cache_line / sizeof(double);
 
 /// A matrix whose rows begin with a cache line each.
 class Spectral_rows
@@ -82,7 +54,7 @@ public:
   Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
 
 private:
-  Spectral_buffer m_numbers;
+  Aligned_buffer m_numbers;
   Eigen::Index m_rows = 0, m_cols = 0;
 };
 

@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
@@ -28,7 +29,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -100,7 +100,8 @@ public:
     , m_options(options)
     , m_slots(mesh, "Spectral_policies")
   {
-    const auto begin = std::chrono::steady_clock::now();
+    Real_timer timer;
+    timer.start();
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
     m_number_of_vertices = std::size_t(m_slots.size());
@@ -124,7 +125,7 @@ public:
     m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,
                      1 / basis.area, parameters);
     m_options.signals.resize(0, 0); // n x K numbers that are in F now
-    m_seconds_basis = seconds_since(begin);
+    m_seconds_basis = timer.time();
   }
 
   Spectral_state(const Spectral_state&) = delete;
@@ -140,7 +141,8 @@ public:
     if(&mesh != m_mesh)
       throw std::invalid_argument("Spectral_policies: edge_collapse() was called with another mesh than the "
                                   "one that the policies were made for; make policies for that mesh.");
-    const auto begin = std::chrono::steady_clock::now();
+    Real_timer timer;
+    timer.start();
     m_run.reset();
     read_geometry();
     m_positions_checked = false;
@@ -151,7 +153,7 @@ public:
     });
     if(!go_on)
       throw Spectral_geometry::Cancelled();
-    m_seconds_first_costs = seconds_since(begin);
+    m_seconds_first_costs = timer.time();
     std::shared_ptr<void> token = std::make_shared<int>(0);
     m_run = token;
     ++m_number_of_runs;
@@ -222,7 +224,7 @@ public:
     if(!in_loop)
       m_core.drop_candidates_around(kept);
     else if(m_batched)
-      m_core.start_around(kept);
+      m_core.evaluate_around(kept);
     else
       m_core.defer_around(kept);
   }
@@ -404,11 +406,6 @@ private:
     Slot removed = 0, kept = 0;
     double weight = 0; // of the removed slot
   };
-
-  static double seconds_since(const std::chrono::steady_clock::time_point begin)
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  }
 
   static FT largest_cost()
   {

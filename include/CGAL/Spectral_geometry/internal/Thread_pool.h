@@ -2,20 +2,17 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_THREAD_POOL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_THREAD_POOL_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
+#include <CGAL/Spectral_geometry/internal/vector_units.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rows.h>
-
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <new>
 #include <system_error>
@@ -24,7 +21,7 @@
 #include <vector>
 
 namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace Spectral_geometry {
 namespace internal {
 
 /*!
@@ -39,16 +36,16 @@ namespace internal {
  * on whichever thread, the caller gets when nobody is inside any more; calls that nobody has begun with are left out then.
  */
 template <class Workspace>
-class Spectral_thread_pool
+class Thread_pool
 {
 public:
-  explicit Spectral_thread_pool(const int threads = 1)
-    : Spectral_thread_pool(threads, [](auto&& worker) { return std::thread(worker); })
+  explicit Thread_pool(const int threads = 1)
+    : Thread_pool(threads, [](auto&& worker) { return std::thread(worker); })
   {}
 
   /// `start(worker)` makes the threads. Where the system has no more of them the pool does with those it has got.
   template <class Start>
-  Spectral_thread_pool(const int threads, const Start& start)
+  Thread_pool(const int threads, const Start& start)
     : m_workspaces(threads > 1 ? std::size_t(threads) : 1)
   {
     m_workers.reserve(m_workspaces.size() - 1);
@@ -63,14 +60,10 @@ public:
     }
   }
 
-  Spectral_thread_pool(const Spectral_thread_pool&) = delete;
-  Spectral_thread_pool& operator=(const Spectral_thread_pool&) = delete;
+  Thread_pool(const Thread_pool&) = delete;
+  Thread_pool& operator=(const Thread_pool&) = delete;
 
-  ~Spectral_thread_pool()
-  {
-    close();
-    end();
-  }
+  ~Thread_pool() { end(); }
 
   std::size_t number_of_threads() const { return m_workers.size() + 1; }
 
@@ -81,7 +74,6 @@ public:
   template <class Body>
   void for_each(const std::size_t n, const std::size_t grain, const Body& body)
   {
-    finish();
     if(m_workers.empty() || n <= grain) {
       for(std::size_t i = 0; i < n; ++i)
         body(i, m_workspaces.front());
@@ -91,34 +83,6 @@ public:
     take_part(m_workspaces.front());
     close();
     rethrow();
-  }
-
-  /// Lets the other threads begin with `body(i, workspace)` for each i in [0, n) and returns. The caller may go on with
-  /// something else; it takes part from finish() on. A copy of `body` is kept.
-  void start(const std::size_t n, std::function<void(std::size_t, Workspace&)> body)
-  {
-    finish();
-    m_started = std::move(body);
-    open(n, 1, m_started);
-  }
-
-  /// Takes part in what was started, if anything, and waits for its end.
-  void finish()
-  {
-    if(!m_started)
-      return;
-    take_part(m_workspaces.front());
-    close();
-    m_started = nullptr;
-    rethrow();
-  }
-
-  /// Waits for a call that another thread is in.
-  template <class Condition>
-  static void wait_for(const Condition& condition)
-  {
-    for(std::size_t spins = 0; !condition(); ++spins)
-      relax(spins);
   }
 
 private:
@@ -173,7 +137,8 @@ private:
   void close()
   {
     m_gate.fetch_and(~open_bit);
-    wait_for([this] { return (m_gate.load(std::memory_order_acquire) & inside_mask) == 0; });
+    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
+      relax(spins);
   }
 
   // Only the calling thread does this, while nobody is inside.
@@ -246,8 +211,6 @@ private:
   std::vector<Workspace> m_workspaces;
   std::vector<std::thread> m_workers;
 
-  std::function<void(std::size_t, Workspace&)> m_started;
-
   // The loop that is running.
   void (*m_run)(const void*, std::size_t, std::size_t, Workspace&) = nullptr;
   const void* m_body = nullptr;
@@ -255,16 +218,27 @@ private:
   std::exception_ptr m_error; // the first that a call has thrown
 
   // Each in a cache line of its own: who waits reads the first of them all the time.
-  alignas(spectral_cache_line) std::atomic<std::uint64_t> m_gate{0};
-  alignas(spectral_cache_line) std::atomic<std::size_t> m_next{0};
-  alignas(spectral_cache_line) std::atomic<std::size_t> m_asleep{0};
+  alignas(cache_line) std::atomic<std::uint64_t> m_gate{0};
+  alignas(cache_line) std::atomic<std::size_t> m_next{0};
+  alignas(cache_line) std::atomic<std::size_t> m_asleep{0};
   std::atomic<bool> m_end{false};
   std::mutex m_mutex;
   std::condition_variable m_wake;
 };
 
+/// Calls f(0) .. f(count - 1) on at most so many threads, in any order, as `Thread_pool::for_each()` does. Sums over tasks
+/// are up to the caller, in the order of the tasks, so that no result depends on the number of threads.
+template <class Function>
+void for_each_task(const int count, const int threads, const Function& f)
+{
+  struct Nothing
+  {};
+  Thread_pool<Nothing> pool((std::min)(threads, count));
+  pool.for_each(std::size_t((std::max)(0, count)), 1, [&f](const std::size_t i, Nothing&) { f(int(i)); });
+}
+
 } // namespace internal
-} // namespace Surface_mesh_simplification
+} // namespace Spectral_geometry
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_THREAD_POOL_H
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_THREAD_POOL_H
