@@ -13,9 +13,9 @@
 #include "matching/matching_arguments.h"
 #include "matching/matching_report.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -34,11 +34,6 @@ namespace {
 bool keep_going()
 {
   return !interrupted;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // f for X beside f for Y, with more than one thread.
@@ -133,13 +128,14 @@ private:
 
   void compute_fine_shapes()
   {
-    const auto begin = std::chrono::steady_clock::now();
+    CGAL::Real_timer timer;
+    timer.start();
     const auto shape = [&](const Mesh& mesh) {
       return make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_mass, keep_going);
     };
     std::tie(m_shape_X, m_shape_Y) = side_by_side(
         m_arguments.threads, [&] { return shape(m_X); }, [&] { return shape(m_Y); });
-    m_seconds_fine = seconds_since(begin);
+    m_seconds_fine = timer.time();
   }
 
   Matching_result match(Proxy_kind kind) const
@@ -159,14 +155,15 @@ private:
       result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, options, keep_going);
       return result;
     }
-    const auto begin = std::chrono::steady_clock::now();
+    CGAL::Real_timer timer;
+    timer.start();
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
       return make_proxy(mesh, fine, kind, static_cast<std::size_t>(m_arguments.vertices),
                         m_arguments.eigenvectors, m_mass, keep_going);
     };
     const auto [coarse_X, coarse_Y] = side_by_side(
         m_arguments.threads, [&] { return proxy(m_X, m_shape_X); }, [&] { return proxy(m_Y, m_shape_Y); });
-    result.seconds_proxies = seconds_since(begin);
+    result.seconds_proxies = timer.time();
     result.vertices = static_cast<std::size_t>(m_arguments.vertices);
     result.match =
         match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks, options, keep_going);

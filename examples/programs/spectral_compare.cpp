@@ -22,6 +22,7 @@
 #include "report/html_report.h"
 #include "report/json_text.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
@@ -29,7 +30,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -41,11 +41,6 @@
 namespace SG = CGAL::Spectral_geometry;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // One run of the program: the fine mesh, the references in each mass, and what was found.
 class Run
@@ -138,11 +133,12 @@ private:
     for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
       if(m_arguments.masses.find(SG::mass_name(mass)) == std::string::npos)
         continue;
-      const auto begin = std::chrono::steady_clock::now();
+      CGAL::Real_timer timer;
+      timer.start();
       Fine_reference r = fine_reference(m_matrices, mass, K, sources, progress("reference"));
       m_comparison.area = r.op.mass.sum();
-      m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros,
-                                   seconds_since(begin), r.pairs.residuals.maxCoeff()});
+      m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros, timer.time(),
+                                   r.pairs.residuals.maxCoeff()});
       m_references.push_back(std::move(r));
       m_masses.push_back(mass);
     }
@@ -226,15 +222,23 @@ private:
     }
   }
 
-  void judge_mesh(const Coarse_mesh& coarse, Simplified& row)
+  // What is judged of a mesh; the row gets what no mass is in.
+  Coarse_candidate candidate_of(const Coarse_mesh& coarse, const SG::Mesh_matrices& matrices,
+                                Simplified& row) const
   {
     row.vertices = coarse.mesh.number_of_vertices();
     row.faces = coarse.mesh.number_of_faces();
-    const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
+    row.shape = shape_measures(m_fine, coarse.mesh);
     Coarse_candidate candidate;
     candidate.carried = coarse.carried;
     candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
-    row.shape = shape_measures(m_fine, coarse.mesh);
+    return candidate;
+  }
+
+  void judge_mesh(const Coarse_mesh& coarse, Simplified& row)
+  {
+    const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
+    Coarse_candidate candidate = candidate_of(coarse, matrices, row);
     for(const Fine_reference& reference : m_references) {
       candidate.op = SG::laplace_operator(matrices.V, matrices.T, reference.op.theta);
       Judged judged = judge(reference, candidate, [](double) { return !interrupted; });
@@ -248,28 +252,25 @@ private:
   // is lumped, two rings. Its seconds are those of the mesh and of the fits in all masses.
   void judge_fitted(const Coarse_mesh& coarse, Simplified& row)
   {
-    row.vertices = coarse.mesh.number_of_vertices();
-    row.faces = coarse.mesh.number_of_faces();
     const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
-    Coarse_candidate candidate;
-    candidate.carried = coarse.carried;
-    candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
-    row.shape = shape_measures(m_fine, coarse.mesh);
+    Coarse_candidate candidate = candidate_of(coarse, matrices, row);
     for(const Fine_reference& reference : m_references) {
+      const bool lumped = reference.op.theta == 0;
       SG::Operator_fit_options options;
-      options.mass = reference.op.theta == 0 ? SG::Operator_fit_options::Mass_pattern::diagonal
-                                             : SG::Operator_fit_options::Mass_pattern::edges;
-      options.rings = reference.op.theta == 0 ? 2 : 1;
+      options.mass = lumped ? SG::Operator_fit_options::Mass_pattern::diagonal
+                            : SG::Operator_fit_options::Mass_pattern::edges;
+      options.rings = lumped ? 2 : 1;
       options.progress = [](double) { return !interrupted; };
       const Eigen::Index fitted = (std::min)(reference.K + reference.K / 5, reference.pairs.size());
       SG::Eigenpairs pairs; // a fifth more than are judged, for the sake of the modes beyond
       pairs.values = reference.pairs.values.head(fitted);
       pairs.vectors = reference.pairs.vectors.leftCols(fitted);
-      const auto begin = std::chrono::steady_clock::now();
+      CGAL::Real_timer timer;
+      timer.start();
       candidate.op = SG::fit_operators(SG::laplace_operator(matrices.V, matrices.T, reference.op.theta),
                                        candidate.restriction(), reference.op, pairs, options)
                          .op;
-      row.seconds += seconds_since(begin);
+      row.seconds += timer.time();
       row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
   }

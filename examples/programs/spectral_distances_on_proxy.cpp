@@ -15,6 +15,7 @@
 #include "report/html_report.h"
 #include "report/mesh_picture.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
@@ -22,7 +23,6 @@
 
 #include <boost/program_options.hpp>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -53,9 +53,10 @@ using Sources = std::vector<Eigen::Index>;
 
 double seconds_of(const std::function<void()>& work)
 {
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return timer.time();
 }
 
 // A mesh with its spectrum at unit area, as in the figures of the paper.

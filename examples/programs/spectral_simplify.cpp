@@ -15,10 +15,11 @@
 #include "io/program.h"
 #include "report/html_report.h"
 #include "report/json_text.h"
-#include "report/single_run.h"
+#include "report/judgement.h"
 #include "spectral_simplify_arguments.h"
 #include "spectral_simplify_report.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -28,7 +29,6 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -79,11 +79,6 @@ void announce(Output_files& files, const Arguments& a)
   };
   add_folder(a.eigenpairs, eigenpairs_files);
   add_folder(a.fit_operators, fitted_files);
-}
-
-double seconds_since(const std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 // Both meshes as matrices, as far as the outputs need them.
@@ -239,12 +234,13 @@ Fitted_operators fit(const Arguments& a, const Both_meshes& meshes, const Eigen:
   result.options.progress = progress;
   SG::Eigenpairs_options options;
   options.progress = progress;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   const Eigen::Index K = meshes.fine_pairs->size();
   const SG::Eigenpairs more =
       SG::eigenpairs(meshes.fine_operator, (std::min)(K + K / 5, meshes.fine_operator.L.rows()), options);
   result.fit = SG::fit_operators(meshes.coarse_operator, P, meshes.fine_operator, more, result.options);
-  result.seconds = seconds_since(begin);
+  result.seconds = timer.time();
   result.pairs = SG::eigenpairs(result.fit.op, meshes.coarse_pairs.size(), options);
   result.evaluation =
       SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, result.fit.op, result.pairs, P, K);
@@ -388,9 +384,10 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
 void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, SG::Mass mass,
               Progress_bar& bar)
 {
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   report.evaluation = evaluate(meshes, mass, a.eigenvectors, report.result, bar);
-  report.seconds_evaluation = seconds_since(begin);
+  report.seconds_evaluation = timer.time();
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
   if(area < 0.25)
@@ -445,7 +442,8 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
                   Mesh& copy, Both_meshes& meshes, Simplification_report& report)
 {
   std::vector<std::string> written;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   write_mesh_and_maps(
       files, a, input.numbering, mesh, report.result.restriction, report.result.vertex_map,
       [](const std::string& path) { return path; }, written);
@@ -462,7 +460,7 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
   if(interrupted && a.on_interrupt != "write")
     throw SG::Cancelled();
   files.commit(written);
-  report.seconds_writing = seconds_since(begin);
+  report.seconds_writing = timer.time();
 }
 
 // Evaluates and writes what is said about the result; returns the exit status. Whatever fails here leaves the result where it is.
@@ -509,12 +507,13 @@ int run(Arguments a)
 {
   a.threads = usable_threads(a.threads, a.quiet);
   Progress_bar bar(!a.quiet);
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   bar.show("reading", 0);
   Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair));
   bar.clear();
   Simplification_report report;
-  report.seconds_reading = seconds_since(begin);
+  report.seconds_reading = timer.time();
   const std::size_t target = checked_target(a, num_vertices(input.mesh));
   const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, bar);
   Output_files files({a.input, a.keep, a.signals});

@@ -11,6 +11,7 @@
 
 #include "coarse_mesh.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
@@ -27,7 +28,6 @@
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -38,11 +38,6 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 std::string note_on_size(const Mesh& mesh, std::size_t N)
 {
@@ -58,12 +53,13 @@ Coarse_mesh collapse(const Mesh& fine, std::size_t N, const Make_policies& make_
   Coarse_mesh result;
   result.mesh = fine;
   const SMS::Restriction_visitor<Mesh> visitor(result.mesh);
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   make_policies(result.mesh, [&](const auto& cost, const auto& placement) {
     SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
                        CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
   });
-  result.seconds = seconds_since(begin);
+  result.seconds = timer.time();
   result.note = note_on_size(result.mesh, N);
   result.mesh.collect_garbage(); // reorders the vertices, and the visitor knows how
   result.carried = visitor.restriction();
@@ -118,9 +114,10 @@ Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Options& 
 {
   Coarse_mesh result;
   Mesh mesh = fine;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   result.carried = SMS::spectral_edge_collapse(mesh, N, options).restriction;
-  result.seconds = seconds_since(begin);
+  result.seconds = timer.time();
   result.note = note_on_size(mesh, N);
   // Without garbage, in the order of P; collect_garbage() has an order of its own.
   auto copy_of = mesh.add_property_map<Mesh::Vertex_index, Mesh::Vertex_index>("v:copy").first;

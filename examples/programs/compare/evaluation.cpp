@@ -4,6 +4,7 @@
 
 #include "evaluation.h"
 
+#include "../report/judgement.h"
 #include "mode_alignment.h"
 
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -34,16 +35,6 @@ double relative_error(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixX
   const Eigen::RowVectorXd difference = mass.transpose() * (coarse - restricted).cwiseAbs();
   const Eigen::RowVectorXd size = mass.transpose() * restricted.cwiseAbs();
   return (difference.array() / size.array()).mean();
-}
-
-Map_norms map_norms(const SG::Spectral_evaluation& e)
-{
-  return {e.norm_L,
-          e.norm_D,
-          e.norm_D_extended,
-          e.norm_L_input_scale,
-          e.norm_L_common_scale,
-          e.norm_D_input_scale};
 }
 
 // Distances from the paired sources on the coarse mesh against those of the fine mesh restricted by P, and
@@ -142,17 +133,8 @@ Judged judge(const Fine_reference& reference, const Coarse_candidate& candidate,
       continue;
     const SG::Spectral_evaluation e =
         SG::evaluate_spectrum(reference.op, reference.pairs, candidate.op, result.aligned, *P, reference.K);
-    (carried ? j.carried : j.closest) = map_norms(e);
+    add_evaluation(j, e, carried);
     C = e.C;
-    j.floor_norm_L = e.floor_norm_L;
-    j.floor_norm_D = e.floor_norm_D;
-    j.error_mean = e.errors.mean;
-    j.error_max = e.errors.max;
-    j.error_low_mean = e.errors_low.mean;
-    j.error_beyond_mean = e.errors_beyond.mean;
-    j.error_beyond_max = e.errors_beyond.max;
-    j.error_input_scale_mean = e.errors_input_scale.mean;
-    j.coarse_values = e.coarse_values;
   }
   j.distances = distance_errors(reference, candidate, result.aligned);
   j.distances_by = candidate.carried ? "carried" : "closest point";

@@ -6,6 +6,7 @@
 
 #include "coarse_mesh.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -17,7 +18,6 @@
 #include <CGAL/boost/graph/copy_face_graph.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
@@ -28,11 +28,6 @@ namespace {
 // The remeshers' constructions want exact predicates.
 using Robust_kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Robust_mesh = CGAL::Surface_mesh<Robust_kernel::Point_3>;
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 template <class To, class From>
 To converted(const From& from)
@@ -48,79 +43,65 @@ double miss(std::size_t n, std::size_t N)
   return std::abs(static_cast<double>(n) / static_cast<double>(N) - 1);
 }
 
-struct Remeshed
+// The best of some attempts at a remeshing with N vertices. `next(n, attempt)` says what to ask for where the mesh before had n, and
+// `remesh(mesh, wanted)` does it. The time is that of the best run alone.
+template <class Remesh, class Next>
+Coarse_mesh closest_in_number(const Mesh& input, std::size_t N, double wanted, int attempts,
+                              const Remesh& remesh, const Next& next, const std::string& what)
 {
-  Robust_mesh mesh;
-  double seconds = 0;
-};
-
-Remeshed remesh_isotropically(const Robust_mesh& fine, double edge_length)
-{
-  Remeshed result;
-  result.mesh = fine;
-  const auto begin = std::chrono::steady_clock::now();
-  PMP::isotropic_remeshing(faces(result.mesh), edge_length, result.mesh,
-                           CGAL::parameters::number_of_iterations(5).number_of_relaxation_steps(1));
-  result.mesh.collect_garbage();
-  result.seconds = seconds_since(begin);
+  const Robust_mesh fine = converted<Robust_mesh>(input);
+  Robust_mesh best;
+  Coarse_mesh result;
+  for(int attempt = 0; attempt < attempts && (attempt == 0 || miss(best.number_of_vertices(), N) > 0.003);
+      ++attempt) {
+    Robust_mesh mesh = fine;
+    CGAL::Real_timer timer;
+    timer.start();
+    remesh(mesh, wanted);
+    mesh.collect_garbage();
+    const double seconds = timer.time();
+    const std::size_t n = mesh.number_of_vertices();
+    wanted = next(wanted, n, attempt);
+    if(attempt == 0 || miss(n, N) < miss(best.number_of_vertices(), N)) {
+      best = std::move(mesh);
+      result.seconds = seconds;
+    }
+  }
+  result.mesh = converted<Mesh>(best);
+  if(miss(result.mesh.number_of_vertices(), N) > 0.01)
+    result.note = "No " + what + " was found that gives " + std::to_string(N) + " vertices within 1 %.";
   return result;
 }
 
-// The number of vertices falls about as the square of the edge length, with jumps: a search by that law, and
-// the best that it met. The time is that of the best run alone.
+// The number of vertices falls about as the square of the edge length, with jumps: a search by that law.
 Coarse_mesh isotropic(const Mesh& input, std::size_t N)
 {
-  const Robust_mesh fine = converted<Robust_mesh>(input);
-  const double area = PMP::area(fine);
-  double length = std::sqrt(2 / std::sqrt(3.) * area / static_cast<double>(N));
-  Remeshed best;
-  for(int attempt = 0; attempt < 12 && (attempt == 0 || miss(best.mesh.number_of_vertices(), N) > 0.003);
-      ++attempt) {
-    Remeshed next = remesh_isotropically(fine, length);
-    const std::size_t n = next.mesh.number_of_vertices();
+  const auto remesh = [](Robust_mesh& mesh, double edge_length) {
+    PMP::isotropic_remeshing(faces(mesh), edge_length, mesh,
+                             CGAL::parameters::number_of_iterations(5).number_of_relaxation_steps(1));
+  };
+  const auto next = [N](double length, std::size_t n, int attempt) {
     if(n < 4)
-      length /= 2;
-    else // the damping keeps a jump from being answered by the jump back
-      length *= std::pow(static_cast<double>(n) / static_cast<double>(N), attempt < 4 ? 0.5 : 0.3);
-    if(attempt == 0 || miss(n, N) < miss(best.mesh.number_of_vertices(), N))
-      best = std::move(next);
-  }
-  Coarse_mesh result;
-  result.mesh = converted<Mesh>(best.mesh);
-  result.seconds = best.seconds;
-  if(miss(result.mesh.number_of_vertices(), N) > 0.01)
-    result.note = "No edge length was found that gives " + std::to_string(N) + " vertices within 1 %.";
-  return result;
+      return length / 2;
+    // the damping keeps a jump from being answered by the jump back
+    return length * std::pow(static_cast<double>(n) / static_cast<double>(N), attempt < 4 ? 0.5 : 0.3);
+  };
+  const double length = std::sqrt(2 / std::sqrt(3.) * PMP::area(input) / static_cast<double>(N));
+  return closest_in_number(input, N, length, 12, remesh, next, "edge length");
 }
 
 #ifdef SPECTRAL_COMPARE_HAS_ACVD
-// It adds vertices where a cluster would not give a manifold, on borders for instance: then fewer are asked
-// for. The time is that of the best run alone.
+// It adds vertices where a cluster would not give a manifold, on borders for instance: then fewer are asked for.
 Coarse_mesh centroidal(const Mesh& input, std::size_t N)
 {
-  const Robust_mesh fine = converted<Robust_mesh>(input);
-  double wanted = static_cast<double>(N);
-  Remeshed best;
-  for(int attempt = 0; attempt < 6 && (attempt == 0 || miss(best.mesh.number_of_vertices(), N) > 0.003);
-      ++attempt) {
-    Remeshed next;
-    next.mesh = fine;
-    const auto begin = std::chrono::steady_clock::now();
-    PMP::approximated_centroidal_Voronoi_diagram_remeshing(next.mesh, static_cast<std::size_t>(wanted),
+  const auto remesh = [](Robust_mesh& mesh, double clusters) {
+    PMP::approximated_centroidal_Voronoi_diagram_remeshing(mesh, static_cast<std::size_t>(clusters),
                                                            CGAL::parameters::random_seed(0));
-    next.seconds = seconds_since(begin);
-    next.mesh.collect_garbage();
-    const std::size_t n = next.mesh.number_of_vertices();
-    wanted = (std::max)(4., std::round(wanted * static_cast<double>(N) / static_cast<double>(n)));
-    if(attempt == 0 || miss(n, N) < miss(best.mesh.number_of_vertices(), N))
-      best = std::move(next);
-  }
-  Coarse_mesh result;
-  result.mesh = converted<Mesh>(best.mesh);
-  result.seconds = best.seconds;
-  if(miss(result.mesh.number_of_vertices(), N) > 0.01)
-    result.note = "No number of clusters was found that gives " + std::to_string(N) + " vertices within 1 %.";
-  return result;
+  };
+  const auto next = [N](double clusters, std::size_t n, int) {
+    return (std::max)(4., std::round(clusters * static_cast<double>(N) / static_cast<double>(n)));
+  };
+  return closest_in_number(input, N, static_cast<double>(N), 6, remesh, next, "number of clusters");
 }
 #endif
 

@@ -8,12 +8,12 @@
 #include "local_shape.h"
 #include "starts.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -22,11 +22,6 @@
 namespace SG = CGAL::Spectral_geometry;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 // Permutations of largest score under ever narrower kernels.
 Eigen::MatrixXd filtered(Eigen::MatrixXd C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
@@ -102,7 +97,8 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
                          const Keep_going& keep_going)
 {
   Match match;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   Landmarks coarse_landmarks;
   for(const auto& [x, y] : landmarks)
     coarse_landmarks.emplace_back(coarse_X.vertex_map[static_cast<std::size_t>(x)],
@@ -110,9 +106,9 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
   const SG::Spectral_shape &x = coarse_X.shape.spectral, &y = coarse_Y.shape.spectral;
   Eigen::MatrixXd C = map_of_many_starts(x, y, coarse_landmarks, options, keep_going);
   C = filtered(std::move(C), x, y, options, keep_going);
-  match.seconds_coarse = seconds_since(begin);
+  match.seconds_coarse = timer.time();
 
-  const auto middle = std::chrono::steady_clock::now();
+  timer.reset();
   const auto restriction = [&](const Shape& fine, const Proxy& proxy) {
     return SG::functional_map(proxy.shape.spectral.pairs.vectors.leftCols(C.rows()),
                               proxy.shape.spectral.op.B, proxy.restriction,
@@ -125,7 +121,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
   match.relative_residual = lifted.relative_residual;
   match.C = refined_between_levels(std::move(match.C), X, coarse_X, Y, coarse_Y, options);
   finish(match, X, Y, options, keep_going);
-  match.seconds_lift = seconds_since(middle);
+  match.seconds_lift = timer.time();
   return match;
 }
 
@@ -133,9 +129,10 @@ Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
                      const Matching_options& options, const Keep_going& keep_going)
 {
   Match match;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   match.C = map_of_descriptors(X.spectral, Y.spectral, landmarks, options, keep_going);
   finish(match, X, Y, options, keep_going);
-  match.seconds_coarse = seconds_since(begin);
+  match.seconds_coarse = timer.time();
   return match;
 }

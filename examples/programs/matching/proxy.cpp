@@ -6,10 +6,10 @@
 
 #include "../compare/heaviest_vertices.h"
 
+#include <CGAL/Real_timer.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
@@ -19,11 +19,6 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 namespace SG = CGAL::Spectral_geometry;
 
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin)
-{
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 Eigen::SparseMatrix<double> picking(const std::vector<Eigen::Index>& representative, Eigen::Index n)
 {
@@ -101,7 +96,8 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
                  Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going)
 {
   Proxy proxy;
-  const auto begin = std::chrono::steady_clock::now();
+  CGAL::Real_timer timer;
+  timer.start();
   Mesh coarse = mesh;
   Eigen::SparseMatrix<double> P;
   if(kind == Proxy_kind::spectral)
@@ -111,9 +107,9 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
   proxy.representative = heaviest_vertices(P);
   proxy.restriction = picking(proxy.representative, P.cols());
   SG::Mesh_matrices matrices = SG::mesh_matrices(coarse); // garbage is skipped, in the order of P
-  proxy.seconds_simplification = seconds_since(begin);
-  const auto middle = std::chrono::steady_clock::now();
+  proxy.seconds_simplification = timer.time();
+  timer.reset();
   proxy.shape = make_shape(std::move(matrices), modes, mass, keep_going);
-  proxy.seconds_eigenpairs = seconds_since(middle);
+  proxy.seconds_eigenpairs = timer.time();
   return proxy;
 }
