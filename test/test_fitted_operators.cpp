@@ -310,7 +310,7 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
   const double area = p.coarse.mass.sum(), fine_area = p.fine.mass.sum();
   const MatrixXd G = std::sqrt(fine_area) * (p.P * p.pairs.vectors);
   const VectorXd lambda = fine_area * p.pairs.values;
-  VectorXd W = (lambda.array() + 4 * shapes::pi).inverse();
+  VectorXd W = (lambda.array() + 4 * shapes::pi).pow(-options.low_modes);
   W /= (W.array() * lambda.array().square()).mean();
   std::vector<std::pair<VectorXd, bool>> terms; // d, whether of the mass
   std::vector<double> start, lowest, typical, sizes;
@@ -437,6 +437,9 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   options = {};
   options.orthonormality = -1.;
   refused("orthonormality", options);
+  options = {};
+  options.low_modes = nan;
+  refused("low_modes", options);
   options = {};
   options.smallest_mass = nan;
   refused("smallest_mass", options);

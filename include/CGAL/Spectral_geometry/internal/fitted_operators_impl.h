@@ -120,7 +120,7 @@ public:
     , m_lambda(std::move(lambda))
     , m_area(own.mass.sum())
     , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / m_G.rows()))
-    , m_weight((m_lambda.array() + 4 * CGAL_PI).inverse())
+    , m_weight((m_lambda.array() + 4 * CGAL_PI).pow(-options.low_modes))
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
     m_weight *= mean > 0. ? 1. / mean : 0.;
@@ -470,6 +470,7 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
   require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
           "orthonormality and plain must be numbers from 0.");
+  require(o.low_modes >= 0. && std::isfinite(o.low_modes), "low_modes must be a number from 0.");
   require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
   require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
           "smallest_weight and smallest_mass must lie in ]0, 1].");
