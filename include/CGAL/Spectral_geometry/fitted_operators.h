@@ -20,8 +20,8 @@ namespace Spectral_geometry {
 /// @{
 
 /*!
-How `fit_operators()` chooses the entries of a coarse Laplacian and mass. All numbers are free of scale; the defaults are those
-that were measured.
+How `fit_operators()` chooses the entries of a coarse Laplacian and mass. All numbers are free of scale; the defaults are
+those that were measured.
 */
 struct Operator_fit_options
 {
@@ -33,9 +33,9 @@ struct Operator_fit_options
   Mass_pattern mass = Mass_pattern::edges; ///< the choice among them
   /// Where the Laplacian has entries: 1, the edges of the mesh; 2, the pattern of L L, about 19 entries per row.
   int rings = 1;
-  /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More is for distances and signatures, which live on the lowest
-  /// modes, less for the functional map: with 1 in place of 2.5 \f$ \|C\|_L \f$ is 0.85 times as large, and errors of biharmonic distances are
-  /// doubled. From 0.
+  /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More is for distances and signatures, which
+  /// live on the lowest modes, less for the functional map: with 1 in place of 2.5 \f$ \|C\|_L \f$ is 0.85 times as large, and
+  /// errors of biharmonic distances are 1.8 times as large. From 0.
   double low_modes = 2.5;
   /// mu: weight of the orthonormality of the restricted eigenvectors beside commutativity. More lowers \f$ \|C\|_D \f$ and
   /// raises \f$ \|C\|_L \f$ and the errors of the eigenvalues; from 0.
@@ -77,33 +77,34 @@ struct Operator_fit_result
 
 /*!
 chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of a fine mesh as nearly
-as the sparsity allows: for functional maps, spectral distances and signatures, which compute with operators and not with triangles.
-The result goes to `eigenpairs()`, `evaluate_spectrum()` and whatever takes an operator. It is not for what
-needs the cotangents or the areas of the actual triangles.
+as the sparsity allows: for functional maps, spectral distances and signatures, which compute with operators and not with
+triangles. The result goes to `eigenpairs()`, `evaluate_spectrum()` and whatever takes an operator. It is not for what needs
+the cotangents or the areas of the actual triangles.
 
 With \f$ G = P \Phi \f$, all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
 it minimises
 \f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
    + \frac{\tau}{N} \sum_a \Bigl( \frac{x_a - x_a^0}{x_a^0 + s_a} \Bigr)^2 \f]
-where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, made relative by \f$ \mathrm{mean}(W \lambda^2) \f$: 4 pi is the mean spacing of
-eigenvalues at unit area (Weyl's law), and e = 2 would ask for the same relative accuracy of all modes. The first term is \f$ \|C \Lambda - \widetilde\Lambda C\| \f$ when G stands for the coarse
-eigenvectors, the second the metric E (Eq. 2 of Lescoat et al. 2020). The last ties the N and more unknowns x (the weights w, m, b below) to what they
-are of the mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or the mean mass of a vertex.
+where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, made relative by \f$ \mathrm{mean}(W \lambda^2) \f$: 4 pi is
+the mean spacing of eigenvalues at unit area (Weyl's law), and e = 2 would ask for the same relative accuracy of all modes. The
+first term is \f$ \|C \Lambda - \widetilde\Lambda C\| \f$ when G stands for the coarse eigenvectors, the second the metric E
+(Eq. 2 of Lescoat et al. 2020). The last ties the N and more unknowns x (the weights w, m, b below) to what they are of the
+mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or the mean mass of a vertex.
 
 **Both matrices are definite, whatever the input.**
 \f[ \widetilde L = \sum_a w_a \, d_a d_a^\top, \qquad
    \widetilde B = \sum_v b_v \, e_v e_v^\top + \sum_{ij} m_{ij} (e_i + e_j) (e_i + e_j)^\top, \qquad w, m \ge 0, \; b > 0, \f]
 with \f$ d_a = e_i - e_j \f$ for each edge and positive bounds on these, so that \f$ \widetilde L \f$ has one zero for each connected component of
 the graph. An edge of negative weight (an obtuse or thin triangle) lies in this cone together with the other two edges of its triangles:
-\f$ d_a = e_k - (1-t) e_i - t e_j \f$ with k opposite to ij, as much as it needs. Two rings add for each vertex of up to 64 neighbours its row of L, and for each edge between
-two triangles \f$ d_a = e_i + e_j - e_k - e_l \f$, the second difference across it: these, not edges
-to far vertices, make up for a diagonal mass. The total of the mass is that of the coarse mesh (an exact scaling of both matrices follows
-a penalty that leaves little to do).
+\f$ d_a = e_k - (1-t) e_i - t e_j \f$ with k opposite to ij, as much as it needs. Two rings add for each vertex of up to 64
+neighbours its row of L, and for each edge between two triangles \f$ d_a = e_i + e_j - e_k - e_l \f$, the second difference
+across it: these, not edges to far vertices, make up for a diagonal mass. The total of the mass is that of the coarse mesh (an
+exact scaling of both matrices follows a penalty that leaves little to do).
 
 This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the own entries on, each step by
-conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky factor of the sparse normal matrix of the second term
-preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops the result is inside of the bounds, up to that
-scaling, and its objective not larger than that of the own entries.
+conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky factor of the sparse normal matrix of the second
+term preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops
+the result is inside of the bounds, up to that scaling, and its objective not larger than that of the own entries.
 
 @param coarse operator of the coarse mesh. What is off the diagonal of L gives pattern and start, B likewise; the mass gives D
   and the total
@@ -113,12 +114,13 @@ scaling, and its objective not larger than that of the own entries.
   \f$ \|C\|_D \f$, gain more
 @param options weights, bounds, pattern, when to stop
 
-Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do not belong together, a number
-that is not finite, an option out of range; `std::runtime_error` when a preconditioner cannot be factorised; `Cancelled` when the progress callback returned false.
+Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do not belong together, a
+number that is not finite, an option out of range; `std::runtime_error` when a preconditioner cannot be factorised;
+`Cancelled` when the progress callback returned false.
 
-References: the operator-based view is that of H.-T. D. Liu, A. Jacobson, M. Ovsjanikov, *Spectral Coarsening of Geometric Operators*,
-2019, and H. Chen et al., *Chordal Decomposition for Spectral Coarsening*, 2020; the barrier method is in J. Nocedal, S. Wright, *Numerical
-Optimization*, 2006, section 16.6.
+References: the operator-based view is that of H.-T. D. Liu, A. Jacobson, M. Ovsjanikov, *Spectral Coarsening of Geometric
+Operators*, 2019, and H. Chen et al., *Chordal Decomposition for Spectral Coarsening*, 2020; the barrier method is in
+J. Nocedal, S. Wright, *Numerical Optimization*, 2006, section 16.6.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_operator& coarse,
                                                                 const Eigen::SparseMatrix<double>& P,

@@ -113,9 +113,11 @@ struct Spectral_options
   /// kept they must not be: then infinite, as `spectral_edge_collapse()` has it with `maximum_error`. Positive.
   double largest_loss = 10;
 
-  /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement found would, the
-  /// ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Placements of a wrapper are
-  /// looked at by `Spectral_filter` alone. The quadrics of `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
+  /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement
+  /// found would, the ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Beside faces
+  /// that cross already, as in scans, this holds until n / 20 collapses were refused for it: more of them would hold up a run
+  /// that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone. The quadrics of
+  /// `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
   bool keep_free_of_self_intersections = true;
 
   /// Whether every cost that CGAL asks for is evaluated at once. Otherwise an edge that costs much more than the collapses of late keeps the
@@ -162,7 +164,8 @@ struct Spectral_options
   /// not kept stays) and with `Spectral_edge_collapse_options::pre_simplify`.
   std::vector<std::size_t> kept_vertices;
 
-  /// Number of threads that find eigenpairs and evaluate costs, and that relocate in `spectral_edge_collapse()`; from 1. The result does not depend on it.
+  /// Number of threads that find eigenpairs and evaluate costs, and that relocate in `spectral_edge_collapse()`; from 1. The
+  /// result does not depend on it.
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`

@@ -198,7 +198,6 @@ private:
   // The edges incident to the neighbours of `kept`, into m_batch, without those that are put off.
   void choose_around(const Spectral_slot kept);
 
-  // What all threads read while one of them writes what follows has cache lines of its own.
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
@@ -210,7 +209,7 @@ private:
   std::vector<std::size_t> m_lost; // by the neighbours of the last kept vertex, see Spectral_rings::follow()
   std::vector<Edge> m_batch;
 
-  alignas(cache_line) Sum m_total;
+  Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses
   Spectral_geometry::Merge_forest m_forest;
   Spectral_candidates m_candidates;
@@ -219,7 +218,7 @@ private:
   std::vector<Spectral_candidate> m_results;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
-  std::unique_ptr<Pool> m_pool; // last: its threads look at the rest
+  std::unique_ptr<Pool> m_pool;
 };
 
 } // namespace internal
