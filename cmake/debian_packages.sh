@@ -5,6 +5,8 @@
 # Sourced by the two set-up scripts. install_packages PACKAGE... installs those of the Debian packages that are
 # missing, as root or through sudo, and stops with a sentence when it cannot. Elsewhere than on Debian and its
 # relatives nothing is installed: CMake says what is missing. SPECTRAL_NO_INSTALL=1 asks for the same on Debian.
+# prefer_ninja FOLDER has a new build folder made for Ninja where it is installed: it keeps all cores busy, make waits for
+# one target after the other.
 
 install_packages()
 {
@@ -43,4 +45,11 @@ install_packages()
   rm -f "$log"
   echo "apt-get could not install$missing (its last words are above): install them by hand, then run this again." >&2
   return 1
+}
+
+prefer_ninja()
+{
+  if [ ! -f "$1/CMakeCache.txt" ] && command -v ninja >/dev/null 2>&1; then
+    export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
+  fi
 }

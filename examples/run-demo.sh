@@ -13,9 +13,10 @@ build=${BUILD_DIR:-$root/build}
 output=$build/demo
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ make cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
+install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev
 
+prefer_ninja "$build"
 # The tests are switched off by not asking for their targets: their settings in an existing folder stay.
 mkdir -p "$output"
 if [ ! -f "$build/CMakeCache.txt" ]; then
@@ -23,7 +24,7 @@ if [ ! -f "$build/CMakeCache.txt" ]; then
 else
   set --
 fi
-echo "Building (three to four minutes with two cores) ..."
+echo "Building (two minutes with two cores) ..."
 cmake -S "$root" -B "$build" "$@" ${CMAKE_ARGS:-} >"$output/build.log" 2>&1 &&
   cmake --build "$build" -j "${JOBS:-2}" --target make_demo_shape spectral_simplify >>"$output/build.log" 2>&1 || {
   tail -n 20 "$output/build.log" >&2

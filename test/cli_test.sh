@@ -264,6 +264,7 @@ refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --fli
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
 refuses "a fit without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --fit-operators d
+refuses "a fit to signals" "leave out --signals" shape.off out.off --vertices 200 --signals f.npy --fit-operators d
 refuses "how to fit what is not asked for" "belong to --fit-operators" shape.off out.off --vertices 200 --fit-mass diagonal
 refuses "three rings" "--fit-rings is 3" shape.off out.off --vertices 200 --fit-operators d --fit-rings 3
 refuses "pairs without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --eigenpairs d

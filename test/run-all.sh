@@ -20,10 +20,11 @@ stop()
 }
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ make cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
+install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev python3-numpy catch2 ||
   stop "The tests were not run: packages are missing."
 
+prefer_ninja "$build"
 # CMAKE_ARGS is split into words on purpose.
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSPECTRAL_BUILD_TESTS=ON -DSPECTRAL_BUILD_EXAMPLES=ON \
   -DSPECTRAL_PRECOMPILE_HEADERS=ON ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."

@@ -381,6 +381,99 @@ TEST_CASE("A run can be cancelled in every phase")
   }
 }
 
+TEST_CASE("The one call fits operators to the mesh that it leaves")
+{
+  const shapes::Matrices input = wavy_grid_matrices(36, 32);
+  Spectral_edge_collapse_options options; // best, with relocation
+  options.number_of_eigenvectors = 20;
+  options.fit_operators = true;
+  options.pre_simplify = GENERATE(std::size_t(0), std::size_t(1000));
+  Mesh mesh = make_mesh(input), without = mesh;
+  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+  REQUIRE(result.fitted);
+  CHECK(result.seconds_operator_fit > 0);
+  CHECK(result.fitted->objective_after < result.fitted->objective_before);
+
+  SECTION("the mesh and P are what they are without")
+  {
+    options.fit_operators = false;
+    const Result other = SMS::spectral_edge_collapse(without, 120, options);
+    CHECK(!other.fitted);
+    CHECK(positions(mesh) == positions(without));
+    CHECK(Eigen::MatrixXd(other.restriction) == Eigen::MatrixXd(result.restriction));
+  }
+  SECTION(
+      "they are what fit_operators() gives, and keep the spectrum of the input better than the mesh's own")
+  {
+    const SG::Laplace_operator own = SG::cotangent_laplacian(mesh, options.mass);
+    const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+    const SG::Eigenpairs pairs = SG::eigenpairs(fine, 24, options.eigenpairs_options);
+    if(options.pre_simplify == 0) {
+      const SG::Operator_fit_result direct = SG::fit_operators(own, result.restriction, fine, pairs);
+      CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(result.fitted->op.L)).norm() <
+            1e-9 * own.L.norm());
+      CHECK((Eigen::MatrixXd(direct.op.B) - Eigen::MatrixXd(result.fitted->op.B)).norm() <
+            1e-9 * own.B.norm());
+    }
+    const auto judged = [&](const SG::Laplace_operator& op) {
+      return SG::evaluate_spectrum(fine, pairs, op, SG::eigenpairs(op, 24), result.restriction, 20);
+    };
+    CHECK(judged(result.fitted->op).norm_L < 0.8 * judged(own).norm_L);
+    CHECK(judged(result.fitted->op).errors.mean < 0.8 * judged(own).errors.mean);
+  }
+  SECTION("given eigenpairs are those that they are fitted to")
+  {
+    options.pre_simplify = 0;
+    options.eigenpairs = result.eigenpairs;
+    if(options.eigenpairs->vectors.rows() == input.V.rows()) {
+      const Result given = SMS::spectral_edge_collapse(without, 120, options);
+      REQUIRE(given.fitted);
+      const SG::Operator_fit_result direct = SG::fit_operators(
+          SG::cotangent_laplacian(without, options.mass), given.restriction,
+          SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass)), *options.eigenpairs);
+      CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(given.fitted->op.L)).norm() <
+            1e-9 * direct.op.L.norm());
+    }
+  }
+}
+
+TEST_CASE("What stops a fit of operators leaves the mesh that was made")
+{
+  const shapes::Matrices input = wavy_grid_matrices(24, 20);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.fit_operators = true;
+  Mesh mesh = make_mesh(input);
+  SECTION("cancelled: P is that of the mesh")
+  {
+    const double fraction = GENERATE(0., 0.5, 0.51);
+    options.progress = [&](const Spectral_progress& p) {
+      return p.phase != Spectral_phase::operator_fit || p.fraction < fraction;
+    };
+    const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+    CHECK(result.stop_reason == Result::Stop_reason::cancelled);
+    CHECK_THAT(result.explanation, ContainsSubstring("before operators were fitted"));
+    CHECK(!result.fitted);
+    CHECK(result.output_vertices == 120);
+    CHECK(result.restriction.rows() == 120);
+    CHECK(result.relocation.moved_vertices > 0);
+  }
+  SECTION("signals: refused before anything is changed")
+  {
+    options.signals = input.V;
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 120, options),
+                      ContainsSubstring("leave one of them out"));
+    CHECK(positions(mesh) == input.V);
+  }
+  SECTION("an option out of range: refused before anything is changed")
+  {
+    options.operator_fit.rings = 3;
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 120, options),
+                      ContainsSubstring("rings must be 1 or 2"));
+    CHECK(positions(mesh) == input.V);
+  }
+}
+
 TEST_CASE("Edges without length are among the collapses that are counted")
 {
   shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);

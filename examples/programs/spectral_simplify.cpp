@@ -23,7 +23,6 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -103,6 +102,8 @@ const char* phase_name(SMS::Spectral_phase phase)
     return "edge flips";
   case SMS::Spectral_phase::relocation:
     return "relocation";
+  case SMS::Spectral_phase::operator_fit:
+    return "fit";
   case SMS::Spectral_phase::collapses:
     break;
   }
@@ -156,6 +157,14 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Ver
     options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
   if(a.max_error)
     options.maximum_error = *a.max_error;
+  options.fit_operators = !a.fit_operators.empty();
+  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
+  SG::Operator_fit_options& fit = options.operator_fit;
+  fit.mass = a.fit_mass == "diagonal" || (a.fit_mass.empty() && options.mass == SG::Mass::lumped)
+                 ? Mass_pattern::diagonal
+                 : Mass_pattern::edges;
+  // On edges alone a diagonal mass is at the expense of the low modes.
+  fit.rings = a.fit_rings ? *a.fit_rings : fit.mass == Mass_pattern::diagonal ? 2 : 1;
   if(!a.keep.empty())
     options.kept_vertices =
         numbering.vertices_of_mesh(read_indices(a.keep, numbering.number_of_file_vertices()), a.keep);
@@ -215,35 +224,19 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
                                meshes.coarse_pairs, result.restriction, K);
 }
 
-// Fits a Laplacian and a mass on the coarse mesh to the fine eigenpairs, a fifth more of them than are judged for the sake of the modes
-// beyond, and judges them by the norms of the mesh's own.
-Fitted_operators fit(const Arguments& a, const Both_meshes& meshes, const Eigen::SparseMatrix<double>& P,
-                     const SG::Mass mass, Progress_bar& bar)
+// Judges fitted operators by the norms of the mesh's own.
+Fitted_operators judge_fit(const SG::Operator_fit_result& fit, const Both_meshes& meshes,
+                           const Eigen::SparseMatrix<double>& P, Progress_bar& bar)
 {
-  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
-  const auto progress = [&bar](double fraction) {
-    bar.show("fit", fraction);
+  SG::Eigenpairs_options options;
+  options.progress = [&bar](double fraction) {
+    bar.show("evaluation", fraction);
     return !interrupted;
   };
   Fitted_operators result;
-  result.options.mass = a.fit_mass == "diagonal" || (a.fit_mass.empty() && mass == SG::Mass::lumped)
-                            ? Mass_pattern::diagonal
-                            : Mass_pattern::edges;
-  // On edges alone a diagonal mass is at the expense of the low modes.
-  result.options.rings = a.fit_rings ? *a.fit_rings : result.options.mass == Mass_pattern::diagonal ? 2 : 1;
-  result.options.progress = progress;
-  SG::Eigenpairs_options options;
-  options.progress = progress;
-  CGAL::Real_timer timer;
-  timer.start();
-  const Eigen::Index K = meshes.fine_pairs->size();
-  const SG::Eigenpairs more =
-      SG::eigenpairs(meshes.fine_operator, (std::min)(K + K / 5, meshes.fine_operator.L.rows()), options);
-  result.fit = SG::fit_operators(meshes.coarse_operator, P, meshes.fine_operator, more, result.options);
-  result.seconds = timer.time();
-  result.pairs = SG::eigenpairs(result.fit.op, meshes.coarse_pairs.size(), options);
-  result.evaluation =
-      SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, result.fit.op, result.pairs, P, K);
+  result.pairs = SG::eigenpairs(fit.op, meshes.coarse_pairs.size(), options);
+  result.evaluation = SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, fit.op, result.pairs, P,
+                                            meshes.fine_pairs->size());
   return result;
 }
 
@@ -319,8 +312,8 @@ void write_evaluation(const Output_files& files, const Arguments& a, const Mesh&
     write_eigenpairs(files, a.eigenpairs, meshes, numbering, report.result);
   if(report.fitted) {
     const auto path = [&a](const std::string& name) { return a.fit_operators + "/" + name; };
-    write_matrix_market(files.temporary(path("L.mtx")), report.fitted->fit.op.L, path("L.mtx"));
-    write_matrix_market(files.temporary(path("mass.mtx")), report.fitted->fit.op.B, path("mass.mtx"));
+    write_matrix_market(files.temporary(path("L.mtx")), report.result.fitted->op.L, path("L.mtx"));
+    write_matrix_market(files.temporary(path("mass.mtx")), report.result.fitted->op.B, path("mass.mtx"));
     const Eigen::Index K = meshes.fine_pairs->size();
     const Eigen::VectorXd values = report.fitted->pairs.values.head(K);
     const Eigen::MatrixXd vectors = report.fitted->pairs.vectors.leftCols(K);
@@ -397,20 +390,10 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
         "gone: ask for more vertices, or remesh so that faces differ less in size.");
 }
 
-// What the fit minimises is neither norm: a warning says where the mesh's own operators are better. A fit that fails is one, too: the rest of the
-// evaluation is written all the same.
-void add_fit(Simplification_report& report, const Arguments& a, const Both_meshes& meshes, SG::Mass mass,
-             Progress_bar& bar)
+// What the fit minimises is neither norm: a warning says where the mesh's own operators are better.
+void add_fit(Simplification_report& report, const Both_meshes& meshes, Progress_bar& bar)
 {
-  std::vector<std::string>& warnings = report.result.warnings;
-  try {
-    report.fitted = fit(a, meshes, report.result.restriction, mass, bar);
-  } catch(const SG::Cancelled&) {
-    throw;
-  } catch(const std::runtime_error& error) {
-    warnings.push_back(std::string("The operators were not fitted: ") + error.what());
-    return;
-  }
+  report.fitted = judge_fit(*report.result.fitted, meshes, report.result.restriction, bar);
   const SG::Spectral_evaluation &own = *report.evaluation, &e = report.fitted->evaluation;
   const auto larger = [](const double fitted, const double own_figure) { return fitted > 1.1 * own_figure; };
   const std::string worse = larger(e.norm_L, own.norm_L)             ? "|C|_L"
@@ -418,9 +401,9 @@ void add_fit(Simplification_report& report, const Arguments& a, const Both_meshe
                             : larger(e.errors.mean, own.errors.mean) ? "mean error of the eigenvalues"
                                                                      : "";
   if(!worse.empty())
-    warnings.push_back("The fitted operators have a " + worse +
-                       " more than a tenth larger than the mesh's own" +
-                       (report.fitted->options.rings == 1 ? ": --fit-rings 2 may do better." : "."));
+    report.result.warnings.push_back(
+        "The fitted operators have a " + worse + " more than a tenth larger than the mesh's own" +
+        (report.options.operator_fit.rings == 1 ? ": --fit-rings 2 may do better." : "."));
 }
 
 void say(const Arguments& a, const Simplification_report& report)
@@ -472,8 +455,8 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   try {
     if(!a.no_evaluation && !interrupted) {
       evaluate(report, a, meshes, mass, bar);
-      if(!a.fit_operators.empty())
-        add_fit(report, a, meshes, mass, bar);
+      if(report.result.fitted)
+        add_fit(report, meshes, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);
       written.push_back(a.report);
       for(const std::string name : eigenpairs_files)

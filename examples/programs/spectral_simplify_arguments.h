@@ -239,6 +239,8 @@ inline void check(const Arguments& a)
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
   if(a.no_evaluation && !a.fit_operators.empty())
     refuse("--fit-operators uses what the evaluation computes: leave out --no-evaluation.");
+  if(!a.fit_operators.empty() && !a.signals.empty())
+    refuse("--fit-operators fits to eigenvectors: leave out --signals.");
   if(a.fit_operators.empty() && (!a.fit_mass.empty() || a.fit_rings))
     refuse("--fit-mass and --fit-rings belong to --fit-operators.");
   if(a.fit_rings && *a.fit_rings != 1 && *a.fit_rings != 2)

@@ -24,14 +24,11 @@
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
 
-// Operators fitted to the fine spectrum, and how they are judged.
+// How operators that were fitted to the fine spectrum are judged.
 struct Fitted_operators
 {
-  CGAL::Spectral_geometry::Operator_fit_options options;
-  CGAL::Spectral_geometry::Operator_fit_result fit;
   CGAL::Spectral_geometry::Eigenpairs pairs; // 1.1 K
   CGAL::Spectral_geometry::Spectral_evaluation evaluation;
-  double seconds = 0; // of the fit
 };
 
 struct Simplification_report
@@ -96,8 +93,9 @@ inline void print_table(const Simplification_report& r)
     std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
   }
   if(r.fitted) {
-    std::printf("  fitted operators, %d ring%s, mass: %s\n", r.fitted->options.rings,
-                r.fitted->options.rings == 1 ? "" : "s", mass_pattern_name(r.fitted->options));
+    const auto& options = r.options.operator_fit;
+    std::printf("  fitted operators, %d ring%s, mass: %s\n", options.rings, options.rings == 1 ? "" : "s",
+                mass_pattern_name(options));
     print_norm("|C|_L", r.fitted->evaluation.norm_L, 0);
     print_norm("|C|_D", r.fitted->evaluation.norm_D, 0);
     print_errors(r.fitted->evaluation);
@@ -122,11 +120,11 @@ inline void print_table(const Simplification_report& r)
     std::printf("  edge flips                %8.2f s\n", r.result.seconds_flips);
   if(r.options.relocate)
     std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
+  if(r.options.fit_operators)
+    std::printf("  operator fit              %8.2f s\n", r.result.seconds_operator_fit);
   std::printf("  writing                   %8.2f s\n", r.seconds_writing);
   std::printf("  total                     %8.2f s\n",
               r.seconds_reading + r.result.seconds_total + r.seconds_writing);
-  if(r.fitted)
-    std::printf("  fit, not in total         %8.2f s\n", r.fitted->seconds);
   if(r.evaluation)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
 }
@@ -216,15 +214,16 @@ inline nlohmann::json to_json(const Simplification_report& r)
   json["seconds_evaluation"] = r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
   if(r.fitted) {
     json["fitted"] = evaluation_json(&r.fitted->evaluation);
-    json["fitted"].update({{"mass_pattern", mass_pattern_name(r.fitted->options)},
-                           {"rings", r.fitted->options.rings},
-                           {"unknowns", r.fitted->fit.unknowns},
-                           {"at_bound", r.fitted->fit.at_bound},
-                           {"iterations", r.fitted->fit.iterations},
-                           {"converged", r.fitted->fit.converged},
-                           {"objective_before", r.fitted->fit.objective_before},
-                           {"objective_after", r.fitted->fit.objective_after},
-                           {"seconds", r.fitted->seconds}});
+    const auto& fit = *r.result.fitted;
+    json["fitted"].update({{"mass_pattern", mass_pattern_name(r.options.operator_fit)},
+                           {"rings", r.options.operator_fit.rings},
+                           {"unknowns", fit.unknowns},
+                           {"at_bound", fit.at_bound},
+                           {"iterations", fit.iterations},
+                           {"converged", fit.converged},
+                           {"objective_before", fit.objective_before},
+                           {"objective_after", fit.objective_after},
+                           {"seconds", r.result.seconds_operator_fit}});
   } else
     json["fitted"] = nullptr;
   return json;

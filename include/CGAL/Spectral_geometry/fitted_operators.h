@@ -130,6 +130,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
 
 /// @}
 
+namespace internal {
+
+/// Throws `std::invalid_argument` for an option out of range.
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit_options& options);
+
+} // namespace internal
 } // namespace Spectral_geometry
 } // namespace CGAL
 

@@ -11,6 +11,7 @@
 
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 
 #include <cstddef>
 #include <limits>
@@ -73,6 +74,15 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// How they are moved; its progress callback is replaced by that of the run.
   Spectral_geometry::Relocation_options relocation;
+
+  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have the spectrum of the input:
+  /// `Spectral_geometry::fit_operators()`, whose result is in `Spectral_edge_collapse_result::fitted`. The mesh stays as it
+  /// is. They are fitted to a fifth more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are
+  /// given. Not with `signals`.
+  bool fit_operators = false;
+
+  /// How they are chosen; its progress callback is replaced by that of the run.
+  Spectral_geometry::Operator_fit_options operator_fit;
 };
 
 /// @}
@@ -87,6 +97,13 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
                                 std::to_string(options.maximum_error) + ", use a number from 0.");
   if(options.flips != Spectral_geometry::Edge_flips::none)
     Spectral_geometry::internal::check_edge_flip_options(options.flipping);
+  if(options.fit_operators) {
+    Spectral_geometry::internal::check_operator_fit_options(options.operator_fit);
+    if(options.signals.size() != 0)
+      throw std::invalid_argument(
+          "Spectral_edge_collapse_options: fit_operators fits to eigenvectors, but signals "
+          "are given; leave one of them out.");
+  }
   if(!options.relocate)
     return;
   Spectral_geometry::internal::check_relocation_options(options.relocation);

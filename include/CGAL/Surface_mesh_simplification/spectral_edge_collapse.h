@@ -80,6 +80,7 @@ struct Spectral_edge_collapse_result
   double seconds_collapse = 0;           ///< first costs and the collapse loop
   double seconds_flips = 0;              ///< wall seconds of `Spectral_edge_collapse_options::flips`
   double seconds_relocation = 0;         ///< wall seconds of `Spectral_edge_collapse_options::relocate`
+  double seconds_operator_fit = 0;       ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
   double seconds_total = 0;              ///< the whole call
 
   std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
@@ -90,6 +91,9 @@ struct Spectral_edge_collapse_result
   Spectral_geometry::Edge_flip_result flips;
   /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
   Spectral_geometry::Relocation_result relocation;
+  /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P; empty where it was not asked
+  /// for, or failed, which a warning says
+  std::optional<Spectral_geometry::Operator_fit_result> fitted;
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input.
   /// `Surface_mesh::collect_garbage()` changes that order: write or copy the mesh without it, which keeps the order, or
@@ -250,7 +254,7 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
   }
 }
 
-/// `Spectral_edge_collapse_options::flips` and `Spectral_edge_collapse_options::relocate`. The log, and what is replayed from it, stay as they are: they end before them.
+/// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process,
                       const Spectral_edge_collapse_options& options, const Policies& policies,
@@ -279,7 +283,8 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
     result.warnings.push_back(
         "The collapses kept the error bound, but with what followed them the relative error is " +
         std::to_string(result.relative_error) + "; set relocate to false to keep it.");
-  if(own.rows() == result.restriction.rows() && result.relocation.resampled) {
+  const bool resampled = own.rows() == result.restriction.rows() && result.relocation.resampled;
+  if(resampled) {
     if(!rows_of_kept.empty()) {
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
       Eigen::SparseMatrix<double> ones(own.rows(), own.cols());
@@ -289,6 +294,10 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
     result.restriction =
         first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
   }
+  Real_timer timer;
+  timer.start();
+  post_process.fit(mesh, policies, resampled ? own : policies.restriction(), np, result);
+  result.seconds_operator_fit = timer.time();
   own.resize(0, 0);
 }
 

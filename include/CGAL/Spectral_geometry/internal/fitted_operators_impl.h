@@ -425,14 +425,30 @@ private:
   int m_steps = 1000; // of conjugate gradients, the last time
 };
 
-inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
-                               const Laplace_operator& fine, const Eigenpairs& pairs,
-                               const Operator_fit_options& o)
+inline void require_of_operator_fit(bool condition, const std::string& sentence)
 {
-  const auto require = [](bool fine_so_far, const std::string& sentence) {
-    if(!fine_so_far)
-      throw std::invalid_argument("operator fit: " + sentence);
-  };
+  if(!condition)
+    throw std::invalid_argument("operator fit: " + sentence);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit_options& o)
+{
+  const auto require = require_of_operator_fit;
+  require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
+  require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
+          "orthonormality and plain must be numbers from 0.");
+  require(o.low_modes >= 0. && std::isfinite(o.low_modes), "low_modes must be a number from 0.");
+  require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
+  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
+          "smallest_weight and smallest_mass must lie in ]0, 1].");
+  require(o.tolerance > 0. && o.tolerance < 1., "tolerance must lie between 0 and 1.");
+  require(o.maximum_iterations >= 0, "maximum_iterations must not be negative.");
+}
+
+inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+                               const Laplace_operator& fine, const Eigenpairs& pairs)
+{
+  const auto require = require_of_operator_fit;
   const auto size = [](Eigen::Index rows, Eigen::Index columns) {
     return std::to_string(rows) + " x " + std::to_string(columns);
   };
@@ -467,15 +483,6 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   check_entries(P, "P");
   check_entries(coarse.L, "the coarse L");
   check_entries(coarse.B, "the coarse B");
-  require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
-  require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
-          "orthonormality and plain must be numbers from 0.");
-  require(o.low_modes >= 0. && std::isfinite(o.low_modes), "low_modes must be a number from 0.");
-  require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
-  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
-          "smallest_weight and smallest_mass must lie in ]0, 1].");
-  require(o.tolerance > 0. && o.tolerance < 1., "tolerance must lie between 0 and 1.");
-  require(o.maximum_iterations >= 0, "maximum_iterations must not be negative.");
 }
 
 } // namespace internal
@@ -486,7 +493,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
                                                                 const Eigenpairs& fine_pairs,
                                                                 const Operator_fit_options& options)
 {
-  internal::check_operator_fit(coarse, P, fine, fine_pairs, options);
+  internal::check_operator_fit_options(options);
+  internal::check_operator_fit(coarse, P, fine, fine_pairs);
   const double area = fine.mass.sum();
   const Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
   Operator_fit_result result;

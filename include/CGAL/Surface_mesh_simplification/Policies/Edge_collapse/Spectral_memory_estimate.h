@@ -51,8 +51,8 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 3.5 K vectors of n
  * doubles (or `Eigenpairs_options::maximum_vectors`; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
  * the loop, which keeps the eigenpairs, F and R = B Z - L F, three times n K doubles (five times with signals of the user's,
- * for Z). Flips keep F and Z of the whole input beside them, relocation those twice. The constants were measured on closed meshes of 50,000
- * to 500,000 vertices; estimates are within about a quarter.
+ * for Z). Flips keep F and Z of the whole input beside them, relocation those twice; `fit_operators` solves once more beside
+ * them. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
  * vertex of the input that does not depend on K.
@@ -62,8 +62,8 @@ inline double memory_of_eigenpairs(const double n, const double K,
  *
  * @param number_of_vertices n of the input
  * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs are given
- * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`, `flips`, `pre_simplify` and
- *        `eigenpairs_options` matter, placement and so on do not
+ * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`, `flips`, `fit_operators`,
+ *        `pre_simplify` and `eigenpairs_options` matter, placement and so on do not
  */
 inline double
 estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number_of_eigenvectors,
@@ -84,7 +84,10 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options) : 0;
   const double collapses = n * (8 * (options.signals.size() != 0 ? 5 : 3) * K + loop);
   const double after = options.relocate ? 4 : options.flips != Spectral_geometry::Edge_flips::none ? 2 : 0;
-  const double both = (std::max)(solver, collapses + n * 8 * after * K);
+  const double fit = options.fit_operators && !options.eigenpairs
+                         ? internal::memory_of_eigenpairs(n, 1.2 * K, options.eigenpairs_options)
+                         : 0;
+  const double both = (std::max)(solver, collapses + (std::max)(n * 8 * after * K, fit));
   return input * internal::bytes_of_mesh + (reduced ? (std::max)(input * first_stage, both) : both);
 }
 

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
 #include <Eigen/Core>
@@ -21,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -29,8 +31,8 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
-/// What follows the collapses: `Spectral_edge_collapse_options::flips`, then `Spectral_edge_collapse_options::relocate`. Made before the first collapse:
-/// it needs the mesh of the eigenpairs.
+/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order. Made
+/// before the first collapse: it needs the mesh of the eigenpairs.
 class Spectral_post_process
 {
 public:
@@ -39,22 +41,17 @@ public:
                         const NamedParameters& np)
     : m_options(options)
   {
-    if(is_wanted())
+    if(changes_mesh() || m_options.fit_operators)
       m_fine = Spectral_geometry::mesh_matrices(mesh, np);
   }
 
-  bool is_wanted() const
-  {
-    return m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none;
-  }
-
-  /// P leads from the mesh of the eigenpairs to this one; `kept` says of each vertex whether it must stay.
+  /// Flips and relocation; `kept` says of each vertex whether it must stay.
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void run(TriangleMesh& mesh, const Policies& policies, const std::vector<bool>& kept,
            const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
-    if(!is_wanted() || result.stop_reason == Result::Stop_reason::cancelled)
+    if(!changes_mesh() || result.stop_reason == Result::Stop_reason::cancelled)
       return;
     const double theta = mass_blend(m_options.mass);
     Eigen::MatrixXd F, Z;
@@ -75,7 +72,50 @@ public:
     }
   }
 
+  /// Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
+  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
+  void fit(const TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
+           const NamedParameters& np, Result& result) const
+  {
+    using namespace Spectral_geometry;
+    if(!m_options.fit_operators || result.stop_reason == Result::Stop_reason::cancelled)
+      return;
+    const auto progress = [&](const double fraction) {
+      return policies.state().report(Spectral_phase::operator_fit, fraction);
+    };
+    const double theta = mass_blend(m_options.mass);
+    const char* consequence = "The operators were not fitted: ";
+    try {
+      if(!allows(mesh, consequence, false, np, result))
+        return;
+      const Laplace_operator fine = laplace_operator(m_fine.V, m_fine.T, theta);
+      std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
+      if(!pairs) {
+        Eigenpairs_options solver = m_options.eigenpairs_options;
+        solver.threads = (std::max)(solver.threads, m_options.threads);
+        solver.progress = [&](const double fraction) { return progress(fraction / 2); };
+        const Eigen::Index K = result.eigenpairs->size();
+        pairs = std::make_shared<Eigenpairs>(eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
+      }
+      Operator_fit_options options = m_options.operator_fit;
+      options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
+      const Mesh_matrices coarse = mesh_matrices(mesh, np);
+      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, theta), P, fine, *pairs, options);
+    } catch(const Cancelled&) {
+      result.stop_reason = Result::Stop_reason::cancelled;
+      result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
+                           " vertices, before operators were fitted to them.";
+    } catch(const std::runtime_error& error) {
+      result.warnings.push_back(consequence + std::string(error.what()));
+    }
+  }
+
 private:
+  bool changes_mesh() const
+  {
+    return m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none;
+  }
+
   // Whether the mesh that is left has an operator, and each face an area if need be; warns where it has not. The collapses
   // are done: to throw would lose them.
   template <class TriangleMesh, class NamedParameters, class Result>
