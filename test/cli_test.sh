@@ -71,6 +71,31 @@ runs "what overrides the preset" shape.off a.off --vertices 250 --eigenvectors 2
 runs "the paper's preset" shape.off b.off --vertices 250 --eigenvectors 25 --preset paper
 cmp -s a.off b.off || fail "the paper's preset is not what its options are"
 
+# A shape with colours, labels and something that cannot be carried.
+awk 'NR == 2 { n = $1; print "ply\nformat ascii 1.0\nelement vertex " n "\nproperty double x\nproperty double y\nproperty double z";
+               print "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty int part";
+               print "element face " $2 "\nproperty list uchar int vertex_indices\nproperty int material\nend_header" }
+     NR > 2 && NF == 3 { print $0, 200, int(127 * ($1 > 0)), 0, 5 + ($3 > 0) }
+     NR > 2 && NF == 4 { print $0, 1 }' shape.off >attributes.ply
+"$program" attributes.ply a.ply --vertices 250 --eigenvectors 25 --restriction P.mtx --json out.json --levels 400 >said 2>complained ||
+  fail "attributes: $(cat complained)"
+grep -q 'without what the input has beside: property material of face\.$' complained || fail "attributes: $(cat complained)"
+grep -q 'carried attributes *red, green, blue, part' said || fail "no attributes in the table"
+grep -q '"attributes": "red, green, blue, part"' out.json || fail "no attributes in the JSON file"
+for file in a.ply a-400.ply; do
+  [ "$(grep -a -c '^property uchar \(red\|green\|blue\)$' $file)" = 3 ] || fail "no colours in $file"
+  grep -a -q '^property int part$' $file || fail "no labels in $file"
+done
+runs "no attributes" attributes.ply b.ply --vertices 250 --eigenvectors 25 --no-attributes
+grep -a -q 'red' b.ply && fail "--no-attributes: there are colours"
+"$program" attributes.ply c.off --vertices 250 --eigenvectors 25 --no-evaluation >said 2>complained
+grep -q 'beside: part, property material of face; a .ply file holds more\.$' complained || fail "labels in OFF: $(cat complained)"
+head -1 c.off | grep -q '^COFF' || fail "no colours in c.off"
+# One label for each half of the space, and the colour on one side only.
+"$program" c.off d.obj --vertices 200 --eigenvectors 25 --no-evaluation --quiet || fail "from OFF to OBJ"
+awk '$1 == "v" && (NF != 7 || ($2 > 0.2 && $6 < 0.3) || ($2 < -0.2 && $6 > 0.2)) { wrong++ } END { exit wrong > 0 }' d.obj ||
+  fail "colours of d.obj"
+
 runs "fitted operators" shape.off a.off --vertices 250 --eigenvectors 25 --fit-operators fitted --json fit.json
 for file in L.mtx mass.mtx; do
   grep -q '^250 250 ' "fitted/$file" || fail "fitted/$file is not 250 x 250"
@@ -480,7 +505,7 @@ while [ -z "$ended" ] && [ "$attempts" -lt 60 ]; do
   "$program" shape.off stopped/out.off --levels 1990,200 --eigenvectors 150 --placement free --threads 1 \
     --json stopped/out.json --eigenpairs stopped/pairs --map stopped/map.txt --on-interrupt write >said 2>complained &
   process=$!
-  while [ -z "$(ls -A stopped)" ]; do
+  while [ -z "$(ls -A stopped)" ] && kill -0 "$process" 2>/dev/null; do
     sleep 0.05
   done
   sleep "$(echo "$delay" | awk '{ print $1 / 100 }')"

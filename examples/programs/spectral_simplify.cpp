@@ -80,6 +80,23 @@ void announce(Output_files& files, const Arguments& a)
   add_folder(a.fit_operators, fitted_files);
 }
 
+// What the input has and the output will not have; empty if there is nothing.
+std::string lost_attributes(const Vertex_attributes& attributes, const std::string& output)
+{
+  std::string list;
+  const auto add = [&list](const std::string& name) { list += (list.empty() ? "" : ", ") + printable(name); };
+  const Vertex_attributes written = writable(attributes, output);
+  for(const Vertex_attribute& a : attributes.known)
+    if(written.find(a.name) == nullptr)
+      add(a.name);
+  const bool of_format = !list.empty();
+  for(const std::string& name : attributes.unknown)
+    add(name);
+  return list.empty() ? ""
+                      : "The output is without what the input has beside: " + list +
+                            (of_format ? "; a .ply file holds more." : ".");
+}
+
 // Both meshes as matrices, as far as the outputs need them.
 struct Both_meshes
 {
@@ -338,7 +355,7 @@ void write_json(const Output_files& files, const Arguments& a, const Simplificat
 
 // Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called.
 template <class Name>
-void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Vertex_numbering& numbering,
+void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Input_mesh& input,
                          const Mesh& mesh, const Eigen::SparseMatrix<double>& P,
                          const std::vector<std::size_t>& map, const Name& name,
                          std::vector<std::string>& written)
@@ -347,17 +364,21 @@ void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Ve
     written.push_back(name(path));
     return files.temporary(name(path));
   };
-  write_mesh(file(a.output), mesh, name(a.output));
+  write_mesh(file(a.output), mesh, name(a.output),
+             input.attributes.known.empty()
+                 ? Vertex_attributes()
+                 : restricted(input.attributes, input.numbering.columns_of_file(P)));
   if(!a.restriction.empty())
-    write_matrix_market(file(a.restriction), numbering.columns_of_file(P, a.binary), name(a.restriction));
+    write_matrix_market(file(a.restriction), input.numbering.columns_of_file(P, a.binary),
+                        name(a.restriction));
   if(!a.map.empty())
-    write_indices(file(a.map), numbering.map_of_file(map, no_vertex), name(a.map));
+    write_indices(file(a.map), input.numbering.map_of_file(map, no_vertex), name(a.map));
 }
 
 // Writes the levels that the run has reached, from its log and a copy of the input, and returns them.
-std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a,
-                                      const Vertex_numbering& numbering, Mesh& copy,
-                                      const SMS::Collapse_log& log, std::vector<std::string>& written)
+std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a, const Input_mesh& input,
+                                      Mesh& copy, const SMS::Collapse_log& log,
+                                      std::vector<std::string>& written)
 {
   std::vector<std::size_t> levels;
   SMS::Collapse_replay<Mesh> replay(copy, log);
@@ -366,7 +387,7 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
       break;
     replay.collapse_to(level);
     write_mesh_and_maps(
-        files, a, numbering, copy, replay.restriction(), replay.vertex_map(),
+        files, a, input, copy, replay.restriction(), replay.vertex_map(),
         [level](const std::string& path) { return level_name(path, level); }, written);
     levels.push_back(level);
   }
@@ -428,10 +449,10 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
   CGAL::Real_timer timer;
   timer.start();
   write_mesh_and_maps(
-      files, a, input.numbering, mesh, report.result.restriction, report.result.vertex_map,
+      files, a, input, mesh, report.result.restriction, report.result.vertex_map,
       [](const std::string& path) { return path; }, written);
   if(!a.levels.empty())
-    report.levels = write_levels(files, a, input.numbering, copy, report.result.log, written);
+    report.levels = write_levels(files, a, input, copy, report.result.log, written);
   if(!a.prolongation.empty()) {
     write_matrix_market(
         files.temporary(a.prolongation),
@@ -494,6 +515,8 @@ int run(Arguments a)
   timer.start();
   bar.show("reading", 0);
   Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair));
+  if(a.no_attributes)
+    input.attributes = {};
   bar.clear();
   Simplification_report report;
   report.seconds_reading = timer.time();
@@ -524,6 +547,10 @@ int run(Arguments a)
   report.output = a.output;
   report.preset = a.preset;
   report.options = options;
+  report.attributes = writable(input.attributes, a.output).names();
+  const std::string lost = lost_attributes(input.attributes, a.output);
+  if(!lost.empty())
+    report.result.warnings.push_back(lost);
   meshes.coarse = SG::mesh_matrices(mesh);
   bar.show("writing", 0);
   write_result(files, a, input, mesh, copy, meshes, report);

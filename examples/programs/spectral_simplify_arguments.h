@@ -37,7 +37,7 @@ struct Arguments
   std::optional<double> shape;                               // the same
   int threads = 1;
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
-       strict = false;
+       strict = false, no_attributes = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string fit_operators;                                                      // the same
   std::string fit_mass;                                                           // empty: as the mass has it
@@ -135,6 +135,12 @@ inline boost::program_options::options_description described(Arguments& a)
   add("strict", po::bool_switch(&a.strict), "change nothing of INPUT: refuse what cannot be used as it is");
   add("repaired", text(a.repaired, "mesh.ply"),
       "write the repaired mesh; the matrices and maps number INPUT's vertices all the same");
+  add("no-attributes", po::bool_switch(&a.no_attributes),
+      "leave behind what INPUT has at its vertices beside positions. Otherwise OUTPUT has it as well, as far "
+      "as its format "
+      "holds it (.ply all, .obj colours, normals and texture coordinates, .off colours and normals): numbers "
+      "by the restriction, "
+      "integers that are no colours as labels, of which the one of most weight is taken");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
       "threads for eigenpairs, costs and relocation; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),

@@ -39,6 +39,7 @@ struct Simplification_report
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset;
+  std::string attributes; // names of those that were carried
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
   std::vector<Repair> repairs;     // what was changed in the input, and how often
   std::vector<std::size_t> levels; // those that were written
@@ -111,6 +112,8 @@ inline void print_table(const Simplification_report& r)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
                 r.result.relocation.moved_vertices, r.result.relocation.steps,
                 r.result.relocation.stop_reason_name());
+  if(!r.attributes.empty())
+    std::printf("  carried attributes        %s\n\n", printable(r.attributes).c_str());
   std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
   if(r.options.pre_simplify != 0)
     std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
@@ -197,6 +200,7 @@ inline nlohmann::json to_json(const Simplification_report& r)
       {"flipped_edges", r.result.flips.flips.size()},
       {"relocation", relocation_json(r)},
       {"levels", r.levels},
+      {"attributes", r.attributes},
       {"relative_error", number_json(r.result.relative_error)},
       {"seconds_reading", r.seconds_reading},
       {"seconds_writing", r.seconds_writing},

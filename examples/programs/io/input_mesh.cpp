@@ -231,6 +231,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending)
 {
   Polygon_soup soup = read_polygon_soup(path);
   Input_mesh input;
+  input.attributes = std::move(soup.attributes);
   Repair_log log;
   std::vector<std::size_t> vertex(soup.points.size()), origin;
   std::iota(vertex.begin(), vertex.end(), std::size_t(0));

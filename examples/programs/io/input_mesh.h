@@ -22,6 +22,7 @@ struct Input_mesh
   Vertex_numbering numbering;
   CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
   std::vector<Repair> changes;
+  Vertex_attributes attributes; // of the vertices of the file
 
   // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was changed.
   std::string changes_of(const std::string& path) const;

@@ -12,14 +12,17 @@
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
+#include <CGAL/IO/Color.h>
 #include <CGAL/IO/STL.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -29,6 +32,8 @@
 #include <streambuf>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
@@ -116,19 +121,143 @@ inline CGAL::Spectral_geometry::Mesh_diagnosis diagnose(const Polygon_soup& soup
   return CGAL::Spectral_geometry::diagnose_polygon_soup(V, soup.polygons);
 }
 
-// Writes a mesh, its vertices in the order of `vertices(mesh)`, to the file `file`, which errors call `name`.
-inline void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name)
+// Those that a file of this name can hold: PLY holds all.
+inline Vertex_attributes writable(const Vertex_attributes& attributes, const std::string& name)
 {
   const std::string format = mesh_format(name);
+  if(format == ".ply")
+    return attributes;
+  Vertex_attributes result;
+  const auto take = [&](const auto& names) {
+    for(const Vertex_attribute* const a : attributes.find(names))
+      if(a != nullptr)
+        result.known.push_back(*a);
+  };
+  if(format != ".stl") {
+    take(std::array<const char*, 3>{"nx", "ny", "nz"});
+    take(std::array<const char*, 3>{"red", "green", "blue"});
+  }
+  if(format == ".obj")
+    take(std::array<const char*, 2>{"s", "t"});
+  return result;
+}
+
+namespace mesh_io_internal {
+
+template <class Number>
+void add_property(Mesh& mesh, const Vertex_attribute& a)
+{
+  auto map = mesh.add_property_map<Mesh::Vertex_index, Number>(a.name).first;
+  std::size_t i = 0;
+  for(const auto v : vertices(mesh))
+    map[v] = static_cast<Number>(a.values[i++]);
+}
+
+// Property maps, which CGAL's writer of PLY files writes.
+inline void add_properties(Mesh& mesh, const Vertex_attributes& attributes)
+{
+  for(const Vertex_attribute& a : attributes.known)
+    (a.type == "char"     ? add_property<std::int8_t>
+     : a.type == "uchar"  ? add_property<std::uint8_t>
+     : a.type == "short"  ? add_property<std::int16_t>
+     : a.type == "ushort" ? add_property<std::uint16_t>
+     : a.type == "int"    ? add_property<std::int32_t>
+     : a.type == "uint"   ? add_property<std::uint32_t>
+     : a.type == "float"  ? add_property<float>
+                          : add_property<double>)(mesh, a);
+}
+
+// The property maps that CGAL's writer of OFF files looks for.
+inline void add_normals_and_colours(Mesh& mesh, const Vertex_attributes& attributes)
+{
+  const auto n = attributes.find(std::array<const char*, 3>{"nx", "ny", "nz"});
+  const auto c = attributes.find(std::array<const char*, 3>{"red", "green", "blue"});
+  std::size_t i = 0;
+  if(n[0] != nullptr) {
+    auto map = mesh.add_property_map<Mesh::Vertex_index, Kernel::Vector_3>("v:normal").first;
+    for(const auto v : vertices(mesh)) {
+      map[v] = Kernel::Vector_3(n[0]->values[i], n[1]->values[i], n[2]->values[i]);
+      ++i;
+    }
+  }
+  i = 0;
+  if(c[0] != nullptr) {
+    auto map = mesh.add_property_map<Mesh::Vertex_index, CGAL::IO::Color>("v:color").first;
+    for(const auto v : vertices(mesh)) {
+      const auto channel = [&](const Vertex_attribute* const a) {
+        return static_cast<unsigned char>(a->values[i]);
+      };
+      map[v] = CGAL::IO::Color(channel(c[0]), channel(c[1]), channel(c[2]));
+      ++i;
+    }
+  }
+}
+
+// CGAL's writer of OBJ files knows neither colours nor textures.
+inline bool write_obj(std::ostream& stream, const Mesh& mesh, const Vertex_attributes& attributes)
+{
+  const auto c = attributes.find(std::array<const char*, 3>{"red", "green", "blue"});
+  const auto n = attributes.find(std::array<const char*, 3>{"nx", "ny", "nz"});
+  const auto t = attributes.find(std::array<const char*, 2>{"s", "t"});
+  std::vector<std::size_t> number(mesh.num_vertices());
+  std::size_t i = 0;
+  for(const auto v : vertices(mesh)) {
+    const auto write = [&](const char* keyword, const auto& channels, const double unit) {
+      stream << keyword;
+      for(const Vertex_attribute* const a : channels)
+        stream << ' ' << a->values[i] / unit;
+    };
+    stream << "v " << mesh.point(v);
+    if(c[0] != nullptr)
+      write("", c, 255);
+    if(n[0] != nullptr)
+      write("\nvn", n, 1);
+    if(t[0] != nullptr)
+      write("\nvt", t, 1);
+    stream << '\n';
+    number[v] = ++i;
+  }
+  for(const auto f : faces(mesh)) {
+    stream << 'f';
+    for(const auto v : vertices_around_face(halfedge(f, mesh), mesh)) {
+      stream << ' ' << number[v];
+      if(t[0] != nullptr || n[0] != nullptr)
+        stream << '/';
+      if(t[0] != nullptr)
+        stream << number[v];
+      if(n[0] != nullptr)
+        stream << '/' << number[v];
+    }
+    stream << '\n';
+  }
+  return stream.good();
+}
+
+} // namespace mesh_io_internal
+
+// Writes a mesh, its vertices in the order of `vertices(mesh)`, with those of the attributes that the format holds, to the file
+// `file`, which errors call `name`.
+inline void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name,
+                       const Vertex_attributes& attributes = {})
+{
+  const std::string format = mesh_format(name);
+  const Vertex_attributes written = writable(attributes, name);
   std::ofstream stream(file, std::ios::binary);
   stream.precision(17); // give every double back
   if(format == ".ply" || format == ".stl")
     CGAL::IO::set_binary_mode(stream);
+  Mesh copy;
+  if(!written.known.empty() && format != ".obj") {
+    copy = mesh;
+    (format == ".ply" ? mesh_io_internal::add_properties
+                      : mesh_io_internal::add_normals_and_colours)(copy, written);
+  }
+  const Mesh& decorated = copy.is_empty() ? mesh : copy;
   // CGAL's functions that open the file themselves do not say when the disk is full.
-  const bool good = format == ".ply"   ? CGAL::IO::write_PLY(stream, mesh)
+  const bool good = format == ".ply"   ? CGAL::IO::write_PLY(stream, decorated)
                     : format == ".stl" ? CGAL::IO::write_STL(stream, mesh)
-                    : format == ".obj" ? CGAL::IO::write_OBJ(stream, mesh)
-                                       : CGAL::IO::write_OFF(stream, mesh);
+                    : format == ".obj" ? mesh_io_internal::write_obj(stream, mesh, written)
+                                       : CGAL::IO::write_OFF(stream, decorated);
   if(!good)
     throw Write_error(name, "the disk refused it, is it full?");
   finish_writing(stream, name);

@@ -36,6 +36,12 @@ public:
     reader.read_header();
     for(const Element& element : reader.m_elements)
       reader.read_element(element);
+    Vertex_attributes& attributes = reader.m_soup.attributes;
+    for(const Vertex_attribute& a : attributes.known)
+      if(a.values.size() != reader.m_soup.points.size()) { // of a second element of that name
+        attributes = {};
+        break;
+      }
     if(reader.m_soup.polygons.empty())
       reader.m_soup.polygons = std::move(reader.m_triangles);
     return std::move(reader.m_soup);
@@ -48,6 +54,7 @@ private:
     Type count_type = Type::none, type = Type::none; // no type of a count: a single value
     std::size_t coordinate = 3;                      // 0 to 2 for x to z
     bool vertices = false;                           // of a face
+    std::size_t attribute = no_vertex;               // its number among those of the vertices
   };
   struct Element
   {
@@ -78,16 +85,20 @@ private:
 
   [[noreturn]] static void refuse(const std::string& what) { throw std::runtime_error(what); }
 
+  // The names of each type, in the order of Type.
+  static constexpr std::array<const char*, 16> type_names = {
+      "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
+      "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
+
   static Type type_of(const std::string& name)
   {
-    const std::array<const char*, 16> names = {"char",   "int8",    "uchar",  "uint8",  "short", "int16",
-                                               "ushort", "uint16",  "int",    "int32",  "uint",  "uint32",
-                                               "float",  "float32", "double", "float64"};
-    const auto known = std::find(names.begin(), names.end(), name);
-    if(known == names.end())
+    const auto known = std::find(type_names.begin(), type_names.end(), name);
+    if(known == type_names.end())
       refuse("its header has a property of the unknown type " + quoted(name));
-    return static_cast<Type>((known - names.begin()) / 2 + 1);
+    return static_cast<Type>((known - type_names.begin()) / 2 + 1);
   }
+
+  static const char* name_of(const Type type) { return type_names[2 * (static_cast<std::size_t>(type) - 1)]; }
 
   void read_header()
   {
@@ -110,28 +121,39 @@ private:
         m_elements.emplace_back();
         if(!(words >> m_elements.back().name >> m_elements.back().count))
           refuse("its header has an element without a name or a number");
+        const std::string& name = m_elements.back().name;
+        if(name != "vertex" && name != "face" && name != "tristrips")
+          m_soup.attributes.unknown.push_back("element " + name);
       } else if(word == "property" && !m_elements.empty()) {
-        m_elements.back().properties.push_back(property_of(words));
+        m_elements.back().properties.push_back(property_of(words, m_elements.back().name));
       }
     }
     refuse("its header does not end");
   }
 
-  static Property property_of(std::istream& words)
+  Property property_of(std::istream& words, const std::string& element)
   {
     Property property;
-    std::string type;
+    std::string type, name;
     words >> type;
-    if(type == "list") {
+    const bool list = type == "list";
+    if(list) {
       words >> type;
       property.count_type = type_of(type);
       words >> type;
     }
     property.type = type_of(type);
-    words >> type;
-    if(type == "x" || type == "y" || type == "z")
-      property.coordinate = std::size_t(type[0] - 'x');
-    property.vertices = type == "vertex_indices" || type == "vertex_index";
+    words >> name;
+    Vertex_attributes& attributes = m_soup.attributes;
+    if(name == "x" || name == "y" || name == "z")
+      property.coordinate = std::size_t(name[0] - 'x');
+    else if(element == "vertex" && !list && attributes.find(name) == nullptr) {
+      property.attribute = attributes.known.size();
+      attributes.add(name, name_of(property.type), {});
+    }
+    property.vertices = name == "vertex_indices" || name == "vertex_index";
+    if((element == "face" && !property.vertices) || (element == "vertex" && list))
+      attributes.unknown.push_back("property " + name + " of " + element);
     return property;
   }
 
@@ -163,6 +185,8 @@ private:
       return false;
     if(property.coordinate < 3)
       point[property.coordinate] = value;
+    if(property.attribute != no_vertex)
+      m_soup.attributes.known[property.attribute].values.push_back(value);
     return true;
   }
 

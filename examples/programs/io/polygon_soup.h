@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
 #define SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
 
+#include "vertex_attributes.h"
+
 #include <CGAL/Simple_cartesian.h>
 
 #include <cstddef>
@@ -18,6 +20,7 @@ struct Polygon_soup
 {
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
+  Vertex_attributes attributes = {}; // of the points, as long as they are those of the file
 };
 
 // An index that no file can mean; the diagnosis names the face that uses it.

@@ -6,12 +6,14 @@
 #define SPECTRAL_EXAMPLES_IO_TEXT_LINES_H
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 // The beginning of a word of a file, in quotation marks and fit for a message: damaged files hold anything.
 inline std::string quoted(std::string word)
@@ -74,16 +76,40 @@ public:
     return value;
   }
 
-  // The next word as an integer; `end_mark` may end it, and what follows in the word is passed over.
-  long long integer(const char end_mark = ' ')
+  // The next word as an integer.
+  long long integer() { return integers<1>('\0').front(); }
+
+  // The next word as an integer that `mark` may end; after it, and again, further ones may follow, 0 where they are left out.
+  template <std::size_t n>
+  std::array<long long, n> integers(const char mark)
   {
+    std::array<long long, n> values = {};
     char* end = m_at;
-    const long long value = more() ? std::strtoll(m_at, &end, 10) : 0;
-    if(end != m_at && *end == end_mark)
-      while(*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))
-        ++end;
+    if(more())
+      values[0] = std::strtoll(m_at, &end, 10);
+    for(std::size_t i = 1; i < n && end != m_at && *end == mark; ++i) {
+      ++end;
+      if(*end != mark && *end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))
+        values[i] = std::strtoll(end, &end, 10);
+    }
     take(end, "an integer");
-    return value;
+    return values;
+  }
+
+  // The numbers that are left on the line, up to the first word that is none.
+  std::vector<double> numbers()
+  {
+    std::vector<double> values;
+    while(more()) {
+      char* end = m_at;
+      values.push_back(std::strtod(m_at, &end));
+      if(end == m_at || (*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))) {
+        values.pop_back();
+        break;
+      }
+      m_at = end;
+    }
+    return values;
   }
 
   [[noreturn]] void refuse(const std::string& what) const

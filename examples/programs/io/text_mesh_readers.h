@@ -8,8 +8,10 @@
 #include "polygon_soup.h"
 #include "text_lines.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -39,51 +41,176 @@ inline std::size_t obj_vertex(const Text_lines& file, const long long index, con
   return back <= points ? points - back : no_vertex;
 }
 
-// True for OFF with the prefixes of what else vertices may have; `homogeneous` for a fourth coordinate.
-inline bool is_off_keyword(std::string word, bool& homogeneous)
+// What OFF files announce that vertices have beside their coordinates.
+struct Off_keyword
 {
-  if(word.size() < 3 || word.compare(word.size() - 3, 3, "OFF") != 0)
-    return false;
-  word.resize(word.size() - 3);
-  for(const std::string prefix : {"ST", "C", "N"})
-    if(word.compare(0, prefix.size(), prefix) == 0)
-      word.erase(0, prefix.size());
-  homogeneous = word == "4";
-  return word.empty() || homogeneous;
+  bool texture = false, colour = false, normal = false, homogeneous = false;
+
+  // False if the word is none.
+  bool read(std::string word)
+  {
+    if(word.size() < 3 || word.compare(word.size() - 3, 3, "OFF") != 0)
+      return false;
+    word.resize(word.size() - 3);
+    const auto take = [&word](const std::string& prefix) {
+      const bool found = word.compare(0, prefix.size(), prefix) == 0;
+      word.erase(0, found ? prefix.size() : 0);
+      return found;
+    };
+    texture = take("ST");
+    colour = take("C");
+    normal = take("N");
+    homogeneous = take("4");
+    return word.empty();
+  }
+};
+
+// Colours as PLY has them, 0 to 255, whether they are so or up to 1.
+inline void add_colours(Vertex_attributes& attributes, std::vector<std::vector<double>> channels)
+{
+  bool small = true;
+  for(const auto& channel : channels)
+    small = small && std::all_of(channel.begin(), channel.end(), [](const double x) { return x <= 1; });
+  const std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
+  for(std::size_t c = 0; c < channels.size(); ++c) {
+    for(double& x : channels[c])
+      x = (std::min)((std::max)(std::round(small ? 255 * x : x), 0.), 255.);
+    attributes.add(names[c], "uchar", std::move(channels[c]));
+  }
 }
+
+// What OBJ files give to the corners of faces: of the vertices, where all corners of each have the same.
+class Corner_values
+{
+public:
+  explicit Corner_values(const std::size_t numbers)
+    : m_columns(numbers)
+  {}
+
+  void add(const std::vector<double>& numbers)
+  {
+    for(std::size_t c = 0; c < m_columns.size(); ++c)
+      m_columns[c].push_back(c < numbers.size() ? numbers[c] : 0.);
+  }
+
+  // A corner of a face at one of n vertices; `index` as in the file, 0 for none.
+  void set_corner(const std::size_t vertex, const long long index, const std::size_t n)
+  {
+    m_of.resize(n, no_vertex);
+    if(index == 0 || vertex >= n) {
+      ++m_missing;
+      return;
+    }
+    const long long size = static_cast<long long>(m_columns.front().size());
+    const std::size_t value = static_cast<std::size_t>(index > 0 ? index - 1 : size + index);
+    if(value >= m_columns.front().size())
+      ++m_missing;
+    else if(m_of[vertex] == no_vertex)
+      m_of[vertex] = value;
+    else if(!std::all_of(m_columns.begin(), m_columns.end(),
+                         [&](const auto& column) { return column[m_of[vertex]] == column[value]; }))
+      ++m_seams;
+  }
+
+  void add_to(Vertex_attributes& attributes, const std::size_t n, const std::string& what,
+              const std::vector<const char*>& names)
+  {
+    if(m_columns.front().empty())
+      return;
+    m_of.resize(n, no_vertex); // isolated ones have 0
+    if(m_seams + m_missing > 0) {
+      attributes.unknown.push_back(what + (m_seams > 0 ? " (they differ between the corners of a vertex)"
+                                                       : " (some corners have none)"));
+      return;
+    }
+    for(std::size_t c = 0; c < names.size(); ++c) {
+      std::vector<double> values;
+      for(const std::size_t v : m_of)
+        values.push_back(v == no_vertex ? 0. : m_columns[c][v]);
+      attributes.add(names[c], "float", std::move(values));
+    }
+  }
+
+private:
+  std::vector<std::vector<double>> m_columns;
+  std::vector<std::size_t> m_of; // the value of each vertex
+  std::size_t m_seams = 0, m_missing = 0;
+};
 
 } // namespace text_mesh_internal
 
 inline Polygon_soup read_obj(const std::string& path)
 {
+  using namespace text_mesh_internal;
   Polygon_soup soup;
   Text_lines file(path);
+  Corner_values texture(2), normals(3);
+  std::vector<std::vector<double>> colours(3);
   while(file.next()) {
     const std::string keyword = file.word();
-    if(keyword == "v")
-      soup.points.push_back(text_mesh_internal::read_point(file));
+    if(keyword == "v") {
+      soup.points.push_back(read_point(file));
+      const std::vector<double> more = file.numbers();
+      for(std::size_t c = 0; more.size() >= 3 && c < 3; ++c)
+        colours[c].push_back(more[c]);
+    } else if(keyword == "vt")
+      texture.add(file.numbers());
+    else if(keyword == "vn")
+      normals.add(file.numbers());
     else if(keyword == "f") {
       std::vector<std::size_t> polygon;
-      while(file.more()) // vertex/texture/normal
-        polygon.push_back(text_mesh_internal::obj_vertex(file, file.integer('/'), soup.points.size()));
+      while(file.more()) {
+        const std::array<long long, 3> corner = file.integers<3>('/');
+        polygon.push_back(obj_vertex(file, corner[0], soup.points.size()));
+        texture.set_corner(polygon.back(), corner[1], soup.points.size());
+        normals.set_corner(polygon.back(), corner[2], soup.points.size());
+      }
       soup.polygons.push_back(std::move(polygon));
     }
   }
+  if(colours[0].size() == soup.points.size())
+    add_colours(soup.attributes, std::move(colours));
+  normals.add_to(soup.attributes, soup.points.size(), "normals", {"nx", "ny", "nz"});
+  texture.add_to(soup.attributes, soup.points.size(), "texture coordinates", {"s", "t"});
   return soup;
 }
 
 namespace text_mesh_internal {
 
-// A line for each vertex and face, of which the end means nothing; or, `packed`, any number of them on a line and nothing else.
+// What follows the coordinates, in this order: a normal, a colour of three or four numbers, coordinates of a texture.
+inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vector<double>> columns,
+                               Vertex_attributes& attributes)
+{
+  const std::size_t normal = keyword.normal ? 3 : 0, texture = keyword.texture ? 2 : 0;
+  const std::size_t colour = keyword.colour && columns.size() >= normal + 3 + texture
+                                 ? (std::min)(columns.size() - normal - texture, std::size_t(4))
+                                 : 0;
+  if(columns.size() < normal + colour + texture || (keyword.colour && colour == 0)) {
+    attributes.unknown.push_back("what its first word announces (some vertices have fewer numbers)");
+    return;
+  }
+  auto next = columns.begin();
+  if(keyword.normal)
+    for(const char* name : {"nx", "ny", "nz"})
+      attributes.add(name, "float", std::move(*next++));
+  if(keyword.colour)
+    add_colours(attributes, {next, next + static_cast<std::ptrdiff_t>(colour)});
+  next += static_cast<std::ptrdiff_t>(colour);
+  if(keyword.texture)
+    for(const char* name : {"s", "t"})
+      attributes.add(name, "float", std::move(*next++));
+}
+
+// A line for each vertex and face, of which the end means nothing but what the first word announces; or, `packed`, any number
+// of them on a line and nothing else.
 inline Polygon_soup read_off(const std::string& path, const bool packed)
 {
   Polygon_soup soup;
   Text_lines file(path);
   if(!file.next())
     throw std::runtime_error("it is empty");
-  bool homogeneous = false;
-  const std::string keyword = file.word();
-  if(!is_off_keyword(keyword, homogeneous))
+  Off_keyword keyword;
+  if(!keyword.read(file.word()))
     throw std::runtime_error("its first word is not OFF");
   if(!file.more_or_next())
     throw std::runtime_error("nothing follows its first word");
@@ -99,16 +226,24 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
       throw std::runtime_error("it ends after " + std::to_string(done) + " of " + std::to_string(all) + what);
   };
   if(packed && file.more())
-    file.integer(); // edges
+    file.integer();                         // edges
+  std::vector<std::vector<double>> columns; // of what follows the coordinates
   for(long long v = 0; v < points; ++v) {
     std::array<double, 4> p = {0, 0, 0, 1};
-    for(std::size_t i = 0; i < (homogeneous ? 4 : 3); ++i) {
+    for(std::size_t i = 0; i < (keyword.homogeneous ? 4 : 3); ++i) {
       if(packed || i == 0)
         go_on(v, points, " vertices");
       p[i] = file.number();
     }
     soup.points.emplace_back(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
+    if(packed)
+      continue;
+    const std::vector<double> more = file.numbers();
+    columns.resize(v == 0 ? more.size() : (std::min)(columns.size(), more.size()));
+    for(std::size_t c = 0; c < columns.size(); ++c)
+      columns[c].push_back(more[c]);
   }
+  add_off_attributes(keyword, std::move(columns), soup.attributes);
   for(long long f = 0; f < polygons; ++f) {
     go_on(f, polygons, " faces");
     std::vector<std::size_t> polygon;

@@ -1,0 +1,200 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// What mesh files have at their vertices beside positions: read, carried to a coarse mesh, and written.
+
+#include "../examples/programs/io/input_mesh.h"
+
+#include "catch.h"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+using Values = std::vector<double>;
+using Kind = Vertex_attribute::Kind;
+
+namespace {
+
+// A file that lasts as long as the object.
+struct File
+{
+  explicit File(const std::string& extension, const std::string& bytes = "")
+    : path((std::filesystem::temp_directory_path() /
+            ("spectral_attributes_" + std::to_string(getpid()) + extension))
+               .string())
+  {
+    std::ofstream(path, std::ios::binary) << bytes;
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { std::filesystem::remove(path); }
+  std::string path;
+};
+
+Vertex_attributes attributes_of(const std::string& extension, const std::string& text)
+{
+  const File file(extension, text);
+  return read_polygon_soup(file.path).attributes;
+}
+
+Values values(const Vertex_attributes& attributes, const std::string& name)
+{
+  const Vertex_attribute* const found = attributes.find(name);
+  return found == nullptr ? Values() : found->values;
+}
+
+std::string type(const Vertex_attributes& attributes, const std::string& name)
+{
+  const Vertex_attribute* const found = attributes.find(name);
+  return found == nullptr ? "none" : found->type;
+}
+
+const std::string ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "property uint8 red\nproperty uchar green\nproperty uchar blue\nproperty int32 label\n"
+    "property double heat\nproperty float nx\nproperty float ny\nproperty float nz\n"
+    "property list uchar int friends\nelement face 2\nproperty list uchar int vertex_indices\n"
+    "property float quality\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+    "0 0 0 10 20 30 7 0.5 0 0 1 1 5\n1 0 0 11 21 31 -2 1.5 0 0 1 0\n1 1 0 12 22 32 7 2.5 1 0 0 0\n"
+    "0 1 0 250 0 255 9 3.5 0 1 0 0\n3 0 1 2 0.25\n3 0 2 3 0.5\n0 1\n";
+
+} // namespace
+
+TEST_CASE("PLY files have any property, and what cannot be carried is named")
+{
+  const Vertex_attributes a = attributes_of(".ply", ply);
+  CHECK(a.names() == "red, green, blue, label, heat, nx, ny, nz");
+  CHECK(values(a, "red") == Values{10, 11, 12, 250});
+  CHECK(values(a, "label") == Values{7, -2, 7, 9});
+  CHECK(values(a, "heat") == Values{0.5, 1.5, 2.5, 3.5});
+  CHECK(values(a, "ny") == Values{0, 0, 0, 1});
+  CHECK(type(a, "red") == "uchar");
+  CHECK(type(a, "label") == "int");
+  CHECK(type(a, "heat") == "double");
+  CHECK(a.find("red")->kind() == Kind::colour);
+  CHECK(a.find("label")->kind() == Kind::label);
+  CHECK(a.find("heat")->kind() == Kind::function);
+  CHECK(a.find("nz")->kind() == Kind::normal);
+  CHECK(a.unknown ==
+        std::vector<std::string>{"property friends of vertex", "property quality of face", "element edge"});
+}
+
+TEST_CASE("OBJ files have colours behind the coordinates, and normals and texture coordinates at corners")
+{
+  const std::string points = "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 1 1 0 0 0 1\nv 0 1 0 0 0 0\nv 5 5 5 1 1 1\n";
+  const std::string texture = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 0 1\n";
+  const Vertex_attributes a =
+      attributes_of(".obj", points + texture + "f 1/1/1 2/2/1 3/3/1\nf 1/1/2 3/3/-1 4/-1/2\n");
+  CHECK(values(a, "red") == Values{255, 0, 0, 0, 255});
+  CHECK(values(a, "green") == Values{0, 128, 0, 0, 255});
+  CHECK(values(a, "s") == Values{0, 1, 1, 0, 0}); // the last is isolated
+  CHECK(values(a, "t") == Values{0, 0, 1, 1, 0});
+  CHECK(values(a, "nz") == Values{1, 1, 1, 1, 0});
+  CHECK(a.unknown.empty());
+
+  const Vertex_attributes seam = attributes_of(".obj", points + texture + "f 1/1 2/2 3/3\nf 1/4 3/3 4/4\n");
+  CHECK(seam.find("s") == nullptr);
+  CHECK(seam.unknown ==
+        std::vector<std::string>{"normals (some corners have none)",
+                                 "texture coordinates (they differ between the corners of a vertex)"});
+  for(const std::string corner : {"f 1 2/2 3/3\n", "f 1/9 2/2 3/3\n", "f 1/-9 2/2 3/3\n"})
+    CHECK(attributes_of(".obj", points + "vt 0 0\nvt 1 0\nvt 1 1\n" + corner).unknown ==
+          std::vector<std::string>{"texture coordinates (some corners have none)"});
+  // Not at all vertices: not at any.
+  CHECK(attributes_of(".obj", "v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").known.empty());
+}
+
+TEST_CASE("OFF files have what their first word announces")
+{
+  const std::string end = "3 0 1 2\n";
+  const Vertex_attributes all = attributes_of(
+      ".off", "STCNOFF\n3 1 0\n0 0 0  0 0 1  10 20 30 255  0 0.5\n1 0 0  0 0 1  1 2 3 255  1 0\n"
+              "0 1 0  1 0 0  0 0 0 0  0 1\n" +
+                  end);
+  CHECK(all.names() == "nx, ny, nz, red, green, blue, alpha, s, t");
+  CHECK(values(all, "nx") == Values{0, 0, 1});
+  CHECK(values(all, "blue") == Values{30, 3, 0});
+  CHECK(values(all, "t") == Values{0.5, 0, 1});
+  const Vertex_attributes small =
+      attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0.5\n1 0 0 0 1 0\n0 1 0 0 0 1\n" + end);
+  CHECK(values(small, "red") == Values{255, 0, 0});
+  CHECK(values(small, "blue") == Values{128, 0, 255});
+  CHECK(attributes_of(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + end).known.empty());
+  const Vertex_attributes less =
+      attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
+  CHECK(less.known.empty());
+  CHECK(less.unknown.size() == 1);
+}
+
+TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")
+{
+  const Vertex_attributes fine = attributes_of(".ply", ply);
+  Eigen::SparseMatrix<double> P(3, 4);
+  P.insert(0, 0) = 0.3;
+  P.insert(0, 1) = 0.4;
+  P.insert(0, 2) = 0.3;
+  P.insert(1, 3) = 1.2; // beyond what a colour can be
+  P.insert(1, 2) = -0.2;
+  P.insert(2, 2) = 0.5;
+  P.insert(2, 3) = 0.5;
+  const Vertex_attributes coarse = restricted(fine, P);
+  CHECK(coarse.names() == fine.names());
+  CHECK(coarse.unknown == fine.unknown);
+  CHECK(values(coarse, "red") == Values{11, 255, 131});
+  CHECK(values(coarse, "green") == Values{21, 0, 11});
+  CHECK(values(coarse, "label") == Values{7, 9, 7}); // 0.6 of 7 against 0.4; a tie goes to the smaller
+  CHECK(std::abs(values(coarse, "heat")[0] - 1.5) < 1e-12);
+  CHECK(std::abs(values(coarse, "nx")[2] - std::sqrt(0.5)) < 1e-12);
+  CHECK(std::abs(values(coarse, "ny")[2] - std::sqrt(0.5)) < 1e-12);
+}
+
+TEST_CASE("What is written is read again, as far as the format holds it")
+{
+  Input_mesh input;
+  {
+    const File file(".ply", ply);
+    input = read_input_mesh(file.path, Mending::plain);
+  }
+  const std::string extension = GENERATE(".ply", ".obj", ".off", ".stl");
+  const File file(extension);
+  write_mesh(file.path, input.mesh, file.path, input.attributes);
+  const Polygon_soup soup = read_polygon_soup(file.path);
+  CHECK(soup.polygons.size() == 2);
+  for(const Vertex_attribute& a : input.attributes.known) {
+    const bool written = writable(input.attributes, file.path).find(a.name) != nullptr;
+    CHECK(written == (extension == ".ply" || (extension != ".stl" && a.name != "label" && a.name != "heat")));
+    const Values again = values(soup.attributes, a.name);
+    if(written)
+      CHECK(again == a.values);
+    else
+      CHECK(again.empty());
+    if(extension == ".ply")
+      CHECK(type(soup.attributes, a.name) == a.type);
+  }
+  CHECK(soup.attributes.unknown.empty());
+}
+
+TEST_CASE("Binary PLY files have the same attributes as their text")
+{
+  const auto raw = [](const auto number) {
+    return std::string(reinterpret_cast<const char*>(&number), sizeof(number));
+  };
+  std::string bytes =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty short part\nproperty float heat\nelement face 1\n"
+      "property list uchar int vertex_index\nend_header\n";
+  for(int v = 0; v < 3; ++v)
+    bytes +=
+        raw(float(v == 1)) + raw(float(v == 2)) + raw(0.f) + raw(std::int16_t(v - 1)) + raw(0.25f * float(v));
+  bytes += raw(std::uint8_t(3)) + raw(std::int32_t(0)) + raw(std::int32_t(1)) + raw(std::int32_t(2));
+  const Vertex_attributes a = attributes_of(".ply", bytes);
+  CHECK(values(a, "part") == Values{-1, 0, 1});
+  CHECK(values(a, "heat") == Values{0, 0.25, 0.5});
+}
