@@ -157,9 +157,11 @@ private:
     }
     CGAL::Real_timer timer;
     timer.start();
+    const Proxy_operators operators =
+        m_arguments.operators == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
       return make_proxy(mesh, fine, kind, static_cast<std::size_t>(m_arguments.vertices),
-                        m_arguments.eigenvectors, m_mass, keep_going);
+                        m_arguments.eigenvectors, m_mass, operators, keep_going);
     };
     const auto [coarse_X, coarse_Y] = side_by_side(
         m_arguments.threads, [&] { return proxy(m_X, m_shape_X); }, [&] { return proxy(m_Y, m_shape_Y); });

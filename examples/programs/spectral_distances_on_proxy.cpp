@@ -17,6 +17,7 @@
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -44,7 +45,7 @@ namespace {
 
 struct Distance_arguments
 {
-  std::string mesh, report, mass = "averaged", command, help;
+  std::string mesh, report, mass = "averaged", operators = "fitted", command, help;
   long vertices = 0, eigenvectors = 100, sources = 10;
   bool repair = false, strict = false;
 };
@@ -66,14 +67,19 @@ struct Unit_shape
   SG::Laplace_operator op;
   SG::Eigenpairs pairs;
   double area = 0, seconds = 0; // of the eigenpairs
+  double seconds_fit = 0;
 
-  Unit_shape(SG::Mesh_matrices mesh, Eigen::Index K, SG::Mass mass)
+  // `fit` changes the operator.
+  Unit_shape(SG::Mesh_matrices mesh, Eigen::Index K, SG::Mass mass,
+             const std::function<void(SG::Laplace_operator&)>& fit = {})
     : matrices(std::move(mesh))
   {
     op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
     area = op.mass.sum();
     op.B /= area;
     op.mass /= area;
+    if(fit)
+      seconds_fit = seconds_of([&] { fit(op); });
     SG::Eigenpairs_options options;
     options.progress = [](double) { return !interrupted; };
     seconds = seconds_of([&] { pairs = SG::eigenpairs(op, K, options); });
@@ -153,13 +159,15 @@ Pair simplify(const Distance_arguments& a)
   stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);
-  Pair pair{std::move(fine),
-            Unit_shape(SG::mesh_matrices(mesh), a.eigenvectors, mass),
-            result.restriction,
-            {},
-            result.vertex_map,
-            {},
-            seconds};
+  std::function<void(SG::Laplace_operator&)> fit;
+  if(a.operators == "fitted")
+    fit = [&](SG::Laplace_operator& op) {
+      SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
+      fit_options.progress = [](double) { return !interrupted; };
+      op = SG::fit_operators(op, result.restriction, fine.op, fine.pairs, fit_options).op;
+    };
+  Unit_shape coarse(SG::mesh_matrices(mesh), a.eigenvectors, mass, fit);
+  Pair pair{std::move(fine), std::move(coarse), result.restriction, {}, result.vertex_map, {}, seconds};
   pair.Q = SG::closest_point_interpolation(pair.fine.matrices.V, pair.coarse.matrices);
   pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
   return pair;
@@ -233,8 +241,11 @@ struct Summary
 
 void print(const Pair& pair, const Summary& s)
 {
-  std::printf("%ld -> %ld vertices, simplified in %.2f s\n\n", static_cast<long>(pair.fine.op.mass.size()),
+  std::printf("%ld -> %ld vertices, simplified in %.2f s", static_cast<long>(pair.fine.op.mass.size()),
               static_cast<long>(pair.coarse.op.mass.size()), pair.seconds_simplification);
+  if(pair.coarse.seconds_fit > 0)
+    std::printf(", operators fitted in %.2f s", pair.coarse.seconds_fit);
+  std::printf("\n\n");
   std::printf("%-24s %14s %14s %14s %10s\n", "relative error", "prolongation", "spectrum", "vertex map",
               "speed-up");
   for(const Distance_row& row : s.rows)
@@ -289,8 +300,9 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
                      "</style></head><body>\n<h1>Spectral distances on a proxy: " +
                      escaped(name) + "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) +
                      " vertices, proxy " + std::to_string(pair.coarse.op.mass.size()) + " vertices, " +
-                     std::to_string(a.eigenvectors) + " eigenvectors, " + escaped(a.mass) + " mass, " +
-                     std::to_string(a.sources) + " sources. <code>" + escaped(a.command) + "</code></p>\n";
+                     std::to_string(a.eigenvectors) + " eigenvectors, " + escaped(a.mass) +
+                     " mass, operators: " + escaped(a.operators) + ", " + std::to_string(a.sources) +
+                     " sources. <code>" + escaped(a.command) + "</code></p>\n";
   html += "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
           heading_row({"distance", ways[0], ways[1], ways[2], "fine, s", "coarse, s", "speed-up"}, 1);
   for(const Distance_row& row : s.rows)
@@ -301,10 +313,13 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
   html += "<tr>" + cell("eigenpairs", "td", "l") + "<td></td><td></td><td></td>" +
           cell(formatted(pair.fine.seconds)) + cell(formatted(pair.coarse.seconds)) +
           cell(formatted(pair.fine.seconds / pair.coarse.seconds)) + "</tr>\n";
-  html += "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) +
-          " s, once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
-          "(the wave "
-          "kernel's is not squared), mean over the sources.</p>\n<table>\n";
+  html +=
+      "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) + " s" +
+      (pair.coarse.seconds_fit > 0 ? ", fit of the operators: " + formatted(pair.coarse.seconds_fit) + " s"
+                                   : std::string()) +
+      ", once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
+      "(the wave "
+      "kernel's is not squared), mean over the sources.</p>\n<table>\n";
   for(const auto& [signature, error] : s.signatures)
     html += "<tr>" + cell(escaped(signature) + ", at the heaviest vertex of each cluster, %", "td", "l") +
             cell(percent(error)) + "</tr>\n";
@@ -328,6 +343,8 @@ Distance_arguments parse(int argc, char* argv[])
       "of both meshes")("sources", po::value(&a.sources)->value_name("S")->default_value(a.sources),
                         "random vertices to measure distances from")(
       "mass", po::value(&a.mass)->value_name("lumped|averaged")->default_value(a.mass), "the mass matrix")(
+      "operators", po::value(&a.operators)->value_name("fitted|mesh")->default_value(a.operators),
+      "of the simplified mesh: fitted to the spectrum of MESH, or its own")(
       "report", po::value(&a.report)->value_name("report.html"), "write a page with pictures")(
       "repair", po::bool_switch(&a.repair), "change a mesh that cannot be used, as spectral_simplify does")(
       "strict", po::bool_switch(&a.strict),
@@ -348,6 +365,7 @@ Distance_arguments parse(int argc, char* argv[])
   if(a.sources < 1)
     throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
   check_choice("--mass", a.mass, {"lumped", "averaged"});
+  check_choice("--operators", a.operators, {"fitted", "mesh"});
   return a;
 }
 

@@ -24,7 +24,7 @@
 struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
-  std::string proxies = "spectral", mass = "averaged";
+  std::string proxies = "spectral", mass = "averaged", operators = "mesh";
   long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 60;
   long samples = 300;
   double local_weight = 4;
@@ -85,6 +85,8 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("eigenvectors", number(a.eigenvectors, "K"), "of all meshes; N should be at least 3 K");
   add("initial", number(a.initial_modes, "k"), "modes of the functional map from signatures");
   add("mass", text(a.mass, "lumped|averaged")->default_value(a.mass), "the mass matrix");
+  add("operators", text(a.operators, "fitted|mesh")->default_value(a.operators),
+      "of the simplified meshes: fitted to the spectra of X and Y, or their own");
   add("filter-iterations", number(a.filter_iterations, "I"),
       "of the Product Manifold Filter; 0 leaves it out");
   add("fine-iterations", number(a.fine_iterations, "I"),
@@ -130,6 +132,7 @@ inline void check(const Matching_arguments& a)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be at most --vertices, which is " + std::to_string(a.vertices) + ".");
   check_choice("--mass", a.mass, {"lumped", "averaged"});
+  check_choice("--operators", a.operators, {"fitted", "mesh"});
   a.kinds();
 }
 

@@ -7,6 +7,7 @@
 #include "../compare/heaviest_vertices.h"
 
 #include <CGAL/Real_timer.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
@@ -75,13 +76,16 @@ const char* proxy_name(Proxy_kind kind)
                                                 : "none";
 }
 
-Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going)
+Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going,
+                 const std::function<void(SG::Laplace_operator&)>& fit)
 {
   Shape shape;
   SG::Laplace_operator op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
   shape.area = op.mass.sum();
   op.B /= shape.area;
   op.mass /= shape.area;
+  if(fit)
+    fit(op);
   SG::Eigenpairs_options options;
   options.tolerance = 1e-6; // far below the errors of a match
   options.progress = [&](double) { return keep_going(); };
@@ -93,7 +97,7 @@ Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, 
 }
 
 Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
-                 Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going)
+                 Eigen::Index modes, SG::Mass mass, Proxy_operators operators, const Keep_going& keep_going)
 {
   Proxy proxy;
   CGAL::Real_timer timer;
@@ -109,7 +113,14 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
   SG::Mesh_matrices matrices = SG::mesh_matrices(coarse); // garbage is skipped, in the order of P
   proxy.seconds_simplification = timer.time();
   timer.reset();
-  proxy.shape = make_shape(std::move(matrices), modes, mass, keep_going);
+  std::function<void(SG::Laplace_operator&)> fit;
+  if(operators == Proxy_operators::fitted)
+    fit = [&](SG::Laplace_operator& op) {
+      SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(op.theta);
+      options.progress = [&](double) { return keep_going(); };
+      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, options).op;
+    };
+  proxy.shape = make_shape(std::move(matrices), modes, mass, keep_going, fit);
   proxy.seconds_eigenpairs = timer.time();
   return proxy;
 }

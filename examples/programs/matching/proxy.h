@@ -38,14 +38,20 @@ struct Proxy
   double seconds_simplification = 0, seconds_eigenpairs = 0;
 };
 
+// What a proxy computes with: its own cotangents and areas, or `fit_operators()`.
+enum class Proxy_operators { fitted, mesh };
+
 // Returns false to stop.
 using Keep_going = std::function<bool()>;
 
+// `fit`, if there is one, changes the operator.
 Shape make_shape(CGAL::Spectral_geometry::Mesh_matrices matrices, Eigen::Index modes,
-                 CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going);
+                 CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going,
+                 const std::function<void(CGAL::Spectral_geometry::Laplace_operator&)>& fit = {});
 
 // Throws std::runtime_error where the mesh cannot be reduced to exactly `vertices`.
 Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
-                 Eigen::Index modes, CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going);
+                 Eigen::Index modes, CGAL::Spectral_geometry::Mass mass, Proxy_operators operators,
+                 const Keep_going& keep_going);
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_PROXY_H

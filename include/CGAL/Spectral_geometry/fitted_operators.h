@@ -58,6 +58,18 @@ struct Operator_fit_options
   int maximum_iterations = 30;
   /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns false to cancel.
   std::function<bool(double)> progress;
+
+  /// For a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges, with one ring; where it is lumped on the
+  /// diagonal, with two rings, as on one it is at the expense of the low modes.
+  static Operator_fit_options for_mass(double theta)
+  {
+    Operator_fit_options options;
+    if(theta == 0.) {
+      options.mass = Mass_pattern::diagonal;
+      options.rings = 2;
+    }
+    return options;
+  }
 };
 
 /// What `fit_operators()` found.
