@@ -72,6 +72,68 @@ for input in shape.off coarse.off P.mtx; do
   cmp -s kept "$input" || fail "$input was replaced"
 done
 
+# Results of others beside our own: what is ours comes back with the figures that it had, whichever way it goes.
+"$simplify" shape.off best.off --vertices 150 --eigenvectors 20 --restriction best.mtx --fit-operators fitted --json best.json \
+  --quiet || fail "spectral_simplify"
+set -- shape.off --vertices 200,120 --eigenvectors 20 --judge averaged --only "spectral, best"
+runs "rivals beside simplifiers" "$@" --coloured own --json own.json
+own=$(ls own/spectral_best_free*_120.ply)
+runs "rivals" "$@" --rival again="$own" --rival best=best.off,best.mtx --rival-operators fit=fitted/L.mtx,fitted/mass.mtx,best.mtx \
+  --json rivals.json --report rivals.html
+# figure NAME WHICH KEY: of the row of that simplifier for 120 vertices, or 150.
+figure()
+{
+  awk -v name="$1" -v which="$2" -v key="$3" '
+    /^  *"carried_P"/ { part = "carried" } /^  *"closest_point_P"/ { part = "closest" }
+    $1 == "\"" key "\":" { value[part] = substr($2, 1, 10) }
+    /^  *"simplifier"/ { sub(/^.*": "/, ""); sub(/",?$/, ""); simplifier = $0 }
+    /^  *"vertices"/ { if (simplifier == name && $2 + 0 <= 150 && value[which] != "") print value[which]; delete value }
+    ' rivals.json | head -n 1
+}
+# of_run INDENTATION KEY: of the run of spectral_simplify, or of what it fitted.
+of_run() { sed -n 's/^'"$1"'"'"$2"'": \([0-9.e+-]*\),*$/\1/p' best.json | cut -c 1-10; }
+for key in norm_L norm_D; do
+  a=$(figure "spectral, best" closest $key)
+  b=$(figure again closest $key)
+  [ -n "$a" ] && [ "$a" = "$b" ] || fail "our own mesh has $key $a, given back as a rival '$b'"
+  a=$(of_run '  ' $key)
+  b=$(figure best carried $key)
+  [ -n "$a" ] && [ "$a" = "$b" ] || fail "spectral_simplify says $key $a, with its P as a rival '$b'"
+  a=$(of_run '    ' $key)
+  b=$(figure fit carried $key)
+  [ -n "$a" ] && [ "$a" = "$b" ] || fail "spectral_simplify says $key $a of fitted operators, as a rival they have '$b'"
+done
+for name in again best fit; do
+  grep -q "^$name  .*" said || fail "'$name' is not in the table"
+  grep -q ">$name<" rivals.html || fail "'$name' is not on the page"
+done
+[ "$(grep -c '"requested_vertices": 120' rivals.json)" -eq 5 ] || fail "rivals do not stand at the nearest size: $(cat said)"
+for input in best.off best.mtx fitted/L.mtx fitted/mass.mtx; do
+  cp "$input" kept
+  refuses "$input as an output" "read as an input" "$@" --rival best=best.off,best.mtx \
+    --rival-operators fit=fitted/L.mtx,fitted/mass.mtx,best.mtx --json "$input"
+  cmp -s kept "$input" || fail "$input was replaced"
+done
+runs "rivals alone" shape.off --eigenvectors 20 --judge lumped --rival best=best.off --rival fine=shape.off
+[ "$(grep -c '^N = ' said)" -eq 2 ] || fail "rivals alone: $(cat said)"
+refuses "a rival without a name" "'best.off', it must be NAME=MESH" "$@" --rival best.off
+refuses "an empty file name" "it must be NAME=MESH" "$@" --rival best=best.off,
+refuses "operators without P" "it must be NAME=L.mtx,M.mtx,P.mtx" "$@" --rival-operators fit=fitted/L.mtx,fitted/mass.mtx
+refuses "a rival that is missing" "^spectral_compare: --rival x: .*'none.off'" "$@" --rival x=none.off
+refuses "P of another rival" "^spectral_compare: --rival x: 'P.mtx' .*coarse x fine" "$@" --rival x="$own",P.mtx
+refuses "two rivals of one name" "N = 120 already" "$@" --rival x=best.off --rival x="$own"
+refuses "a rival with the name of a simplifier" "name of a simplifier" "$@" --rival "spectral, best=best.off"
+refuses "pictures of operators" "an operator has none" shape.off --eigenvectors 20 --coloured ply2 \
+  --rival-operators fit=fitted/L.mtx,fitted/mass.mtx,best.mtx
+awk '/^%/ { print; next } !header { header = 1; print; next } { print $1, $2, NR == 30 && $1 != $2 ? $3 + 1 : $3 }' fitted/L.mtx >skew.mtx
+cmp -s skew.mtx fitted/L.mtx && fail "skew.mtx is as L.mtx"
+refuses "an operator that is not symmetric" \
+  "^spectral_compare: --rival-operators x: 'skew.mtx' is not symmetric: the entry [0-9]*, [0-9]* differs" "$@" \
+  --rival-operators x=skew.mtx,fitted/mass.mtx,best.mtx
+awk '/^%/ { print; next } !header { header = 1; print; next } { print $1, $2, $1 == 7 && $2 == 7 ? -100 : $3 }' fitted/mass.mtx >negative.mtx
+refuses "a negative mass" "'negative.mtx' has a row whose sum is not positive, number 7" "$@" \
+  --rival-operators x=fitted/L.mtx,negative.mtx,best.mtx
+
 # Isolated vertices: P numbers those of the files.
 awk 'NF' shape.off | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
   { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated.off

@@ -30,6 +30,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <random>
@@ -42,14 +44,30 @@ namespace SG = CGAL::Spectral_geometry;
 
 namespace {
 
+// The files that are read, which no output replaces.
+std::vector<std::string> inputs(const Compare_arguments& a)
+{
+  std::vector<std::string> result{a.fine};
+  for(const Rival& r : a.rivals)
+    result.insert(result.end(), {r.mesh, r.operator_file, r.mass_file, r.restriction});
+  return result;
+}
+
+// A result of another program as it was read: a mesh, or a candidate.
+struct Read_rival
+{
+  Coarse_mesh coarse;
+  Coarse_candidate candidate;
+  Simplified row;
+};
+
 // One run of the program: the fine mesh, the references in each mass, and what was found.
 class Run
 {
 public:
   explicit Run(const Compare_arguments& arguments, const std::string& command)
     : m_arguments(arguments)
-    , m_files({arguments.fine, arguments.coarse, arguments.operator_file, arguments.mass_file,
-               arguments.restriction})
+    , m_files(inputs(arguments))
     , m_bar(!arguments.quiet)
     , m_input(read(arguments.fine))
     , m_fine(m_input.mesh)
@@ -65,14 +83,17 @@ public:
 
   void run()
   {
-    if(m_arguments.judges_others()) {
-      make_references();
-      judge_other();
-    } else {
-      const std::vector<std::size_t> sizes = target_sizes(m_arguments, m_fine.number_of_vertices());
-      make_references();
+    const std::vector<std::size_t> sizes = target_sizes(m_arguments, m_fine.number_of_vertices());
+    std::vector<Read_rival> rivals; // what is wrong with them is said before the work
+    for(const Rival& rival : m_arguments.rivals)
+      of_rival(rival, [&] { rivals.push_back(read_rival(rival, sizes, rivals)); });
+    make_references();
+    for(std::size_t i = 0; i < rivals.size(); ++i)
+      of_rival(m_arguments.rivals[i], [&] { judge_rival(rivals[i]); });
+    if(!sizes.empty())
       compare(sizes);
-    }
+    for(Read_rival& rival : rivals)
+      m_comparison.results.push_back(std::move(rival.row));
     m_bar.clear();
     write();
   }
@@ -155,6 +176,10 @@ private:
     std::vector<Simplifier> simplifiers = collapse_simplifiers(m_fine, bases, m_arguments.threads);
     for(Simplifier& s : remeshers(m_fine, m_comparison.notes))
       simplifiers.push_back(std::move(s));
+    for(const Rival& rival : m_arguments.rivals)
+      for(const Simplifier& s : simplifiers)
+        if(rival.name == s.name || rival.name == fitted_name(s))
+          throw std::runtime_error(rival.option + " has the name of a simplifier: choose another.");
     std::size_t done = 0;
     for(const std::size_t N : sizes)
       for(const Simplifier& s : simplifiers) {
@@ -248,18 +273,13 @@ private:
     }
   }
 
-  // The same mesh with operators that have the fine spectrum as nearly as its edges allow, or, with a mass on the diagonal where it
-  // is lumped, two rings. Its seconds are those of the mesh and of the fits in all masses.
+  // The same mesh with fitted operators. Its seconds are those of the mesh and of the fits in all masses.
   void judge_fitted(const Coarse_mesh& coarse, Simplified& row)
   {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
     Coarse_candidate candidate = candidate_of(coarse, matrices, row);
     for(const Fine_reference& reference : m_references) {
-      const bool lumped = reference.op.theta == 0;
-      SG::Operator_fit_options options;
-      options.mass = lumped ? SG::Operator_fit_options::Mass_pattern::diagonal
-                            : SG::Operator_fit_options::Mass_pattern::edges;
-      options.rings = lumped ? 2 : 1;
+      SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(reference.op.theta);
       options.progress = [](double) { return !interrupted; };
       const Eigen::Index fitted = (std::min)(reference.K + reference.K / 5, reference.pairs.size());
       SG::Eigenpairs pairs; // a fifth more than are judged, for the sake of the modes beyond
@@ -275,12 +295,57 @@ private:
     }
   }
 
+  // Errors say which of several results they are about.
+  template <class Function>
+  static void of_rival(const Rival& rival, const Function& function)
+  {
+    try {
+      function();
+    } catch(const SG::Cancelled&) {
+      throw;
+    } catch(const Write_error&) {
+      throw;
+    } catch(const std::runtime_error& error) {
+      throw std::runtime_error(rival.option.empty() ? error.what() : rival.option + ": " + error.what());
+    }
+  }
+
+  Read_rival read_rival(const Rival& rival, const std::vector<std::size_t>& sizes,
+                        const std::vector<Read_rival>& others)
+  {
+    Read_rival result;
+    result.row.simplifier = rival.name;
+    if(!rival.mesh.empty()) {
+      Input_mesh input = read(rival.mesh);
+      result.coarse.mesh = std::move(input.mesh);
+      result.row.vertices = result.coarse.mesh.number_of_vertices();
+      if(!rival.restriction.empty())
+        result.coarse.carried = input.numbering.rows_of_mesh(
+            given_restriction(rival.restriction, input.numbering.number_of_file_vertices()));
+    } else {
+      result.candidate.op = given_operator(rival);
+      result.row.vertices = static_cast<std::size_t>(result.candidate.op.L.rows());
+      result.candidate.carried = given_restriction(rival.restriction, result.row.vertices);
+    }
+    const auto distance = [&](std::size_t N) {
+      return std::abs(std::log(static_cast<double>(N) / static_cast<double>(result.row.vertices)));
+    };
+    const auto nearest = std::min_element(
+        sizes.begin(), sizes.end(), [&](std::size_t M, std::size_t N) { return distance(M) < distance(N); });
+    result.row.requested_vertices = nearest == sizes.end() ? result.row.vertices : *nearest;
+    for(const Read_rival& other : others)
+      if(other.row.simplifier == rival.name && other.row.requested_vertices == result.row.requested_vertices)
+        throw std::runtime_error("another result of this name stands at N = " +
+                                 std::to_string(result.row.requested_vertices) + " already.");
+    return result;
+  }
+
   // For `rows` coarse vertices and those of the file of the fine mesh.
-  Eigen::SparseMatrix<double> given_restriction(std::size_t rows) const
+  Eigen::SparseMatrix<double> given_restriction(const std::string& path, std::size_t rows) const
   {
     const std::size_t n = m_input.numbering.number_of_file_vertices();
-    const Eigen::SparseMatrix<double> P = read_matrix_market(
-        m_arguments.restriction, [&](long long given_rows, long long columns, long long nonzeros) {
+    const Eigen::SparseMatrix<double> P =
+        read_matrix_market(path, [&](long long given_rows, long long columns, long long nonzeros) {
           return nonzeros == 0 ? std::string("holds nothing but zeros.")
                  : given_rows == static_cast<long long>(rows) && columns == static_cast<long long>(n)
                      ? std::string()
@@ -290,31 +355,16 @@ private:
     return m_input.numbering.columns_of_mesh(P);
   }
 
-  void judge_other()
+  void judge_rival(Read_rival& rival)
   {
-    Simplified row;
-    if(m_arguments.operator_file.empty()) {
-      Coarse_mesh coarse;
-      Input_mesh input = read(m_arguments.coarse);
-      coarse.mesh = std::move(input.mesh);
-      row.simplifier = std::filesystem::path(m_arguments.coarse).filename().string();
-      row.requested_vertices = coarse.mesh.number_of_vertices();
-      if(!m_arguments.restriction.empty())
-        coarse.carried =
-            input.numbering.rows_of_mesh(given_restriction(input.numbering.number_of_file_vertices()));
-      judge_mesh(coarse, row);
-    } else
-      judge_operator(row);
-    m_comparison.results.push_back(std::move(row));
+    if(rival.candidate.op.L.rows() == 0)
+      judge_mesh(rival.coarse, rival.row);
+    else
+      judge_operator(rival.candidate, rival.row);
   }
 
-  void judge_operator(Simplified& row)
+  void judge_operator(Coarse_candidate& candidate, Simplified& row)
   {
-    Coarse_candidate candidate;
-    candidate.op = given_operator();
-    candidate.carried = given_restriction(static_cast<std::size_t>(candidate.op.L.rows()));
-    row.simplifier = std::filesystem::path(m_arguments.operator_file).filename().string();
-    row.requested_vertices = row.vertices = static_cast<std::size_t>(candidate.op.L.rows());
     // Symmetric matrices, as in appendix D of the paper: half of L and M with its indices.
     const double n = static_cast<double>(row.vertices);
     row.shape.bytes_per_vertex = 12 * (static_cast<double>(candidate.op.L.nonZeros()) + n) / 2 / n +
@@ -325,12 +375,12 @@ private:
       candidate.op.theta = reference.op.theta;
       row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
-    m_comparison.notes.push_back(
-        "The coarse operator has the mass matrix that it came with, whichever mass it is judged "
-        "in; the fine mesh has that of the heading.");
+    m_comparison.notes.push_back("The coarse operator '" + row.simplifier +
+                                 "' has the mass matrix that it came with, whichever mass it is judged "
+                                 "in; the fine mesh has that of the heading.");
   }
 
-  SG::Laplace_operator given_operator() const
+  static SG::Laplace_operator given_operator(const Rival& rival)
   {
     SG::Laplace_operator op;
     const auto square = [](long long rows, long long columns, long long nonzeros) -> std::string {
@@ -338,25 +388,40 @@ private:
         return "is not square.";
       return nonzeros < rows ? "has rows without a nonzero." : "";
     };
-    op.L = read_matrix_market(m_arguments.operator_file, square);
-    op.B = read_matrix_market(m_arguments.mass_file, square);
+    op.L = read_matrix_market(rival.operator_file, square);
+    op.B = read_matrix_market(rival.mass_file, square);
     const auto refuse = [](const std::string& path, const std::string& why) {
       throw std::runtime_error("'" + path + "' " + why);
     };
     if(op.B.rows() != op.L.rows())
-      refuse(m_arguments.mass_file, "must have the size of the operator.");
+      refuse(rival.mass_file, "is " + std::to_string(op.B.rows()) + " x " + std::to_string(op.B.rows()) +
+                                  ", it must have the size of the operator, " + std::to_string(op.L.rows()) +
+                                  ".");
     for(const auto* matrix : {&op.L, &op.B}) {
       const Eigen::SparseMatrix<double> skew = *matrix - Eigen::SparseMatrix<double>(matrix->transpose());
       if(skew.norm() > 1e-9 * matrix->norm())
-        refuse(matrix == &op.L ? m_arguments.operator_file : m_arguments.mass_file, "is not symmetric.");
+        refuse(matrix == &op.L ? rival.operator_file : rival.mass_file,
+               "is not symmetric: " + first_entry(skew, 1e-9 * matrix->norm() / skew.cols()) +
+                   " differs from its mirror image.");
     }
     if(op.L.diagonal().sum() < 0)
-      refuse(m_arguments.operator_file,
-             "is negative: pass the positive semidefinite Laplacian, that times -1.");
+      refuse(rival.operator_file, "is negative: pass the positive semidefinite Laplacian, that times -1.");
     op.mass = op.B * Eigen::VectorXd::Ones(op.B.cols());
-    if(!(op.mass.minCoeff() > 0))
-      refuse(m_arguments.mass_file, "has a row whose sum is not positive.");
+    Eigen::Index least = 0;
+    if(!(op.mass.minCoeff(&least) > 0))
+      refuse(rival.mass_file,
+             "has a row whose sum is not positive, number " + std::to_string(least + 1) + ".");
     return op;
+  }
+
+  // "the entry 3, 7", counted from 1 as in the file, of the first that is larger.
+  static std::string first_entry(const Eigen::SparseMatrix<double>& A, double limit)
+  {
+    for(Eigen::Index j = 0; j < A.cols(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
+        if(std::abs(it.value()) > limit)
+          return "the entry " + std::to_string(it.row() + 1) + ", " + std::to_string(it.col() + 1);
+    return "an entry";
   }
 
   // Fine and coarse share times and scales, and the coarse modes are aligned with the fine ones.

@@ -13,25 +13,32 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+// A result of another program: a mesh, or an operator that has none.
+struct Rival
+{
+  std::string option; // that named it, where errors have to say which of several it was
+  std::string name, mesh, operator_file, mass_file, restriction; // empty: there is none
+};
 
 // The command line of spectral_compare.
 struct Compare_arguments
 {
   std::string fine;                                          // MESH or --fine
   std::string vertices;                                      // N[,N2...], each a number or a percentage
-  std::string coarse, operator_file, mass_file, restriction; // anybody's result
+  std::string coarse, operator_file, mass_file, restriction; // anybody's result, the only one
+  std::vector<Rival> rivals;                                 // with that one
   std::string masses = "lumped,averaged", only, without;
   std::string report, json, coloured;
   long eigenvectors = 100, sources = 20, seed = 1;
   int threads = 1;
   bool quiet = false, repair = false, strict = false;
   std::string help; // the text, if it was asked for
-
-  bool judges_others() const { return !coarse.empty() || !operator_file.empty(); }
 };
 
 namespace compare_arguments_internal {
@@ -43,10 +50,13 @@ inline boost::program_options::options_description described(Compare_arguments& 
   po::options_description options(
       "spectral_compare MESH --vertices N[,N2,...] [options]\n"
       "spectral_compare --fine A --coarse B [--restriction P.mtx] [options]\n"
-      "spectral_compare --fine A --operator L.mtx --mass M.mtx --restriction P.mtx [options]\n\n"
+      "spectral_compare --fine A --operator L.mtx --mass M.mtx --restriction P.mtx [options]\n"
+      "spectral_compare MESH [--vertices N[,N2,...]] --rival NAME=B[,P.mtx] [options]\n\n"
       "Simplifies MESH in every way there is, here and in CGAL, and judges each result by the same figures:\n"
       "norms of functional maps, eigenvalues, distances, shape, time. The second form judges a mesh that\n"
-      "another tool made of A, the third an operator that has no mesh (L positive semidefinite).\n\nOptions",
+      "another tool made of A, the third an operator that has no mesh (L positive semidefinite), the fourth "
+      "any\n"
+      "number of both, beside the simplifiers if there is --vertices.\n\nOptions",
       100, 60);
   auto add = options.add_options();
   add("help", "show this text");
@@ -74,6 +84,11 @@ inline boost::program_options::options_description described(Compare_arguments& 
   add("mass", text(a.mass_file, "M.mtx"), "with this mass matrix");
   add("restriction", text(a.restriction, "P.mtx"),
       "and this restriction, coarse x fine; without it, closest points");
+  add("rival", po::value<std::vector<std::string>>()->value_name("NAME=B[,P.mtx]"),
+      "judge this mesh, too, with the P of the closest points and its own; may be given several times. It "
+      "stands at the nearest of the sizes of --vertices");
+  add("rival-operators", po::value<std::vector<std::string>>()->value_name("NAME=L.mtx,M.mtx,P.mtx"),
+      "the same for an operator with its mass and its restriction");
   add("repair", po::bool_switch(&a.repair), "change meshes that cannot be used, as spectral_simplify does");
   add("strict", po::bool_switch(&a.strict),
       "change nothing of them, not even what leaves the surface as it is");
@@ -88,9 +103,11 @@ inline void check(const Compare_arguments& a)
     refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows everything.");
   if(!a.coarse.empty() && !a.operator_file.empty())
     refuse("--coarse and --operator are two results: judge one at a time.");
-  if(a.judges_others() && !a.vertices.empty())
-    refuse("--vertices asks for simplifications, --coarse and --operator for a judgement: give one of them.");
-  if(!a.judges_others() && a.vertices.empty())
+  const bool judges_one = !a.coarse.empty() || !a.operator_file.empty();
+  if(judges_one && !a.vertices.empty())
+    refuse("--vertices asks for simplifications, --coarse and --operator for a judgement: give one of them, "
+           "or --rival.");
+  if(!judges_one && a.rivals.empty() && a.vertices.empty())
     refuse("--vertices is missing: say how many vertices the simplified meshes are to have.");
   if(!a.operator_file.empty() && (a.mass_file.empty() || a.restriction.empty()))
     refuse("--operator needs --mass and --restriction as well.");
@@ -98,7 +115,8 @@ inline void check(const Compare_arguments& a)
     refuse("--mass belongs to --operator; to choose the mass of the judgement use --judge.");
   if(a.coarse.empty() && a.operator_file.empty() && !a.restriction.empty())
     refuse("--restriction belongs to --coarse or --operator.");
-  if(!a.operator_file.empty() && !a.coloured.empty())
+  if(!a.coloured.empty() && a.vertices.empty() && a.coarse.empty() &&
+     std::all_of(a.rivals.begin(), a.rivals.end(), [](const Rival& r) { return r.mesh.empty(); }))
     refuse("--coloured needs a coarse mesh, an operator has none.");
   check_choice("--judge", a.masses, {"lumped", "averaged", "lumped,averaged", "averaged,lumped"});
   if(a.eigenvectors < 2)
@@ -107,6 +125,41 @@ inline void check(const Compare_arguments& a)
     refuse("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
   if(a.threads < 1)
     refuse("--threads is " + std::to_string(a.threads) + ", it must be at least 1.");
+}
+
+// NAME=FILE,... with at least and at most so many files.
+inline std::vector<std::string> parts_of_rival(const std::string& option, const std::string& text,
+                                               const std::string& form, std::size_t least, std::size_t most)
+{
+  const std::size_t equals = text.find('=');
+  std::vector<std::string> parts{text.substr(0, equals)};
+  if(equals != std::string::npos) {
+    std::istringstream files(text.substr(equals + 1) + ",");
+    for(std::string file; std::getline(files, file, ',');)
+      parts.push_back(file);
+  }
+  if(std::find(parts.begin(), parts.end(), "") != parts.end() || parts.size() < 1 + least ||
+     parts.size() > 1 + most)
+    throw std::runtime_error(option + " is '" + text + "', it must be " + form + ".");
+  return parts;
+}
+
+inline std::vector<Rival> rivals(const boost::program_options::variables_map& values)
+{
+  using Texts = std::vector<std::string>;
+  std::vector<Rival> result;
+  if(values.count("rival"))
+    for(const std::string& text : values["rival"].as<Texts>()) {
+      Texts parts = parts_of_rival("--rival", text, "NAME=MESH or NAME=MESH,P.mtx", 1, 2);
+      parts.resize(3);
+      result.push_back({"--rival " + parts[0], parts[0], parts[1], {}, {}, parts[2]});
+    }
+  if(values.count("rival-operators"))
+    for(const std::string& text : values["rival-operators"].as<Texts>()) {
+      const Texts parts = parts_of_rival("--rival-operators", text, "NAME=L.mtx,M.mtx,P.mtx", 3, 3);
+      result.push_back({"--rival-operators " + parts[0], parts[0], {}, parts[1], parts[2], parts[3]});
+    }
+  return result;
 }
 
 } // namespace compare_arguments_internal
@@ -121,7 +174,16 @@ inline Compare_arguments parse_compare_arguments(int argc, const char* const* ar
                              "one MESH", values);
   if(!a.help.empty())
     return a;
+  a.rivals = compare_arguments_internal::rivals(values);
   compare_arguments_internal::check(a);
+  const std::string& only = a.coarse.empty() ? a.operator_file : a.coarse;
+  if(!only.empty())
+    a.rivals.push_back({{},
+                        std::filesystem::path(only).filename().string(),
+                        a.coarse,
+                        a.operator_file,
+                        a.mass_file,
+                        a.restriction});
   return a;
 }
 
