@@ -8,6 +8,7 @@
 //   fuzz_collapse FILE...      the bytes of these files
 // or, with SPECTRAL_FUZZ and clang, a target of libFuzzer.
 
+#include "../fitted_operator_helpers.h"
 #include "../topology.h"
 #include "fuzz_input.h"
 #include "fuzz_main.h"
@@ -248,6 +249,37 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
                     call.fine, call.options);
 }
 
+// Operators of the coarse mesh, fitted to the pairs of the run, or to what has nothing to do with them.
+std::string fault_of_fitting(const shapes::Matrices& coarse, const One_call& call,
+                             const SMS::Spectral_edge_collapse_result& result, Bytes& bytes)
+{
+  const double theta = SG::mass_blend(call.options.mass);
+  const SG::Laplace_operator own = SG::laplace_operator(coarse.V, coarse.T, theta),
+                             fine = SG::laplace_operator(call.fine.V, call.fine.T, theta);
+  const Eigen::Index n = fine.L.rows();
+  SG::Eigenpairs pairs;
+  if(result.eigenpairs && result.eigenpairs->vectors.rows() == n && !bytes.one_in(4))
+    pairs = *result.eigenpairs;
+  else {
+    pairs.vectors =
+        Eigen::MatrixXd::NullaryExpr(n, 1 + bytes.below(int(n)), [](Eigen::Index v, Eigen::Index k) {
+          return std::sin(12.9898 * double(v + 1) * double(k + 1));
+        });
+    pairs.values = Eigen::VectorXd::LinSpaced(pairs.vectors.cols(), 0, 1000 / fine.mass.sum());
+    for(Eigen::Index k = 0; k < pairs.vectors.cols(); ++k)
+      pairs.vectors.col(k) /= std::sqrt(pairs.vectors.col(k).cwiseAbs2().dot(fine.mass));
+  }
+  const bool good = own.mass.allFinite() && own.mass.minCoeff() > 0 && std::isfinite(fine.mass.sum()) &&
+                    std::isfinite(own.L.sum()) && pairs.vectors.allFinite() && pairs.values.allFinite();
+  try {
+    const SG::Operator_fit_result fit =
+        SG::fit_operators(own, result.restriction, fine, pairs, fit_options_from(bytes));
+    return good ? fault_of_fit(fit, own) : "operators that are no numbers were fitted";
+  } catch(const std::invalid_argument& error) {
+    return good ? std::string("the fit was refused: ") + error.what() : "";
+  }
+}
+
 std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
 {
   add_one_call_options(call, bytes);
@@ -277,7 +309,11 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   std::string fault = fault_of_one_result(mesh, before, call, result);
   if(fault.empty())
     fault = fault_of_constraints(mesh, flags, before, flags_before, call, result);
-  return fault.empty() ? fault_of_log(before, flags_of_replay, mesh, call, result) : fault;
+  if(fault.empty())
+    fault = fault_of_log(before, flags_of_replay, mesh, call, result);
+  return fault.empty() && !is_large(call.fine) && bytes.one_in(4)
+             ? fault_of_fitting(SG::mesh_matrices(mesh), call, result, bytes)
+             : fault;
 }
 
 // -----------------------------------------------------------------------------------------------------------------------

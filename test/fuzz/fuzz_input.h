@@ -7,6 +7,7 @@
 
 #include "../collapse_helpers.h"
 
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -308,6 +309,27 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
   call.filter = filter_from(bytes);
   call.calls_until_cancelled = bytes.one_in(8) ? 1 + int(bytes.byte()) : 0;
   call.level = bytes.byte();
+}
+
+// For signals as rough as any, too.
+inline SG::Operator_fit_options fit_options_from(Bytes& bytes)
+{
+  SG::Operator_fit_options o = SG::Operator_fit_options::for_mass(0.5 * bytes.below(2));
+  o.rings = 1 + bytes.below(2);
+  if(bytes.one_in(2))
+    return o;
+  const auto one_of = [&](const std::vector<double>& values) {
+    return values[std::size_t(bytes.below(int(values.size())))];
+  };
+  o.low_modes = one_of({0, 1, 2.5, 6});
+  o.orthonormality = one_of({0, 0.01, 1, 1e6});
+  o.plain = one_of({0, 0.2, 1e6});
+  o.tie = one_of({0.05, 1e-9, 1e6});
+  o.smallest_weight = one_of({0.02, 1e-6, 1});
+  o.smallest_mass = one_of({0.01, 1e-6, 1});
+  o.tolerance = one_of({0.05, 1e-6, 0.9});
+  o.maximum_iterations = int(one_of({30, 0, 3}));
+  return o;
 }
 
 } // namespace spectral_test

@@ -268,24 +268,24 @@ private:
     m_mass.assemble(N);
   }
 
-  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T has q t (1-t) at ij and takes q (1-t) from a,
-  // q t from b. With t = b / (a + b) neither turns negative as long as -w_ij <= a b / (a + b).
+  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T with t = b / (a + b) and q <= a + b has
+  // q t (1-t) at ij, up to a b / (a + b), and takes q (1-t) from a, q t from b. a or b may be next to nothing.
   template <class Find>
   void add_thin_triangles(Edge& e, const Find& edge, double scale)
   {
     double capacity = 0.;
-    std::vector<std::array<double, 3>> shares; // a b / (a + b), t, k
+    std::vector<std::array<double, 3>> shares; // a, b, k
     for(const Index k : e.opposite) {
       const Edge &ik = edge(e.i, k), &jk = edge(e.j, k);
       const double a = (std::max)(ik.weight, 0.) / ik.thin, b = (std::max)(jk.weight, 0.) / jk.thin;
       if(a > 0. && b > 0.) {
-        shares.push_back({a * b / (a + b), b / (a + b), double(k)});
-        capacity += shares.back()[0];
+        shares.push_back({a, b, double(k)});
+        capacity += a * b / (a + b);
       }
     }
     const double part = capacity > 0. ? (std::min)(1., -e.weight / capacity) : 0.;
     for(const auto& share : shares) {
-      const double t = share[1], q = part * share[0] / (t * (1. - t));
+      const double q = part * (share[0] + share[1]), t = share[1] / (share[0] + share[1]);
       const Index k = static_cast<Index>(share[2]);
       m_stiffness.add({{k, 1.}, {e.i, t - 1.}, {e.j, -t}}, q, 0., scale + q);
       edge(e.i, k).left -= q * (1. - t);
