@@ -175,13 +175,10 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Ver
   if(a.max_error)
     options.maximum_error = *a.max_error;
   options.fit_operators = !a.fit_operators.empty();
-  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
-  SG::Operator_fit_options& fit = options.operator_fit;
-  fit.mass = a.fit_mass == "diagonal" || (a.fit_mass.empty() && options.mass == SG::Mass::lumped)
-                 ? Mass_pattern::diagonal
-                 : Mass_pattern::edges;
-  // On edges alone a diagonal mass is at the expense of the low modes.
-  fit.rings = a.fit_rings ? *a.fit_rings : fit.mass == Mass_pattern::diagonal ? 2 : 1;
+  const double blend = a.fit_mass.empty() ? SG::mass_blend(options.mass) : a.fit_mass == "edges" ? 1. : 0.;
+  options.operator_fit = SG::Operator_fit_options::for_mass(blend);
+  if(a.fit_rings)
+    options.operator_fit.rings = *a.fit_rings;
   if(!a.keep.empty())
     options.kept_vertices =
         numbering.vertices_of_mesh(read_indices(a.keep, numbering.number_of_file_vertices()), a.keep);

@@ -41,6 +41,8 @@ struct Spectral_edge_collapse_options : Spectral_options
     Spectral_edge_collapse_options options;
     static_cast<Spectral_options&>(options) = Spectral_options::paper();
     options.relocate = false;
+    options.operator_fit =
+        Spectral_geometry::Operator_fit_options::for_mass(Spectral_geometry::mass_blend(options.mass));
     return options;
   }
 

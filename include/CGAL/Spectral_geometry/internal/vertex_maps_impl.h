@@ -154,6 +154,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose();
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Eigen::Index> last_query(static_cast<std::size_t>(source_T.rows()), -1); // that tried this face
+  Eigen::Matrix<double, Eigen::Dynamic, 3> triangle(points.rows(), 3);
   for(Eigen::Index y = 0; y < target_vectors.rows(); ++y) {
     const Eigen::VectorXd query = target_vectors.row(y).head(C.rows()).transpose();
     const Eigen::Index vertex = nearest[static_cast<std::size_t>(y)];
@@ -165,7 +166,6 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
           if(last_query[static_cast<std::size_t>(t)] == y)
             continue;
           last_query[static_cast<std::size_t>(t)] = y;
-          Eigen::Matrix<double, Eigen::Dynamic, 3> triangle(points.rows(), 3);
           for(int k = 0; k < 3; ++k)
             triangle.col(k) = points.col(source_T(t, k));
           const internal::Point_of_triangle candidate = internal::closest_point_of_triangle(query, triangle);
