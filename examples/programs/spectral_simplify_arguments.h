@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 
 #include "io/command_line.h"
+#include "io/program.h"
 #include "io/mesh_io.h"
 
 #include <boost/program_options.hpp>
@@ -35,7 +36,7 @@ struct Arguments
   std::string preset = "best", flips = "none";
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
-  int threads = 1;
+  int threads = all_threads();
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
        strict = false, no_attributes = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
@@ -142,7 +143,7 @@ inline boost::program_options::options_description described(Arguments& a)
       "by the restriction, "
       "integers that are no colours as labels, of which the one of most weight is taken");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
-      "threads for eigenpairs, costs and relocation; the result does not depend on it");
+      "for eigenpairs, costs and relocation, all cores by default; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),
       "write the matrix (OUTPUT's vertices x INPUT's, Matrix Market) that carries functions to OUTPUT; "
       "columns "

@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_COMPARE_COMPARE_ARGUMENTS_H
 
 #include "../io/command_line.h"
+#include "../io/program.h"
 
 #include <boost/program_options.hpp>
 
@@ -36,7 +37,7 @@ struct Compare_arguments
   std::string masses = "lumped,averaged", only, without;
   std::string report, json, coloured;
   long eigenvectors = 100, sources = 20, seed = 1;
-  int threads = 1;
+  int threads = all_threads();
   bool quiet = false, repair = false, strict = false;
   std::string help; // the text, if it was asked for
 };
@@ -77,7 +78,7 @@ inline boost::program_options::options_description described(Compare_arguments& 
       "how many random vertices distances are measured from");
   add("seed", po::value(&a.seed)->value_name("X")->default_value(a.seed), "of these vertices");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
-      "threads for the spectral costs");
+      "for the spectral rows, all cores by default; CGAL's simplifiers have one");
   add("fine", text(a.fine, "A"), "the fine mesh, the same as MESH");
   add("coarse", text(a.coarse, "B"), "judge this mesh");
   add("operator", text(a.operator_file, "L.mtx"), "judge this operator (Matrix Market)");

@@ -75,10 +75,16 @@ inline void warn(const std::string& sentence)
   complain("warning: " + sentence);
 }
 
-// As many threads as are wanted, but no more than the machine runs at once; says so unless `quiet`.
+// As many threads as the machine runs at once.
+inline int all_threads()
+{
+  return static_cast<int>((std::max)(1u, std::thread::hardware_concurrency()));
+}
+
+// As many as are wanted, but no more than that; says so unless `quiet`.
 inline int usable_threads(const int wanted, const bool quiet)
 {
-  const int most = static_cast<int>((std::max)(1u, std::thread::hardware_concurrency()));
+  const int most = all_threads();
   if(wanted > most && !quiet)
     complain("this machine runs " + std::to_string(most) + (most == 1 ? " thread" : " threads") +
              " at once: --threads " + std::to_string(wanted) + " is taken for that.");

@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H
 
 #include "../io/command_line.h"
+#include "../io/program.h"
 #include "../io/text_lines.h"
 #include "matcher.h"
 
@@ -28,7 +29,7 @@ struct Matching_arguments
   long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 60;
   long samples = 300;
   double local_weight = 4;
-  int threads = 2;
+  int threads = all_threads();
   bool quiet = false, repair = false, strict = false;
   std::string command, help;
 
@@ -95,7 +96,8 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("local-weight", po::value(&a.local_weight)->value_name("w")->default_value(a.local_weight),
       "of curvature in these, at most; 0: the modes alone");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
-  add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads), "at most");
+  add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
+      "all cores by default; the result does not depend on it");
   add("repair", po::bool_switch(&a.repair), "change meshes that cannot be used, as spectral_simplify does");
   add("strict", po::bool_switch(&a.strict),
       "change nothing of them, not even what leaves the surface as it is");
