@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
+#include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -28,6 +29,71 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
+/// Products of tall matrices, in wide registers: blocks of rows, short enough for the cache, in panels of eight columns, the last of
+/// which is filled up with zeros.
+class Tall_products
+{
+public:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  // A^T B, which is known to be symmetric
+  static Eigen::MatrixXd symmetric(const Rows& A, const Rows& B)
+  {
+    const Index panels = (A.cols() + panel_width - 1) / panel_width;
+    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
+    for(Index first = 0; first < A.rows(); first += block) {
+      const Index rows = (std::min)(block, A.rows() - first);
+      pack(A, first, rows, P);
+      pack(B, first, rows, W);
+      for(Index p = 0; p < panels; ++p)
+        for(Index q = p; q < panels; ++q)
+          gram(P.data() + p * size, W.data() + q * size, rows, H.data() + (p * panels + q) * square);
+    }
+    Eigen::MatrixXd result(A.cols(), A.cols());
+    for(Index j = 0; j < result.cols(); ++j)
+      for(Index i = 0; i <= j; ++i)
+        result(i, j) = result(j, i) =
+            H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
+              j % panel_width);
+    return result;
+  }
+
+  // C += A M
+  static void add(Rows& C, const Rows& A, const Eigen::MatrixXd& M)
+  {
+    const Index panels = (A.cols() + panel_width - 1) / panel_width;
+    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
+    for(Index j = 0; j < M.cols(); ++j)
+      for(Index i = 0; i < M.rows(); ++i)
+        H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
+          j % panel_width) = -M(i, j);
+    for(Index first = 0; first < A.rows(); first += block) {
+      const Index rows = (std::min)(block, A.rows() - first);
+      pack(A, first, rows, P);
+      pack(C, first, rows, W);
+      for(Index q = 0; q < panels; ++q) {
+        for(Index p = 0; p < panels; ++p)
+          subtract_product(W.data() + q * size, P.data() + p * size, rows,
+                           H.data() + (p * panels + q) * square);
+        const Index begin = q * panel_width, width = (std::min)(Index(panel_width), C.cols() - begin);
+        C.block(first, begin, rows, width) = W.block(q * block, 0, rows, width);
+      }
+    }
+  }
+
+private:
+  static constexpr Index block = 128, size = block * panel_width, square = panel_width * panel_width;
+
+  static void pack(const Rows& A, Index first, Index rows, Rows& P)
+  {
+    for(Index p = 0; p * panel_width < A.cols(); ++p) {
+      const Index begin = p * panel_width, width = (std::min)(Index(panel_width), A.cols() - begin);
+      P.block(p * block, 0, rows, width) = A.block(first, begin, rows, width);
+      P.block(p * block, width, rows, panel_width - width).setZero();
+    }
+  }
+};
+
 /// A symmetric matrix sum_a x_a d_a d_a^T with bounds on x; d_a is row a of a sparse matrix.
 class Rank_one_terms
 {
@@ -35,7 +101,7 @@ public:
   using Index = Eigen::Index;
   using Vector = Eigen::VectorXd;
   using Row = Eigen::RowVectorXd;
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Rows = Tall_products::Rows;
   using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Entries = std::vector<std::pair<Index, double>>;
   // start, lower bound and typical size of a coefficient
@@ -340,11 +406,12 @@ private:
   {
     const Index nL = m_stiffness.size(), nB = m_mass.size();
     const Rows BG = m_mass.times(x.tail(nB), m_G);
-    Rows R = BG * m_lambda.asDiagonal() - m_stiffness.times(x.head(nL), m_G);
-    Matrix T = m_G.transpose() * BG;
+    Rows R = m_stiffness.times(x.head(nL), m_G);
+    Matrix T = Tall_products::symmetric(m_G, BG);
+    const Matrix X = T * m_lambda.asDiagonal() - Tall_products::symmetric(m_G, R);
+    R = BG * m_lambda.asDiagonal() - R;
     if(affine)
       T.diagonal().array() -= 1.;
-    const Matrix X = m_G.transpose() * R;
     const double total = m_total.dot(x) - affine;
     const Vector change = affine ? Vector(x - m_start) : x;
     const Vector row_weight = m_options.plain * m_row_mass.cwiseInverse();
@@ -353,11 +420,12 @@ private:
                                (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
                                penalty * total * total + change.cwiseAbs2().dot(m_tie)
                          : 0.;
-    R = (row_weight.asDiagonal() * R + m_G * X).eval() * m_weight.asDiagonal();
+    R = (row_weight.asDiagonal() * R * m_weight.asDiagonal()).eval();
+    Tall_products::add(R, m_G, X * m_weight.asDiagonal());
     g.resize(x.size());
     g.head(nL) = -m_stiffness.derivatives(R, m_G);
     R = R * m_lambda.asDiagonal();
-    R.noalias() += m_G * (m_options.orthonormality * T);
+    Tall_products::add(R, m_G, m_options.orthonormality * T);
     g.tail(nB) = m_mass.derivatives(R, m_G);
     g += penalty * total * m_total + m_tie.cwiseProduct(change);
     return f;
