@@ -108,9 +108,13 @@ def run_all(build, folder):
             file.writelines(f"{v}\n" for v in range(len(read_vertices(os.path.join(folder, "stand.off")))))
     for name, Y, truth in PAIRS:
         report = report_name(name)
-        run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--proxy", "spectral,garland_heckbert",
+        run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--operators", "mesh", "--proxy", "spectral,garland_heckbert",
             "--ground-truth", truth, "--report", f"{report}.html")
-    run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000", "--report", "distances.html")
+    run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--operators", "mesh", "--vertices", "1000", "--report", "distances.html")
+    # The same with fitted operators, which the programs have as their default.
+    run(build, folder, "fitted_distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000")
+    for name, Y, truth in PAIRS:
+        run(build, folder, f"fitted_{report_name(name)}.out", "shape_matching", "stand.off", Y, "--ground-truth", truth, "--output", "map.txt")
 
 
 # --- pictures out of the reports -------------------------------------------------------------------------------------
@@ -167,11 +171,12 @@ def main():
     curves(folder, "bend_other.html", os.path.join(output, "matching_errors.svg"))
     # Of the biharmonic distance: fine, coarse, brought back by prolongation.
     strip(images(folder, "distances.html")[4:7], os.path.join(output, "distances.png"))
-    for name, _, _ in PAIRS:
-        with open(os.path.join(folder, report_name(name) + ".out")) as file:
-            print(f"{name}\n{file.read()}")
-    with open(os.path.join(folder, "distances.out")) as file:
-        print(file.read())
+    for fitted in ("", "fitted_"):
+        for name, _, _ in PAIRS:
+            with open(os.path.join(folder, fitted + report_name(name) + ".out")) as file:
+                print(f"{fitted}{name}\n{file.read()}")
+        with open(os.path.join(folder, fitted + "distances.out")) as file:
+            print(fitted + file.read())
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300 --repo
 refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000 --report report.html
 refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --vertices 50 --eigenvectors 60 --report report.html
 refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full --report report.html
+refuses "unknown operators" "'lumped', it must be fitted or mesh" "$shape" --vertices 300 --operators lumped --report report.html
 refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red --report report.html
 
 cp "$shape" input.off
@@ -48,6 +49,12 @@ for column in 2 3 4; do
 done
 within "heat kernel signature" 2 5
 within "wave kernel signature" 2 20
+grep -q "operators fitted in" said || fail "operators are not fitted: $(cat said)"
+fitted=$(awk -F '  +' '$1 == "biharmonic" { print $2 + 0 }' said)
+"$program" "$shape" --vertices 500 --eigenvectors 60 --operators mesh >said 2>complained || fail "the mesh's own operators: $(cat complained)"
+grep -q "operators fitted in" said && fail "operators are fitted with --operators mesh"
+own=$(awk -F '  +' '$1 == "biharmonic" { print $2 + 0 }' said)
+awk -v a="$fitted" -v b="$own" 'BEGIN { exit !(a < b) }' || fail "biharmonic error $fitted with fitted operators, $own without"
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ "$(grep -o "data:image/png" report.html | wc -l)" -eq 16 ] || fail "the page has not sixteen pictures"
 

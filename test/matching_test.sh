@@ -23,6 +23,7 @@ refuses "a missing mesh" "cannot read 'none.off'" X.off none.off --output map.tx
 refuses "too many vertices" "vertices" X.off Y.off --output map.txt --vertices 100000
 refuses "more modes than vertices" "at most --vertices" X.off Y.off --output map.txt --vertices 50
 refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
+refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --output map.txt --operators own
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
 echo "1 2 3" >three.txt
 echo "1" >one.txt
@@ -48,6 +49,14 @@ with=$(awk '$1 == "none" { print $(NF - 2) }' said)
   --output map.txt >said 2>complained || fail "modes alone: $(cat complained)"
 without=$(awk '$1 == "none" { print $(NF - 2) }' said)
 awk -v a="$with" -v b="$without" 'BEGIN { exit !(a < b) }' || fail "mean error $with with curvature, $without without"
+
+# The proxies of both kinds of operators match, by other maps.
+for operators in fitted mesh; do
+  "$program" X.off Y.off --vertices 300 --eigenvectors 50 --fine-iterations 0 --operators $operators --ground-truth truth.txt \
+    --output $operators.txt >said 2>complained || fail "--operators $operators: $(cat complained)"
+  awk '$1 == "spectral" { exit !($(NF - 2) < 0.1) }' said || fail "--operators $operators: $(cat said)"
+done
+cmp -s fitted.txt mesh.txt && fail "--operators makes no difference"
 
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ "$(grep -o "data:image/png" report.html | wc -l)" -eq 4 ] || fail "the page has not four pictures"

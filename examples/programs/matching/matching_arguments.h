@@ -25,7 +25,7 @@
 struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
-  std::string proxies = "spectral", mass = "averaged", operators = "mesh";
+  std::string proxies = "spectral", mass = "averaged", operators = "fitted";
   long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 60;
   long samples = 300;
   double local_weight = 4;
