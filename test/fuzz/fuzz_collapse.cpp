@@ -253,6 +253,8 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
 std::string fault_of_fitting(const shapes::Matrices& coarse, const One_call& call,
                              const SMS::Spectral_edge_collapse_result& result, Bytes& bytes)
 {
+  if(!SG::diagnose_polygon_soup(coarse.V, polygons_of(coarse.T)).usable())
+    return ""; // a vertex without a mass
   const double theta = SG::mass_blend(call.options.mass);
   const SG::Laplace_operator own = SG::laplace_operator(coarse.V, coarse.T, theta),
                              fine = SG::laplace_operator(call.fine.V, call.fine.T, theta);
