@@ -512,6 +512,29 @@ TEST_CASE("Relocation leaves vertices to keep where they are, whichever handle t
   CHECK(other_handles > 0);
 }
 
+TEST_CASE("E is that of the P that is returned where a vertex to keep has the position of another")
+{
+  // Two spheres that touch in a vertex: the closest point to that of the second is on the first.
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  const Eigen::Index n = input.V.rows(), m = input.T.rows();
+  const Eigen::RowVector3d touch = input.V.row(7);
+  input.V.conservativeResize(2 * n, 3);
+  input.T.conservativeResize(2 * m, 3);
+  input.V.bottomRows(n) = (-input.V.topRows(n)).rowwise() + 2 * touch;
+  input.T.bottomRows(m) = input.T.topRows(m).rowwise().reverse().array() + int(n);
+  REQUIRE(input.V.row(7) == input.V.row(n + 7));
+  Spectral_edge_collapse_options options = options_with(8);
+  options.mass = SG::Mass::averaged;
+  options.relocate = true;
+  options.kept_vertices = {7, std::size_t(n) + 7};
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+  for(const std::size_t v : options.kept_vertices)
+    CHECK(result.restriction.coeff(Eigen::Index(result.vertex_map[v]), Eigen::Index(v)) == 1);
+  const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
+  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) < 1e-8);
+}
+
 TEST_CASE(
     "A face without area in the result is warned of where relocation was asked for, the collapses are kept")
 {

@@ -262,18 +262,17 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
                       const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
-  std::vector<bool> stays;
-  std::vector<Eigen::Triplet<double>> rows_of_kept;
+  Eigen::SparseMatrix<double> rows_of_kept;
   if(!kept.empty()) {
-    stays.resize(result.output_vertices, false);
     const std::vector<std::size_t> map = policies.vertex_map();
+    std::vector<Eigen::Triplet<double>> ones;
     for(std::size_t v = 0; v < kept.size(); ++v)
-      if(kept[v]) {
-        stays[map[v]] = true;
-        rows_of_kept.emplace_back(int(map[v]), int(v), 1.);
-      }
+      if(kept[v])
+        ones.emplace_back(int(map[v]), int(v), 1.);
+    rows_of_kept.resize(Eigen::Index(result.output_vertices), Eigen::Index(kept.size()));
+    rows_of_kept.setFromTriplets(ones.begin(), ones.end());
   }
-  post_process.run(mesh, policies, stays, np, result);
+  post_process.run(mesh, policies, rows_of_kept, np, result);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
   // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
@@ -284,16 +283,9 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
         "The collapses kept the error bound, but with what followed them the relative error is " +
         std::to_string(result.relative_error) + "; set relocate to false to keep it.");
   const bool resampled = own.rows() == result.restriction.rows() && result.relocation.resampled;
-  if(resampled) {
-    if(!rows_of_kept.empty()) {
-      own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
-      Eigen::SparseMatrix<double> ones(own.rows(), own.cols());
-      ones.setFromTriplets(rows_of_kept.begin(), rows_of_kept.end());
-      own += ones;
-    }
+  if(resampled)
     result.restriction =
         first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
-  }
   Real_timer timer;
   timer.start();
   post_process.fit(mesh, policies, resampled ? own : policies.restriction(), np, result);

@@ -45,9 +45,9 @@ public:
       m_fine = Spectral_geometry::mesh_matrices(mesh, np);
   }
 
-  /// Flips and relocation; `kept` says of each vertex whether it must stay.
+  /// Flips and relocation. `kept`: what P has in the rows of vertices that must stay, or empty.
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void run(TriangleMesh& mesh, const Policies& policies, const std::vector<bool>& kept,
+  void run(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& kept,
            const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
@@ -159,7 +159,7 @@ private:
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void relocate(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
                 const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
-                const std::vector<bool>& kept, const NamedParameters& np, Result& result) const
+                const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
   {
     if(m_options.mass == Spectral_geometry::Mass::lumped)
       result.warnings.push_back(
@@ -170,9 +170,19 @@ private:
       return policies.state().report(Spectral_phase::relocation, fraction);
     };
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
-    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, kept, np);
+    std::vector<bool> stays;
+    if(kept.rows() != 0) {
+      const Eigen::VectorXd ones = kept * Eigen::VectorXd::Ones(kept.cols());
+      stays.assign(ones.data(), ones.data() + ones.size());
+    }
+    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, stays, np);
+    Eigen::SparseMatrix<double>& own = result.relocation.restriction;
+    if(result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
+      own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
+      own += kept;
+    }
     const Eigen::Index seen = policies.state().core().number_of_signals();
-    set_error(mesh, result.relocation.restriction, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
+    set_error(mesh, own, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
