@@ -68,3 +68,12 @@ if(TARGET spectral_distances_on_proxy AND TARGET make_demo_shape)
                                     "${CMAKE_CURRENT_BINARY_DIR}/distances")
   set_tests_properties("distances" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
 endif()
+
+if(TARGET spectral_simplification AND TARGET spectral_simplify)
+  function(spectral_add_python_test name)
+    add_test(NAME "${name}" COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=$<TARGET_FILE_DIR:spectral_simplification>"
+                                    PYTHONDONTWRITEBYTECODE=1 "${SPECTRAL_PYTHON_EXECUTABLE}" ${ARGN})
+    set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT 600)
+  endfunction()
+  spectral_add_python_test("python" "${CMAKE_CURRENT_SOURCE_DIR}/python_test.py" $<TARGET_FILE:spectral_simplify>)
+endif()

@@ -1,0 +1,1287 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The module spectral_simplification: arrays of NumPy in, arrays out. What a user sees, signatures and texts of help(), is Python
+// and stands at the end; each function there hands its arguments to one here.
+
+#include "../programs/io/polygon_soup.h"
+#ifdef SPECTRAL_PYTHON_MATCH
+#include "../programs/matching/matcher.h"
+#endif
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <pybind11/eigen.h>
+#include <pybind11/eval.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <future>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+namespace SMS = CGAL::Surface_mesh_simplification;
+namespace SG = CGAL::Spectral_geometry;
+
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Eigen::Index;
+using std::to_string;
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& sentence)
+{
+  throw py::value_error(sentence);
+}
+
+std::string shown(const py::handle& value)
+{
+  return py::repr(value);
+}
+
+// The arguments of a function by name, each read with a sentence for what cannot be meant.
+class Arguments
+{
+public:
+  explicit Arguments(py::dict values)
+    : m_values(std::move(values))
+  {}
+
+  py::object operator[](const char* name) const { return m_values[name]; }
+  bool has(const char* name) const { return !(*this)[name].is_none(); }
+
+  [[noreturn]] void must_be(const char* name, const std::string& wanted, const bool is_type = false) const
+  {
+    const std::string sentence =
+        std::string(name) + " is " + shown((*this)[name]) + ", it must be " + wanted + ".";
+    if(is_type)
+      throw py::type_error(sentence);
+    throw py::value_error(sentence);
+  }
+
+  Index integer(const char* name, const Index least, const Index most = (std::numeric_limits<Index>::max)(),
+                const std::string& why = "") const
+  {
+    const py::object value = (*this)[name];
+    if(!PyIndex_Check(value.ptr()) || PyBool_Check(value.ptr()))
+      must_be(name, "an integer", true);
+    const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    int overflow = 0;
+    const long long result = index ? PyLong_AsLongLongAndOverflow(index.ptr(), &overflow) : 0;
+    if(PyErr_Occurred())
+      throw py::error_already_set();
+    if(overflow != 0 || result < least || result > most)
+      must_be(name, "an integer from " + to_string(least) +
+                        (most == (std::numeric_limits<Index>::max)() ? "" : " to " + to_string(most)) + why);
+    return Index(result);
+  }
+
+  int threads() const { return int(integer("threads", 1, 1024)); }
+
+  double number(const char* name, const double least, const bool itself = true,
+                const double most = std::numeric_limits<double>::infinity()) const
+  {
+    const py::object value = (*this)[name];
+    const double result = PyBool_Check(value.ptr()) ? -1 : PyFloat_AsDouble(value.ptr());
+    if(PyErr_Occurred() || PyBool_Check(value.ptr())) {
+      PyErr_Clear();
+      must_be(name, "a number", true);
+    }
+    const auto text = [](const double x) { return std::string(py::str(py::float_(x))); };
+    if(!(itself ? result >= least : result > least) || !(result <= most) || std::isinf(result))
+      must_be(name, (itself ? "a finite number from " : "a finite number above ") + text(least) +
+                        (std::isinf(most) ? "" : (itself ? " to " : " and up to ") + text(most)));
+    return result;
+  }
+
+  bool flag(const char* name) const
+  {
+    if(!py::isinstance<py::bool_>((*this)[name]))
+      must_be(name, "True or False", true);
+    return (*this)[name].cast<bool>();
+  }
+
+  // One of the words, or nothing where the argument is None and may be.
+  std::string word(const char* name, const std::vector<std::string>& words, const bool optional = false) const
+  {
+    std::string list = optional ? "None" : "";
+    for(const std::string& w : words)
+      list += (list.empty() ? "'" : w == words.back() ? " or '" : ", '") + w + "'";
+    if(optional && !has(name))
+      return "";
+    if(!py::isinstance<py::str>((*this)[name]))
+      must_be(name, list, true);
+    const std::string word = (*this)[name].cast<std::string>();
+    if(std::find(words.begin(), words.end(), word) == words.end())
+      must_be(name, list);
+    return word;
+  }
+
+  SG::Mass mass(const char* name = "mass") const
+  {
+    return word(name, {"lumped", "averaged"}) == "lumped" ? SG::Mass::lumped : SG::Mass::averaged;
+  }
+
+  // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is 0 for one dimension, -1 for any
+  // number of columns.
+  template <class Number>
+  py::array_t<Number> array(const char* name, const Index columns, const std::string& rows_of) const
+  {
+    constexpr bool real = std::is_floating_point<Number>::value;
+    const py::array array = py::module_::import("numpy").attr("asarray")((*this)[name]);
+    const std::string kinds = real ? "fiu" : "iu", label = name;
+    if(kinds.find(array.dtype().kind()) == std::string::npos && array.size() != 0)
+      throw py::type_error(label + " has the dtype " + std::string(py::str(array.dtype())) +
+                           ", it must hold " +
+                           (real ? "real numbers: pass float64." : "integers: pass int32 or int64."));
+    if(array.ndim() != (columns == 0 ? 1 : 2) || (columns > 0 && array.shape(1) != columns))
+      refuse(label + " has the shape " + shown(array.attr("shape")) + ", it must be " +
+             (columns == 0  ? "(n,)"
+              : columns < 0 ? "(n, k)"
+                            : "(n, " + to_string(columns) + ")") +
+             ", one row for each " + rows_of + ".");
+    if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real)
+      return py::array_t<Number>(py::array(array.attr("astype")("int64", py::arg("casting") = "unsafe")));
+    return py::array_t<Number>(array);
+  }
+
+  // Indices in [0, n).
+  std::vector<std::size_t> indices(const char* name, const std::size_t n, const std::string& of) const
+  {
+    const auto values = array<std::int64_t>(name, 0, "vertex");
+    std::vector<std::size_t> result;
+    for(py::ssize_t i = 0; i < values.size(); ++i) {
+      if(values.at(i) < 0 || values.at(i) >= std::int64_t(n))
+        refuse(std::string(name) + "[" + to_string(i) + "] is " + to_string(values.at(i)) + ", but " + of +
+               " has " + to_string(n) + " vertices: they are counted from 0.");
+      result.push_back(std::size_t(values.at(i)));
+    }
+    return result;
+  }
+
+  // A finite matrix.
+  Eigen::MatrixXd matrix(const char* name, const Index rows, const std::string& of) const
+  {
+    const auto values = array<double>(name, -1, "vertex");
+    if(values.shape(0) != rows)
+      refuse(std::string(name) + " has " + to_string(values.shape(0)) + " rows, but " + of + " has " +
+             to_string(rows) + " vertices: give one row for each.");
+    Eigen::MatrixXd result = values.template cast<Eigen::MatrixXd>();
+    for(Index i = 0; i < result.rows(); ++i)
+      for(Index j = 0; j < result.cols(); ++j)
+        if(!std::isfinite(result(i, j)))
+          refuse(std::string(name) + "[" + to_string(i) + ", " + to_string(j) + "] is not a finite number.");
+    return result;
+  }
+
+  SG::Mesh_matrices mesh(const char* positions, const char* faces) const
+  {
+    SG::Mesh_matrices result;
+    result.V = array<double>(positions, 3, "vertex").template cast<Eigen::MatrixXd>();
+    const auto f = array<std::int64_t>(faces, 3, "triangle");
+    const std::int64_t n = result.V.rows();
+    if(n > (std::numeric_limits<int>::max)())
+      refuse(std::string(positions) + " has more vertices than 31 bits count.");
+    result.T.resize(f.shape(0), 3);
+    for(py::ssize_t i = 0; i < f.shape(0); ++i)
+      for(py::ssize_t j = 0; j < 3; ++j) {
+        const std::int64_t v = f.at(i, j);
+        if(v < 0 || v >= n)
+          refuse(std::string(faces) + "[" + to_string(i) + ", " + to_string(j) + "] is " + to_string(v) +
+                 ", but " + positions + " has " + to_string(n) + " vertices: they are counted from 0.");
+        result.T(i, j) = int(v);
+      }
+    return result;
+  }
+
+  // P, of any format of SciPy's.
+  Eigen::SparseMatrix<double> sparse(const char* name, const Index rows, const Index columns) const
+  {
+    const py::module_ scipy = py::module_::import("scipy.sparse");
+    const py::object value = (*this)[name];
+    if(!scipy.attr("issparse")(value).cast<bool>())
+      throw py::type_error(std::string(name) + " is of the type " +
+                           std::string(py::str(py::type::of(value).attr("__name__"))) +
+                           ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
+    if(value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows ||
+       value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
+      refuse(std::string(name) + " has the shape " + shown(value.attr("shape")) + ", it must be (" +
+             to_string(rows) + ", " + to_string(columns) + "), coarse x fine vertices.");
+    py::object matrix = scipy.attr("csc_matrix")(value, py::arg("dtype") = "float64");
+    if(!matrix.attr("has_canonical_format").cast<bool>()) {
+      matrix = matrix.attr("copy")();
+      matrix.attr("sum_duplicates")();
+    }
+    auto result = matrix.cast<Eigen::SparseMatrix<double>>();
+    for(Index j = 0; j < result.cols(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(result, j); it; ++it)
+        if(!std::isfinite(it.value()))
+          refuse(std::string(name) + "[" + to_string(it.row()) + ", " + to_string(j) +
+                 "] is not a finite number.");
+    return result;
+  }
+
+private:
+  py::dict m_values;
+};
+
+// Between a computation, which has no GIL, and Python: asks for signals and calls the callback twenty times a second and at the
+// begin of each phase. May be asked by several threads.
+class Watch
+{
+public:
+  explicit Watch(const Arguments& a)
+    : m_callback(a["progress"])
+  {
+    if(!m_callback.is_none() && !PyCallable_Check(m_callback.ptr()))
+      a.must_be("progress", "None or a function of a phase and a fraction", true);
+  }
+
+  // False to stop.
+  bool operator()(const char* phase, const double fraction)
+  {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+    constexpr auto pause =
+        std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::milliseconds(50))
+            .count();
+    if(m_stopped || (m_phase == phase && now - m_last < pause))
+      return !m_stopped;
+    const py::gil_scoped_acquire gil;
+    if(m_stopped)
+      return false;
+    m_phase = phase;
+    m_last = now;
+    try {
+      if(PyErr_CheckSignals() != 0)
+        throw py::error_already_set();
+      if(!m_callback.is_none()) {
+        const py::object answer = m_callback(phase, fraction);
+        m_stopped = !answer.is_none() && !answer.cast<bool>();
+      }
+    } catch(...) {
+      m_error = std::current_exception();
+      m_stopped = true;
+    }
+    return !m_stopped;
+  }
+
+  // What `work` returns, which does without the GIL. Throws what stopped it.
+  template <class Work>
+  auto run(const Work& work)
+  {
+    std::optional<decltype(work())> result;
+    try {
+      const py::gil_scoped_release no_gil;
+      result = work();
+    } catch(...) {
+      stop();
+      throw;
+    }
+    stop();
+    return std::move(*result);
+  }
+
+private:
+  void stop() const
+  {
+    if(m_error)
+      std::rethrow_exception(m_error);
+    if(m_stopped)
+      throw SG::Cancelled();
+  }
+
+  py::object m_callback;
+  std::exception_ptr m_error;
+  std::atomic<bool> m_stopped{false};
+  std::atomic<const char*> m_phase{nullptr};
+  std::atomic<std::chrono::steady_clock::rep> m_last{0};
+};
+
+// The library speaks of a mesh; here there may be two.
+SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const double theta, const char* names)
+{
+  try {
+    return SG::laplace_operator(mesh.V, mesh.T, theta);
+  } catch(const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(names) + ": " + error.what());
+  }
+}
+
+// Memory of `owner` as an array that may be read.
+template <class Matrix>
+py::array view(const Matrix& matrix, const py::object& owner)
+{
+  constexpr auto size = py::ssize_t(sizeof(typename Matrix::Scalar));
+  py::array result = Matrix::ColsAtCompileTime == 1
+                         ? py::array(py::dtype::of<double>(), {matrix.size()}, {size}, matrix.data(), owner)
+                         : py::array(py::dtype::of<double>(), {matrix.rows(), matrix.cols()},
+                                     {size, size * matrix.rows()}, matrix.data(), owner);
+  result.attr("setflags")(py::arg("write") = false);
+  return result;
+}
+
+py::object csr(const Eigen::SparseMatrix<double>& matrix)
+{
+  return py::cast(Eigen::SparseMatrix<double, Eigen::RowMajor>(matrix));
+}
+
+template <class T>
+py::array array_of(const std::vector<T>& values)
+{
+  py::array_t<std::int64_t> result(py::ssize_t(values.size()));
+  std::copy(values.begin(), values.end(), result.mutable_data());
+  return result;
+}
+
+struct Pairs
+{
+  std::shared_ptr<const SG::Eigenpairs> pairs;
+  std::shared_ptr<const SG::Laplace_operator> op;
+  std::string mass;
+};
+
+struct Fitted_pairs : Pairs
+{
+  SG::Operator_fit_result fit; // without its operator
+};
+
+const Pairs& pairs_of(const Arguments& a, const char* name)
+{
+  if(!py::isinstance<Pairs>(a[name]))
+    throw py::type_error(std::string(name) + " is of the type " +
+                         std::string(py::str(py::type::of(a[name]).attr("__name__"))) +
+                         ", it must be Eigenpairs: pass what eigenpairs() returns.");
+  return a[name].cast<const Pairs&>();
+}
+
+void check_rows(const Pairs& pairs, const char* name, const Index n, const char* of)
+{
+  if(pairs.op->L.rows() != n)
+    refuse(std::string(name) + " are of " + to_string(pairs.op->L.rows()) + " vertices, but " + of + " has " +
+           to_string(n) + ": pass the eigenpairs of that mesh.");
+}
+
+SG::Eigenpairs first_pairs(const SG::Eigenpairs& all, const Index k)
+{
+  SG::Eigenpairs result;
+  result.values = all.values.head(k);
+  result.vectors = all.vectors.leftCols(k);
+  result.residuals = all.residuals.head((std::min)(k, all.residuals.size()));
+  result.solver = all.solver;
+  result.complete = all.complete;
+  result.zeros = all.zeros;
+  return result;
+}
+
+Pairs eigenpairs(const Arguments& a)
+{
+  const SG::Mesh_matrices mesh = a.mesh("V", "F");
+  const Index k = a.integer("k", 1, mesh.V.rows());
+  const SG::Mass mass = a.mass();
+  Watch watch(a);
+  SG::Eigenpairs_options options;
+  options.tolerance = a.number("tolerance", 0, false, 0.5);
+  options.threads = a.threads();
+  options.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
+  return watch.run([&] {
+    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, SG::mass_blend(mass), "V, F"));
+    auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
+    return Pairs{std::move(pairs), std::move(op), SG::mass_name(mass)};
+  });
+}
+
+// A simplified mesh.
+struct Level
+{
+  std::shared_ptr<const SG::Mesh_matrices> fine;
+  SG::Mesh_matrices coarse;
+  py::array V, F, vertex_map;
+  py::object P, Q; // Q when somebody asks for it
+
+  Level(std::shared_ptr<const SG::Mesh_matrices> fine_mesh, SG::Mesh_matrices mesh,
+        const Eigen::SparseMatrix<double>& restriction, const std::vector<std::size_t>& map)
+    : fine(std::move(fine_mesh))
+    , coarse(std::move(mesh))
+    , V(py::cast(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>(coarse.V)))
+    , F(py::cast(Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>(coarse.T)))
+    , vertex_map(array_of(map))
+    , P(csr(restriction))
+  {}
+
+  py::object prolongation()
+  {
+    if(!Q) {
+      Eigen::SparseMatrix<double> matrix;
+      {
+        const py::gil_scoped_release no_gil;
+        matrix = SG::closest_point_interpolation(fine->V, coarse);
+      }
+      Q = csr(matrix);
+    }
+    return Q;
+  }
+};
+
+Mesh surface_mesh(const SG::Mesh_matrices& matrices)
+{
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  for(Index v = 0; v < matrices.V.rows(); ++v)
+    points.emplace_back(matrices.V(v, 0), matrices.V(v, 1), matrices.V(v, 2));
+  for(Index f = 0; f < matrices.T.rows(); ++f)
+    polygons.push_back(
+        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
+  Mesh mesh;
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  return mesh;
+}
+
+SG::Mesh_diagnosis checked(const SG::Mesh_matrices& matrices, const std::string& names)
+{
+  std::vector<std::vector<std::size_t>> polygons;
+  for(Index f = 0; f < matrices.T.rows(); ++f)
+    polygons.push_back(
+        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
+  SG::Mesh_diagnosis diagnosis = SG::diagnose_polygon_soup(matrices.V, polygons);
+  const std::vector<std::string> obstacles = diagnosis.obstacles();
+  if(!obstacles.empty())
+    refuse(names + " cannot be used as they are: " + obstacles.front() + ".");
+  if(matrices.T.rows() == 0)
+    refuse(names + " cannot be used as they are: there are no faces.");
+  return diagnosis;
+}
+
+struct Simplification : Level
+{
+  using Level::Level;
+
+  SMS::Collapse_log log;
+  py::object eigenpairs;
+  py::dict report;
+
+  // One record for each collapse.
+  py::array collapses() const
+  {
+    py::list columns;
+    const auto& merges = log.forest().merges();
+    std::vector<Index> removed, kept;
+    py::array_t<double> alpha(py::ssize_t(merges.size())),
+        point({py::ssize_t(merges.size()), py::ssize_t(3)});
+    for(std::size_t i = 0; i < merges.size(); ++i) {
+      removed.push_back(merges[i].removed);
+      kept.push_back(merges[i].kept);
+      alpha.mutable_at(i) = merges[i].alpha;
+      for(Index j = 0; j < 3; ++j)
+        point.mutable_at(i, j) = log.points()[i][j];
+    }
+    const py::module_ numpy = py::module_::import("numpy");
+    py::object result = numpy.attr("empty")(
+        merges.size(), py::eval("[('removed', 'i8'), ('kept', 'i8'), ('alpha', 'f8'), ('point', 'f8', 3)]"));
+    result["removed"] = array_of(removed);
+    result["kept"] = array_of(kept);
+    result["alpha"] = alpha;
+    result["point"] = point;
+    return result;
+  }
+
+  Level level(const py::object& n) const
+  {
+    py::dict values;
+    values["n"] = n;
+    const std::size_t N = std::size_t(Arguments(values).integer("n", Index(log.number_of_vertices_left()),
+                                                                Index(log.number_of_vertices()),
+                                                                ", the vertices of the levels of this run"));
+    SG::Mesh_matrices mesh;
+    Eigen::SparseMatrix<double> restriction;
+    std::vector<std::size_t> map;
+    {
+      const py::gil_scoped_release no_gil;
+      Mesh copy = surface_mesh(*fine);
+      SMS::Collapse_replay<Mesh> replay(copy, log);
+      replay.collapse_to(N);
+      mesh = SG::mesh_matrices(copy);
+      restriction = replay.restriction();
+      map = replay.vertex_map();
+    }
+    return Level(fine, std::move(mesh), restriction, map);
+  }
+};
+
+const char* phase_name(const SMS::Spectral_phase phase)
+{
+  switch(phase) {
+  case SMS::Spectral_phase::pre_simplification:
+    return "pre_simplification";
+  case SMS::Spectral_phase::eigenpairs:
+    return "eigenpairs";
+  case SMS::Spectral_phase::first_costs:
+    return "first_costs";
+  case SMS::Spectral_phase::flips:
+    return "flips";
+  case SMS::Spectral_phase::relocation:
+    return "relocation";
+  case SMS::Spectral_phase::collapses:
+    break;
+  }
+  return "collapses";
+}
+
+// The preset and what overrides it.
+SMS::Spectral_edge_collapse_options preset_options(const Arguments& a)
+{
+  using Options = SMS::Spectral_edge_collapse_options;
+  using Signals = SG::Relocation_options::Signals;
+  Options options = a.word("preset", {"best", "paper"}) == "paper" ? Options::paper() : Options::best();
+  const std::string placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
+  if(!placement.empty())
+    options.placement = placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
+                        : placement == "free"   ? SMS::Spectral_placement_strategy::free
+                                                : SMS::Spectral_placement_strategy::on_edge;
+  if(a.has("mass"))
+    options.mass = a.mass();
+  if(a.has("shape"))
+    options.shape = a.number("shape", 0);
+  if(a.has("self_intersections"))
+    options.keep_free_of_self_intersections = a.word("self_intersections", {"allow", "refuse"}) == "refuse";
+  const std::string relocate =
+      a.word("relocate", {"none", "sampled", "carried", "carried_and_sampled"}, true);
+  if(!relocate.empty()) {
+    options.relocate = relocate != "none";
+    options.relocation.signals = relocate == "carried"   ? Signals::carried
+                                 : relocate == "sampled" ? Signals::sampled
+                                                         : Signals::carried_and_sampled;
+  }
+  options.binary = a.flag("binary");
+  if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)
+    refuse(
+        "binary asks for a P of ones and zeros, and relocation by the closest points makes another one: pass "
+        "relocate='none' or relocate='carried'.");
+  options.preserve_border = a.flag("preserve_border");
+  const std::string flips = a.word("flips", {"none", "spectral", "delaunay"});
+  options.flips = flips == "spectral"   ? SG::Edge_flips::spectral
+                  : flips == "delaunay" ? SG::Edge_flips::delaunay
+                                        : SG::Edge_flips::none;
+  options.threads = a.threads();
+  if(a.has("max_error"))
+    options.maximum_error = a.number("max_error", 0, false);
+  return options;
+}
+
+// What the collapses are to keep: eigenvectors that are to be computed, those that are given, or signals.
+void set_signals(const Arguments& a, const Index n, const Index target,
+                 SMS::Spectral_edge_collapse_options& options)
+{
+  options.number_of_eigenvectors = a.integer("k", 1, n - 1, ", one less than V has vertices");
+  const Index k = options.number_of_eigenvectors;
+  options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
+  const Index first = Index(options.pre_simplify);
+  if(first > 0 && (first < target || first <= k))
+    refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " + to_string(target) +
+           ", and above k, which is " + to_string(k) + ".");
+  if(a.has("signals") + a.has("eigenpairs") + (first > 0) > 1)
+    refuse("of signals, eigenpairs and pre_simplify only one can be given.");
+  if(a.has("signals")) {
+    options.signals = a.matrix("signals", n, "V");
+    if(options.signals.cols() == 0 || (k != 100 && k != options.signals.cols()))
+      refuse("signals has " + to_string(options.signals.cols()) + " columns, which replace the k = " +
+             to_string(k) + " eigenvectors: leave out k and give one column at least.");
+  }
+  if(!a.has("eigenpairs"))
+    return;
+  const Pairs& given = pairs_of(a, "eigenpairs");
+  check_rows(given, "eigenpairs", n, "V");
+  if(given.mass != SG::mass_name(options.mass))
+    refuse("eigenpairs are of the " + given.mass + " mass, but this run is of the " +
+           SG::mass_name(options.mass) + " one: pass mass='" + given.mass + "'.");
+  if(given.pairs->size() < k)
+    refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
+           ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
+  options.eigenpairs =
+      given.pairs->size() == k ? given.pairs : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
+}
+
+// With the names of spectral_simplify's --json.
+py::dict report(const Arguments& a, const SMS::Spectral_edge_collapse_options& o,
+                const SMS::Spectral_edge_collapse_result& r)
+{
+  using py::arg;
+  py::dict relocation;
+  if(o.relocate) {
+    const SG::Relocation_result& x = r.relocation;
+    relocation =
+        py::dict(arg("signals") = SG::relocation_signals_name(o.relocation.signals), arg("steps") = x.steps,
+                 arg("stop_reason") = x.stop_reason_name(), arg("moved_vertices") = x.moved_vertices,
+                 arg("reverted_vertices") = x.reverted_vertices,
+                 arg("held_vertices") =
+                     py::dict(arg("fixed") = x.held.fixed, arg("trust") = x.held.trust,
+                              arg("boundary") = x.held.boundary, arg("sheet") = x.held.sheet,
+                              arg("distance") = x.held.distance, arg("triangles") = x.held.triangles),
+                 arg("E_before") = x.E_before, arg("E_after") = x.E_after, arg("seconds") = x.seconds);
+  }
+  py::dict result(
+      arg("input_vertices") = r.input_vertices, arg("output_vertices") = r.output_vertices,
+      arg("preset") = a["preset"], arg("eigenvectors") = o.number_of_eigenvectors,
+      arg("mass") = SG::mass_name(o.mass), arg("placement") = SMS::placement_name(o.placement),
+      arg("shape") = o.shape, arg("keep_free_of_self_intersections") = o.keep_free_of_self_intersections,
+      arg("binary") = o.binary, arg("max_error") = a["max_error"],
+      arg("kept_vertices") = o.kept_vertices.size(), arg("signals") = o.signals.cols(),
+      arg("flips") = SG::edge_flips_name(o.flips), arg("flipped_edges") = r.flips.flips.size(),
+      arg("relative_error") = r.relative_error, arg("stop_reason") = r.stop_reason_name(),
+      arg("explanation") = r.explanation, arg("warnings") = r.warnings,
+      arg("refusals") = py::dict(arg("topology") = r.refusals.topology, arg("geometry") = r.refusals.geometry,
+                                 arg("filter") = r.refusals.filter, arg("placement") = r.refusals.placement),
+      arg("seconds_pre_simplification") = r.seconds_pre_simplification,
+      arg("seconds_eigenpairs") = r.seconds_eigenpairs, arg("seconds_collapse") = r.seconds_collapse,
+      arg("seconds_flips") = r.seconds_flips, arg("seconds_relocation") = r.seconds_relocation,
+      arg("seconds_total") = r.seconds_total);
+  result["relocation"] = o.relocate ? py::object(relocation) : py::none();
+  return result;
+}
+
+void warn(const std::string& sentence)
+{
+  // Two frames up: past the function that called this one.
+  if(PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 2) != 0)
+    throw py::error_already_set();
+}
+
+Simplification simplify(const Arguments& a)
+{
+  auto fine = std::make_shared<const SG::Mesh_matrices>(a.mesh("V", "F"));
+  const Index vertices = fine->V.rows();
+  const SG::Mesh_diagnosis diagnosis = checked(*fine, "V, F");
+  const Index n = a.integer("n", 1, vertices, ", as many as V has");
+  SMS::Spectral_edge_collapse_options options = preset_options(a);
+  set_signals(a, vertices, n, options);
+  if(a.has("keep"))
+    options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
+  Watch watch(a);
+  options.progress = [&](const SMS::Spectral_progress& progress) {
+    return watch(phase_name(progress.phase), progress.fraction);
+  };
+  struct Run
+  {
+    SMS::Spectral_edge_collapse_result result;
+    SG::Mesh_matrices coarse;
+    std::shared_ptr<const SG::Laplace_operator> op;
+  };
+  Run run = watch.run([&] {
+    Run run;
+    Mesh mesh = surface_mesh(*fine);
+    run.result = SMS::spectral_edge_collapse(mesh, std::size_t(n), options);
+    run.coarse = SG::mesh_matrices(mesh);
+    if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
+      run.op =
+          std::make_shared<SG::Laplace_operator>(operator_of(*fine, SG::mass_blend(options.mass), "V, F"));
+    return run;
+  });
+  const auto k =
+      std::size_t(options.signals.size() != 0 ? options.signals.cols() : options.number_of_eigenvectors);
+  for(const std::string& warning : diagnosis.warnings(k, std::size_t(n)))
+    run.result.warnings.push_back(warning);
+  Simplification result(std::move(fine), std::move(run.coarse), run.result.restriction,
+                        run.result.vertex_map);
+  result.report = report(a, options, run.result);
+  result.eigenpairs = py::none();
+  if(a.has("eigenpairs"))
+    result.eigenpairs = a["eigenpairs"];
+  else if(run.op)
+    result.eigenpairs = py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)});
+  result.log = std::move(run.result.log);
+  for(const std::string& warning : run.result.warnings)
+    warn(warning);
+  if(!run.result.explanation.empty())
+    warn(run.result.explanation);
+  return result;
+}
+
+// How well the spectrum was kept, with tight pairs; a tenth more coarse modes tells loss from exchange at the cut.
+SG::Spectral_evaluation evaluate(const Arguments& a)
+{
+  const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
+  const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
+  const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
+  const SG::Mass mass = a.mass();
+  std::optional<Pairs> given, fitted;
+  if(a.has("eigenpairs")) {
+    given = pairs_of(a, "eigenpairs");
+    check_rows(*given, "eigenpairs", n, "V");
+    if(given->mass != SG::mass_name(mass))
+      refuse("eigenpairs are of the " + given->mass + " mass, but mass is '" + SG::mass_name(mass) +
+             "': pass mass='" + given->mass + "'.");
+    if(given->pairs->size() < k)
+      refuse("eigenpairs are " + to_string(given->pairs->size()) + ", but k is " + to_string(k) +
+             ": pass k=" + to_string(given->pairs->size()) + ", or compute more.");
+  }
+  if(a.has("operators")) {
+    if(!py::isinstance<Fitted_pairs>(a["operators"]))
+      throw py::type_error("operators must be Fitted_operators: pass what fit_operators() returns.");
+    fitted = pairs_of(a, "operators");
+    check_rows(*fitted, "operators", N, "Vc");
+    if(fitted->pairs->size() < (std::min)(k, N))
+      refuse("operators have " + to_string(fitted->pairs->size()) + " eigenpairs, but k is " + to_string(k) +
+             ": ask fit_operators() for more.");
+  }
+  Watch watch(a);
+  SG::Eigenpairs_options options;
+  options.threads = a.threads();
+  options.progress = [&](const double fraction) { return watch("evaluation", fraction); };
+  return watch.run([&] {
+    const double theta = SG::mass_blend(mass);
+    const SG::Laplace_operator fine_op = operator_of(fine, theta, "V, F");
+    if(given && (fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm())
+      throw std::invalid_argument("eigenpairs are those of another mesh: compute them of V, F.");
+    const SG::Laplace_operator coarse_op = fitted ? *fitted->op : operator_of(coarse, theta, "Vc, Fc");
+    const SG::Eigenpairs fine_pairs = given ? *given->pairs : SG::eigenpairs(fine_op, k, options);
+    const SG::Eigenpairs coarse_pairs =
+        fitted ? *fitted->pairs : SG::eigenpairs(coarse_op, (std::min)(N, k + (k + 9) / 10), options);
+    return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
+  });
+}
+
+Fitted_pairs fit_operators(const Arguments& a)
+{
+  const SG::Mesh_matrices coarse = a.mesh("Vc", "Fc");
+  const Pairs fine = pairs_of(a, "eigenpairs");
+  const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.op->L.rows());
+  const Index k =
+      a.has("k") ? a.integer("k", 1, coarse.V.rows()) : (std::min)(fine.pairs->size(), coarse.V.rows());
+  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
+  SG::Operator_fit_options options;
+  const std::string mass = a.word("mass", {"diagonal", "edges"}, true);
+  options.mass = mass == "diagonal" || (mass.empty() && fine.mass == "lumped") ? Mass_pattern::diagonal
+                                                                               : Mass_pattern::edges;
+  // On edges alone a diagonal mass is at the expense of the low modes.
+  options.rings = a.has("rings")                           ? int(a.integer("rings", 1, 2))
+                  : options.mass == Mass_pattern::diagonal ? 2
+                                                           : 1;
+  options.low_modes = a.number("low_modes", 0);
+  options.orthonormality = a.number("orthonormality", 0);
+  options.plain = a.number("plain", 0);
+  Watch watch(a);
+  options.progress = [&](const double fraction) { return watch("fit", fraction); };
+  SG::Eigenpairs_options solver;
+  solver.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
+  return watch.run([&] {
+    Fitted_pairs result;
+    result.fit =
+        SG::fit_operators(operator_of(coarse, fine.op->theta, "Vc, Fc"), P, *fine.op, *fine.pairs, options);
+    result.op = std::make_shared<SG::Laplace_operator>(std::move(result.fit.op));
+    result.pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*result.op, k, solver));
+    result.mass = options.mass == Mass_pattern::diagonal ? "diagonal" : "edges";
+    return result;
+  });
+}
+
+Eigen::MatrixXd functional_map(const Arguments& a)
+{
+  const Pairs fine = pairs_of(a, "eigenpairs"), coarse = pairs_of(a, "coarse_eigenpairs");
+  const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.op->L.rows(), fine.op->L.rows());
+  const py::gil_scoped_release no_gil;
+  return SG::functional_map(coarse.pairs->vectors, coarse.op->B, P, fine.pairs->vectors);
+}
+
+// One source or several.
+std::vector<Index> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
+{
+  const auto n = std::size_t(pairs.vectors.rows());
+  if(PyIndex_Check(a["sources"].ptr()) &&
+     py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0)
+    return {a.integer("sources", 0, Index(n) - 1, ", a vertex")};
+  const std::vector<std::size_t> sources = a.indices("sources", n, "the mesh");
+  return std::vector<Index>(sources.begin(), sources.end());
+}
+
+SG::Wave_kernel_energies energies_of(const Arguments& a, const SG::Eigenpairs& pairs)
+{
+  if(!a.has("energies"))
+    return SG::wave_kernel_energies(pairs);
+  try {
+    const auto e = a["energies"].cast<std::tuple<double, double, double, Index>>();
+    return {std::get<0>(e), std::get<1>(e), std::get<2>(e), std::get<3>(e)};
+  } catch(const py::cast_error&) {
+    a.must_be("energies", "(t_min, t_max, sigma, steps), see wave_kernel_energies()", true);
+  }
+}
+
+py::object distances(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  const SG::Eigenpairs& pairs = *given.pairs;
+  const std::vector<Index> sources = sources_of(a, pairs);
+  const std::string kind = a.word("kind", {"diffusion", "biharmonic", "commute_time", "wave_kernel"});
+  for(const auto& [name, of] :
+      {std::make_pair("time", "diffusion"), std::make_pair("energies", "wave_kernel")})
+    if(a.has(name) && kind != of)
+      refuse(std::string(name) + " belongs to the kind '" + of + "', but the kind is '" + kind +
+             "': leave it out.");
+  const double time = kind != "diffusion" ? 0
+                      : a.has("time")     ? a.number("time", 0)
+                                          : SG::default_diffusion_time(pairs);
+  const SG::Wave_kernel_energies energies =
+      kind == "wave_kernel" ? energies_of(a, pairs) : SG::Wave_kernel_energies{0, 0, 1, 2};
+  Eigen::MatrixXd result;
+  {
+    const py::gil_scoped_release no_gil;
+    result = kind == "diffusion"      ? SG::squared_diffusion_distance(pairs, sources, time)
+             : kind == "biharmonic"   ? SG::squared_biharmonic_distance(pairs, sources)
+             : kind == "commute_time" ? SG::squared_commute_time_distance(pairs, sources)
+                                      : SG::wave_kernel_distance(pairs, sources, energies);
+  }
+  const bool one = PyIndex_Check(a["sources"].ptr()) && sources.size() == 1 &&
+                   py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0;
+  return one ? py::cast(Eigen::VectorXd(result.col(0))) : py::cast(std::move(result));
+}
+
+Eigen::MatrixXd heat_kernel_signature(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  if(!a.has("times"))
+    return SG::heat_kernel_signature(*given.pairs);
+  return SG::heat_kernel_signature(
+      *given.pairs, Eigen::VectorXd(a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()));
+}
+
+Eigen::MatrixXd wave_kernel_signature(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  return SG::wave_kernel_signature(*given.pairs, energies_of(a, *given.pairs));
+}
+
+py::tuple wave_kernel_energies(const Arguments& a)
+{
+  const SG::Wave_kernel_energies e =
+      SG::wave_kernel_energies(*pairs_of(a, "eigenpairs").pairs, a.integer("steps", 1, 1000000));
+  return py::make_tuple(e.t_min, e.t_max, e.sigma, e.steps);
+}
+
+#ifdef SPECTRAL_PYTHON_MATCH
+struct Matched
+{
+  py::array map;
+  Eigen::MatrixXd C;
+  double condition, relative_residual;
+};
+
+// f for X beside f for Y, with more than one thread.
+template <class Function_X, class Function_Y>
+auto side_by_side(const int threads, const Function_X& for_X, const Function_Y& for_Y)
+{
+  auto x = std::async(threads > 1 ? std::launch::async : std::launch::deferred, for_X);
+  auto y = for_Y();
+  return std::make_pair(x.get(), std::move(y));
+}
+
+// What the program shape_matching does.
+Matched match(const Arguments& a)
+{
+  const SG::Mesh_matrices X = a.mesh("VX", "FX"), Y = a.mesh("VY", "FY");
+  checked(X, "VX, FX");
+  checked(Y, "VY, FY");
+  const Index n = a.integer("n", 4, (std::min)(X.V.rows(), Y.V.rows()), ", the vertices of the smaller mesh");
+  const SG::Mass mass = a.mass();
+  Matching_options options;
+  options.modes = a.integer("k", 10, n, ", which is n");
+  options.initial_modes = a.integer("initial", 4, 60);
+  options.filter_iterations = int(a.integer("filter_iterations", 0, 1000));
+  options.fine_iterations = int(a.integer("fine_iterations", 0, 1000));
+  options.local_weight = a.number("local_weight", 0, true, 100);
+  options.threads = a.threads();
+  const std::string proxy = a.word("proxy", {"spectral", "garland_heckbert", "none"});
+  Landmarks landmarks;
+  if(a.has("landmarks")) {
+    const auto rows = a.array<std::int64_t>("landmarks", 2, "pair of vertices");
+    for(py::ssize_t i = 0; i < rows.shape(0); ++i) {
+      for(int side = 0; side < 2; ++side)
+        if(rows.at(i, side) < 0 || rows.at(i, side) >= (side == 0 ? X : Y).V.rows())
+          refuse("landmarks[" + to_string(i) + ", " + to_string(side) + "] is " +
+                 to_string(rows.at(i, side)) + ", but " + (side == 0 ? "VX" : "VY") + " has " +
+                 to_string((side == 0 ? X : Y).V.rows()) + " vertices: they are counted from 0.");
+      landmarks.emplace_back(rows.at(i, 0), rows.at(i, 1));
+    }
+  }
+  Watch watch(a);
+  const Match match = watch.run([&] {
+    const auto going = [&](const char* phase, const double fraction) {
+      return Keep_going([&watch, phase, fraction] { return watch(phase, fraction); });
+    };
+    const auto shape = [&](const SG::Mesh_matrices& mesh) {
+      return make_shape(mesh, options.modes, mass, going("eigenpairs", 0));
+    };
+    const auto [x, y] = side_by_side(
+        options.threads, [&] { return shape(X); }, [&] { return shape(Y); });
+    if(proxy == "none")
+      return match_directly(x, y, landmarks, options, going("match", 0.5));
+    const auto kind = proxy == "spectral" ? Proxy_kind::spectral : Proxy_kind::garland_heckbert;
+    const auto coarse = [&](const Shape& fine) {
+      return make_proxy(surface_mesh(fine.matrices), fine, kind, std::size_t(n), options.modes, mass,
+                        going("proxies", 1. / 3));
+    };
+    const Shape &fine_X = x, &fine_Y = y;
+    const auto [coarse_X, coarse_Y] = side_by_side(
+        options.threads, [&] { return coarse(fine_X); }, [&] { return coarse(fine_Y); });
+    return match_over_proxies(x, coarse_X, y, coarse_Y, landmarks, options, going("match", 2. / 3));
+  });
+  return {array_of(match.map), match.C, match.condition, match.relative_residual};
+}
+#endif
+
+// What a user sees.
+constexpr const char* interface = R"py(
+from collections.abc import Callable, Sequence
+import numpy
+import scipy.sparse
+
+Progress = Callable[[str, float], bool | None]
+
+
+def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: str = 'best', *,
+             mass: str | None = None, placement: str | None = None, shape: float | None = None,
+             self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
+             keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
+             signals: numpy.ndarray | None = None, eigenpairs: 'Eigenpairs | None' = None,
+             pre_simplify: int = 0, max_error: float | None = None, threads: int = 1,
+             progress: Progress | None = None) -> 'Simplification':
+    """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
+
+    V          (v, 3) real numbers, positions in any unit of length
+    F          (f, 3) integers, the corners of the triangles, counted from 0: an oriented manifold, with or
+               without border, in which each vertex has a face
+    n          how many vertices are left; 3 k or more, a warning says so
+    k          how many eigenvectors are kept, the constant one included; below v
+    preset     'best': what keeps the spectrum best; 'paper': what the paper describes (Lescoat et al.,
+               Spectral Mesh Simplification, 2020). Each of the next five overrides it
+    mass       'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
+               eigenvalues of coarse meshes much closer
+    placement  'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
+    shape      weight of the shape beside the spectrum (best: 3, paper: 0)
+    self_intersections
+               'allow' (paper) or 'refuse' (best) collapses that put a face through another
+    relocate   'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
+               afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
+    flips      'none', 'spectral' or 'delaunay': which edges are flipped before that
+    keep       indices of vertices of V that stay where they are; vertex_map says where they went
+    binary     P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
+    preserve_border
+               no edge is drawn away from the border
+    signals    (v, s) real numbers, functions to keep instead of eigenvectors; leave out k then
+    eigenpairs what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
+    pre_simplify
+               first reduce a larger mesh to this number of vertices with plane quadrics; 0: do not
+    max_error  stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum
+               closely, 0.14 well
+    threads    for eigenpairs, costs and relocation; the result does not depend on it
+    progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
+               Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
+
+    Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first thing that is
+    wrong. What is done but not advised is a UserWarning, and so is a run that ends above n."""
+    return _simplify(locals())
+
+
+def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
+               threads: int = 1, progress: Progress | None = None) -> 'Eigenpairs':
+    """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
+    an inverse area.
+
+    V, F       as of simplify(), but faces need not form a manifold
+    k          from 1 to v
+    mass       'lumped' or 'averaged'
+    tolerance  relative accuracy of the solver; a run of simplify() has pairs of 1e-8
+    threads, progress
+               as of simplify()"""
+    return _eigenpairs(locals())
+
+
+def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
+             k: int = 100, mass: str = 'averaged', *, eigenpairs: 'Eigenpairs | None' = None,
+             operators: 'Fitted_operators | None' = None, threads: int = 1,
+             progress: Progress | None = None) -> 'Evaluation':
+    """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
+    meshes at unit area; compare figures of one mass only.
+
+    V, F       the fine mesh
+    Vc, Fc     the coarse mesh
+    P          (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1
+    k          modes to judge
+    mass       'lumped' or 'averaged', of both operators
+    eigenpairs of the fine mesh in that mass, k or more, to save the solve
+    operators  what fit_operators() returned, in the place of the coarse mesh's own operators
+    threads, progress
+               as of simplify()"""
+    return _evaluate(locals())
+
+
+def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: 'Eigenpairs',
+                  k: int | None = None, mass: str | None = None, rings: int | None = None, *,
+                  low_modes: float = 2.5, orthonormality: float = 0.01, plain: float = 0.2,
+                  progress: Progress | None = None) -> 'Fitted_operators':
+    """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of the fine
+    one as nearly as they can: for functional maps and spectral distances, not for geometry.
+
+    Vc, Fc     the coarse mesh
+    P          (vc, v) sparse matrix from fine to coarse
+    eigenpairs of the fine mesh, a fifth more than are to be judged
+    k          how many eigenpairs of the fitted operators are computed; as many as eigenpairs are
+    mass       'diagonal' (lumped mass) or 'edges' (averaged mass): where M has entries
+    rings      1, the edges (mass on edges), or 2, two rings (diagonal mass): where L has entries
+    low_modes  e: mode k has the weight (lambda_k + 4 pi)^-e; more is for distances, less for C_L
+    orthonormality
+               weight of orthonormality; more lowers C_D and raises C_L
+    plain      weight of the whole residual; more keeps the modes beyond k
+    progress   as of simplify()"""
+    return _fit_operators(locals())
+
+
+def functional_map(eigenpairs: 'Eigenpairs', coarse_eigenpairs: 'Eigenpairs',
+                   P: scipy.sparse.csr_matrix) -> numpy.ndarray:
+    """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse coefficients C x. It is
+    vectors^T M P vectors, the first two of coarse_eigenpairs, the last of eigenpairs, at the scale of the
+    meshes; evaluate() has that of unit area. P is (vc, v), sparse."""
+    return _functional_map(locals())
+
+
+def distances(eigenpairs: 'Eigenpairs', sources: int | Sequence[int], kind: str = 'biharmonic', *,
+              time: float | None = None, energies: tuple | None = None) -> numpy.ndarray:
+    """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for a sequence of them.
+
+    kind       'diffusion', 'biharmonic' or 'commute_time', which are squared, or 'wave_kernel', which is not
+    time       of 'diffusion', in the unit of area; 1 / (4 lambda_1)
+    energies   of 'wave_kernel', (t_min, t_max, sigma, steps); wave_kernel_energies(eigenpairs)
+
+    To compare two meshes pass the time or the energies of one of them for both."""
+    return _distances(locals())
+
+
+def heat_kernel_signature(eigenpairs: 'Eigenpairs', times: Sequence[float] | None = None) -> numpy.ndarray:
+    """(v, t), one column for each time, which has the unit of area; 100 times of constant ratio if none are given."""
+    return _heat_kernel_signature(locals())
+
+
+def wave_kernel_signature(eigenpairs: 'Eigenpairs', energies: tuple | None = None) -> numpy.ndarray:
+    """(v, steps), one column for each energy; those of wave_kernel_energies(eigenpairs) if none are given."""
+    return _wave_kernel_signature(locals())
+
+
+def wave_kernel_energies(eigenpairs: 'Eigenpairs', steps: int = 100) -> tuple:
+    """(t_min, t_max, sigma, steps): energies, logarithms of eigenvalues, as Aubry et al. 2011 choose them."""
+    return _wave_kernel_energies(locals())
+
+
+def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
+          mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral', initial: int = 20,
+          filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int = 2,
+          progress: Progress | None = None) -> 'Match':
+    """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
+    simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter.
+
+    VX, FX, VY, FY
+               two meshes, nearly isometric, as of simplify()
+    n          vertices of the simplified meshes, 3 k or more
+    k          eigenvectors of all meshes, from 10 to n
+    mass       'lumped' or 'averaged'
+    landmarks  (l, 2) integers, pairs of vertices of X and Y that are known to correspond
+    proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
+    initial    modes of the functional map from signatures, from 4 to 60
+    filter_iterations
+               of the Product Manifold Filter; 0: none
+    fine_iterations
+               at most, from vertices of the fine meshes to the functional map and back
+    local_weight
+               of curvature in these, from 0 to 100
+    threads    at most; the result does not depend on it
+    progress   as of simplify(); the fraction counts three stages"""
+    return _match(locals())
+)py";
+
+template <class Function>
+void define(py::module_& m, const char* name, const Function& function)
+{
+  m.def(name, [function](const py::dict& values) { return function(Arguments(values)); });
+}
+
+template <class Matrix>
+py::cpp_function viewed(const Matrix SG::Eigenpairs::*member)
+{
+  return py::cpp_function(
+      [member](const py::object& self) { return view((*self.cast<const Pairs&>().pairs).*member, self); });
+}
+
+template <class Matrix>
+py::cpp_function of_pairs(const Matrix SG::Eigenpairs::*member)
+{
+  return py::cpp_function([member](const Pairs& self) { return (*self.pairs).*member; });
+}
+
+template <class Value>
+py::cpp_function of_fit(const Value SG::Operator_fit_result::*member)
+{
+  return py::cpp_function([member](const Fitted_pairs& self) { return self.fit.*member; });
+}
+
+std::string size(const Pairs& pairs)
+{
+  return to_string(pairs.pairs->size()) + " of " + to_string(pairs.op->L.rows()) + " vertices, " +
+         pairs.mass + " mass>";
+}
+
+} // namespace
+
+PYBIND11_MODULE(spectral_simplification, m)
+{
+  m.doc() =
+      "Simplifies triangle meshes so that the spectrum of their Laplacian stays what it was (Lescoat et "
+      "al.,\n"
+      "Spectral Mesh Simplification, 2020): arrays of NumPy in, arrays out, sparse matrices of SciPy.\n\n"
+      "    run = simplify(V, F, 600)\n    run.V, run.F, run.P\n\n"
+      "Options have the names, defaults and words of the program spectral_simplify. Computations let other\n"
+      "threads of Python run.";
+  py::options options;
+  options.disable_function_signatures();
+
+  py::register_exception<SG::Cancelled>(m, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
+      "The progress callback returned False. Nothing is returned, nothing was changed.";
+
+  py::class_<Pairs>(m, "Eigenpairs",
+                    "Eigenpairs of a mesh, at its scale. The arrays are views and cannot be written.")
+      .def_property_readonly("values", viewed(&SG::Eigenpairs::values), "(k,) eigenvalues, ascending")
+      .def_property_readonly("vectors", viewed(&SG::Eigenpairs::vectors),
+                             "(v, k) eigenvectors, vectors^T M vectors = 1")
+      .def_property_readonly("residuals", viewed(&SG::Eigenpairs::residuals), "(k,) relative residuals")
+      .def_property_readonly(
+          "L", [](const Pairs& self) { return csr(self.op->L); },
+          "(v, v) cotangent Laplacian, positive semidefinite; a new csr_matrix each time")
+      .def_property_readonly(
+          "M", [](const Pairs& self) { return csr(self.op->B); },
+          "(v, v) mass, the manual's B; a new csr_matrix each time")
+      .def_readonly("mass", &Pairs::mass, "'lumped' or 'averaged'")
+      .def_property_readonly("zeros", of_pairs(&SG::Eigenpairs::zeros),
+                             "how many eigenvalues are zero, one for each component")
+      .def_property_readonly("complete", of_pairs(&SG::Eigenpairs::complete), "whether none can be missing")
+      .def_property_readonly("solver", of_pairs(&SG::Eigenpairs::solver), "which one was used")
+      .def("__len__", [](const Pairs& self) { return self.pairs->size(); })
+      .def("__repr__", [](const Pairs& self) { return "<Eigenpairs: " + size(self); });
+
+  py::class_<Fitted_pairs, Pairs>(
+      m, "Fitted_operators",
+      "Operators that were fitted, L and M, and their eigenpairs; mass is 'diagonal' or "
+      "'edges'.")
+      .def_property_readonly("objective_before", of_fit(&SG::Operator_fit_result::objective_before),
+                             "what was minimised, for the mesh's own entries")
+      .def_property_readonly("objective_after", of_fit(&SG::Operator_fit_result::objective_after),
+                             "and for these")
+      .def_property_readonly("iterations", of_fit(&SG::Operator_fit_result::iterations),
+                             "of the barrier method")
+      .def_property_readonly("converged", of_fit(&SG::Operator_fit_result::converged),
+                             "False where it was stopped, valid all the same")
+      .def_property_readonly("unknowns", of_fit(&SG::Operator_fit_result::unknowns),
+                             "how many weights were chosen")
+      .def_property_readonly("at_bound", of_fit(&SG::Operator_fit_result::at_bound),
+                             "and how many are at their bounds")
+      .def("__repr__", [](const Fitted_pairs& self) { return "<Fitted_operators: " + size(self); });
+
+  py::class_<Level>(m, "Level", "A simplified mesh.")
+      .def_readonly("V", &Level::V, "(n, 3) float64, positions")
+      .def_readonly("F", &Level::F, "(m, 3) int32, triangles")
+      .def_readonly("P", &Level::P, "(n, v) csr_matrix, carries functions to this mesh: P @ f; rows sum to 1")
+      .def_property_readonly(
+          "Q", &Level::prolongation,
+          "(v, n) csr_matrix, carries functions back: barycentric coordinates of the closest "
+          "points; computed when it is first asked for")
+      .def_readonly("vertex_map", &Level::vertex_map,
+                    "(v,) int64, the vertex of this mesh that each went to");
+
+  py::class_<Simplification, Level>(m, "Simplification", "What simplify() returns.")
+      .def_property_readonly(
+          "collapses", &Simplification::collapses,
+          "one record for each collapse, in order: the vertices of the input removed and kept, alpha, "
+          "the weight of the removed one, and point, where the vertex was put")
+      .def_readonly(
+          "eigenpairs", &Simplification::eigenpairs,
+          "of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or pre_simplify")
+      .def_readonly("report", &Simplification::report,
+                    "a dict of what was done, with the names of spectral_simplify --json: counts, seconds, "
+                    "stop_reason, "
+                    "warnings")
+      .def("levels", &Simplification::level, py::arg("n"),
+           "levels(n) -> Level\n\nThe mesh of n vertices on the way from the input to the result, before "
+           "flips and "
+           "relocation.")
+      .def("__repr__", [](const Simplification& self) {
+        return "<Simplification: " + to_string(self.fine->V.rows()) + " to " +
+               to_string(self.coarse.V.rows()) + " vertices>";
+      });
+
+  using Evaluation = SG::Spectral_evaluation;
+  py::class_<Evaluation>(m, "Evaluation", "What evaluate() returns. 0 is perfect.")
+      .def_readonly("C", &Evaluation::C, "(k, k) functional map, rows are coarse modes")
+      .def_readonly("C_L", &Evaluation::norm_L, "|C Lambda - Lambda_c C| / |C|, how far from commuting")
+      .def_readonly("C_D", &Evaluation::norm_D, "|C^T C - 1|, how far from orthonormal")
+      .def_readonly("floor_C_L", &Evaluation::floor_norm_L, "C_L of ideal linear elements, about")
+      .def_readonly("floor_C_D", &Evaluation::floor_norm_D, "C_D of ideal linear elements, about")
+      .def_property_readonly(
+          "eigenvalue_error", [](const Evaluation& e) { return e.errors.mean; },
+          "mean relative error of the eigenvalues, zeros left out")
+      .def_property_readonly(
+          "eigenvalue_error_max", [](const Evaluation& e) { return e.errors.max; }, "the largest")
+      .def_property_readonly(
+          "eigenvalue_error_low", [](const Evaluation& e) { return e.errors_low.mean; },
+          "mean of the modes 2 to k / 5")
+      .def_readonly("values", &Evaluation::fine_values, "fine eigenvalues at unit area")
+      .def_readonly("coarse_values", &Evaluation::coarse_values, "coarse eigenvalues at unit area")
+      .def_readonly("judged_modes", &Evaluation::judged_modes,
+                    "k, or the number of coarse vertices if that is less")
+      .def_readonly("area_ratio", &Evaluation::area_ratio, "coarse over fine")
+      .def("__repr__", [](const Evaluation& e) {
+        return "<Evaluation: C_L " + to_string(e.norm_L) + ", C_D " + to_string(e.norm_D) +
+               ", eigenvalue error " + to_string(100 * e.errors.mean) + " %>";
+      });
+
+  define(m, "_simplify", simplify);
+  define(m, "_eigenpairs", eigenpairs);
+  define(m, "_evaluate", evaluate);
+  define(m, "_fit_operators", fit_operators);
+  define(m, "_functional_map", functional_map);
+  define(m, "_distances", distances);
+  define(m, "_heat_kernel_signature", heat_kernel_signature);
+  define(m, "_wave_kernel_signature", wave_kernel_signature);
+  define(m, "_wave_kernel_energies", wave_kernel_energies);
+#ifdef SPECTRAL_PYTHON_MATCH
+  py::class_<Matched>(m, "Match", "What match() returns.")
+      .def_readonly("map", &Matched::map, "(vx,) int64, for each vertex of X that of Y")
+      .def_readonly("C", &Matched::C, "(k, k) functional map from Y to X, at unit area")
+      .def_readonly("condition", &Matched::condition, "of the lift from the simplified meshes")
+      .def_readonly("relative_residual", &Matched::relative_residual, "of the lift");
+  define(m, "_match", match);
+#else
+  m.def("_match", [](const py::dict&) -> py::object {
+    throw std::runtime_error("match() is not in this build, LEMON was not found: install it (on Debian: "
+                             "apt-get install liblemon-dev) and "
+                             "build again.");
+  });
+#endif
+  py::exec(interface, m.attr("__dict__"));
+}

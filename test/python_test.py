@@ -1,0 +1,488 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# python_test.py [SPECTRAL_SIMPLIFY]: the Python module beside the program, on shapes that are made here.
+
+import inspect
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import tracemalloc
+import unittest
+import warnings
+
+import numpy as np
+import scipy.io
+import scipy.sparse
+
+import spectral_simplification as ss
+from python_shapes import sheet, sphere
+
+PROGRAM = None
+V, F = sphere(4)
+RUN = ss.simplify(V, F, 200, 50)
+
+
+class Shapes(unittest.TestCase):
+    V, F, run_ = V, F, RUN
+
+    def close(self, a, b, tolerance=1e-9):
+        self.assertEqual(np.shape(a), np.shape(b))
+        largest = abs(b).max() if np.ndim(b) or scipy.sparse.issparse(b) else abs(b)
+        difference = abs(a - b)
+        self.assertLessEqual(difference.max() if np.ndim(difference) or scipy.sparse.issparse(difference) else difference,
+                             tolerance * max(1, largest))
+
+
+class Beside_the_program(Shapes):
+    def program(self, *options):
+        with open(os.path.join(self.folder, "in.off"), "w") as file:
+            file.write("OFF\n%d %d 0\n" % (len(self.V), len(self.F)))
+            file.writelines("%.17g %.17g %.17g\n" % tuple(v) for v in self.V)
+            file.writelines("3 %d %d %d\n" % tuple(f) for f in self.F)
+        subprocess.run([PROGRAM, "in.off", "out.off", "--vertices", "200", "--eigenvectors", "50", "--quiet", *options],
+                       cwd=self.folder, check=True)
+
+    def setUp(self):
+        if PROGRAM is None:
+            self.fail("the first argument must be the program spectral_simplify")
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = self.temporary.name
+        self.addCleanup(self.temporary.cleanup)
+
+    def mesh(self, name="out.off"):
+        with open(os.path.join(self.folder, name)) as file:
+            words = file.read().split()
+        n, m = int(words[1]), int(words[2])
+        V = np.array(words[4:4 + 3 * n], float).reshape(n, 3)
+        return V, np.array(words[4 + 3 * n:4 + 3 * n + 4 * m], int).reshape(m, 4)[:, 1:]
+
+    def matrix(self, name):
+        return scipy.io.mmread(os.path.join(self.folder, name)).tocsr()
+
+    def array(self, name):
+        return np.load(os.path.join(self.folder, name))
+
+    def check_mesh(self, level, suffix=""):
+        V, F = self.mesh("out%s.off" % suffix)
+        self.close(level.V, V)
+        np.testing.assert_array_equal(level.F, F)
+        self.close(level.P, self.matrix("P%s.mtx" % suffix))
+        np.testing.assert_array_equal(level.vertex_map, np.loadtxt(os.path.join(self.folder, "map%s.txt" % suffix)))
+
+    def test_everything_of_a_run(self):
+        self.program("--restriction", "P.mtx", "--prolongation", "Q.mtx", "--map", "map.txt", "--eigenpairs", "pairs",
+                     "--fit-operators", "fitted", "--levels", "1000,400", "--json", "out.json")
+        run = self.run_
+        self.check_mesh(run)
+        for n in (1000, 400):
+            self.check_mesh(run.levels(n), "-%d" % n)
+        self.close(run.Q, self.matrix("Q.mtx"))
+        self.close(run.eigenpairs.L, self.matrix("pairs/fine_L.mtx"))
+        self.close(run.eigenpairs.M, self.matrix("pairs/fine_mass.mtx"))
+        self.close(run.eigenpairs.values, self.array("pairs/fine_eigenvalues.npy"))
+        self.close(run.eigenpairs.vectors, self.array("pairs/fine_eigenvectors.npy"))
+        coarse = ss.eigenpairs(run.V, run.F, 50)
+        self.close(coarse.L, self.matrix("pairs/coarse_L.mtx"))
+        self.close(abs(ss.functional_map(run.eigenpairs, coarse, run.P)), abs(self.array("pairs/C.npy")), 1e-6)
+        with open(os.path.join(self.folder, "out.json")) as file:
+            said = json.load(file)
+        for name, value in run.report.items():
+            if name in ("relocation", "explanation", "warnings", "refusals") or name.startswith("seconds"):
+                continue
+            if isinstance(value, float):
+                self.close(value, said[name])
+            else:
+                self.assertEqual(value, said[name], name)
+        self.assertEqual(run.report["relocation"]["steps"], said["relocation"]["steps"])
+        own = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs)
+        fitted = ss.fit_operators(run.V, run.F, run.P, ss.eigenpairs(self.V, self.F, 60), 55)
+        self.close(fitted.L, self.matrix("fitted/L.mtx"), 1e-6)
+        self.close(fitted.M, self.matrix("fitted/mass.mtx"), 1e-6)
+        self.close(fitted.values[:50], self.array("fitted/eigenvalues.npy"), 1e-6)
+        of_fitted = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs, operators=fitted)
+        for e, figures in ((own, said), (of_fitted, said["fitted"])):
+            for name, value in (("norm_L", e.C_L), ("norm_D", e.C_D), ("eigenvalue_error_mean", e.eigenvalue_error),
+                                ("eigenvalue_error_max", e.eigenvalue_error_max), ("area_ratio", e.area_ratio),
+                                ("eigenvalue_error_low_mean", e.eigenvalue_error_low)):
+                self.close(value, figures[name], 1e-6)
+        self.assertLess(of_fitted.C_L, own.C_L)
+        self.assertLess(of_fitted.eigenvalue_error, own.eigenvalue_error)
+
+    def test_the_options_have_their_meaning(self):
+        self.V, self.F = sphere(3)
+        signals, keep = self.V[:, :2] ** 2, [7, 400]
+        np.save(os.path.join(self.folder, "F.npy"), signals)
+        np.savetxt(os.path.join(self.folder, "keep.txt"), keep, "%d")
+        outputs = "--restriction", "P.mtx", "--map", "map.txt", "--no-evaluation"
+        for options, arguments in (
+                ("--preset paper --keep keep.txt --shape 1", dict(preset="paper", keep=keep, shape=1)),
+                ("--mass lumped --placement midpoint --relocate carried --binary",
+                 dict(mass="lumped", placement="midpoint", relocate="carried", binary=True)),
+                ("--signals F.npy --flips spectral --self-intersections allow",
+                 dict(signals=signals, flips="spectral", self_intersections="allow")),
+                ("--pre-simplify 500 --relocate carried_and_sampled --max-error 0.05 --preserve-border",
+                 dict(pre_simplify=500, relocate="carried_and_sampled", max_error=0.05, preserve_border=True))):
+            if "signals" not in arguments:
+                arguments["k"] = 50
+            with self.subTest(options), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                self.program(*options.split(), *outputs)
+                self.check_mesh(ss.simplify(self.V, self.F, 200, **arguments))
+
+
+class Results(Shapes):
+    def test_eigenpairs(self):
+        pairs = ss.eigenpairs(self.V, self.F, 20, "lumped")
+        phi, L, M = pairs.vectors, pairs.L, pairs.M
+        self.assertTrue(scipy.sparse.isspmatrix_csr(L) and M.nnz == len(self.V) and len(pairs) == 20)
+        self.close(phi.T @ (M @ phi), np.eye(20))
+        self.assertLess(abs(L @ phi - M @ phi * pairs.values).max(), 1e-6)
+        self.assertEqual((pairs.zeros, pairs.mass, pairs.complete), (1, "lumped", True))
+        two = ss.eigenpairs(np.vstack([self.V, self.V + 9]), np.vstack([self.F, self.F + len(self.V)]), 5)
+        self.assertEqual(two.zeros, 2)
+
+    def test_restriction_and_prolongation(self):
+        run = self.run_
+        self.close(run.P @ np.ones(len(self.V)), np.ones(200))
+        self.close(run.Q @ np.ones(200), np.ones(len(self.V)))
+        self.assertLess(abs(run.Q @ run.V - self.V).max(), 0.2)
+        self.assertEqual((run.V.dtype, run.F.dtype, run.vertex_map.dtype), (np.float64, np.int32, np.int64))
+
+    def test_distances_are_what_numpy_finds(self):
+        pairs = self.run_.eigenpairs
+        phi, values = pairs.vectors[:, 1:], pairs.values[1:]
+        squares = (phi - phi[3]) ** 2
+        self.close(ss.distances(pairs, 3), squares @ values ** -2)
+        self.close(ss.distances(pairs, 3, "commute_time"), squares @ (1 / values))
+        self.close(ss.distances(pairs, [4, 3], "diffusion", time=0.1)[:, 1], squares @ np.exp(-0.2 * values))
+        self.close(ss.distances(pairs, 3, "diffusion"), squares @ np.exp(-values / (2 * values[0])))
+        energies = ss.wave_kernel_energies(pairs, 30)
+        kernel = ss.wave_kernel_signature(pairs, energies)
+        change = abs(kernel - kernel[3]) / (kernel + kernel[3])
+        self.close(ss.distances(pairs, 3, "wave_kernel", energies=energies),
+                   np.trapz(change, np.linspace(energies[0], energies[1], 30), axis=1))
+        self.close(ss.heat_kernel_signature(pairs, [0.1, 1]),
+                   pairs.vectors ** 2 @ np.exp(-np.outer(pairs.values, [0.1, 1])))
+
+    def test_functional_maps(self):
+        run, coarse = self.run_, ss.eigenpairs(self.run_.V, self.run_.F, 55)
+        C = ss.functional_map(run.eigenpairs, coarse, run.P)
+        self.close(C, coarse.vectors.T @ (coarse.M @ (run.P @ run.eigenpairs.vectors)))
+        e = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs)
+        ratio = run.eigenpairs.M.sum() / coarse.M.sum()
+        self.close(e.C, C[:50] * ratio ** 0.5, 1e-6)
+        lambda_c = np.diag(e.coarse_values[:50])
+        self.close(e.C_L, np.linalg.norm(e.C @ np.diag(e.values) - lambda_c @ e.C) / np.linalg.norm(e.C))
+        self.close(e.C_D, np.linalg.norm(e.C.T @ e.C - np.eye(50)))
+        self.close(e.eigenvalue_error, np.mean(abs(e.coarse_values[1:50] / e.values[1:] - 1)))
+
+    def test_levels_and_collapses(self):
+        run = self.run_
+        self.assertEqual(len(run.collapses), len(self.V) - 200)
+        level = run.levels(len(self.V) - 1)
+        first = run.collapses[0]
+        self.assertEqual(level.vertex_map[first["removed"]], level.vertex_map[first["kept"]])
+        self.close(level.V[level.vertex_map[first["kept"]]], first["point"])
+        self.close(run.levels(len(self.V)).V, self.V)
+        with self.assertRaisesRegex(ValueError, "n is 199, it must be an integer from 200 to 2562"):
+            run.levels(199)
+
+    def test_kept_vertices(self):
+        keep = np.array([0, 5, 77, 2000], dtype=np.uint16)
+        run = ss.simplify(self.V, self.F, 200, 50, keep=keep)
+        np.testing.assert_array_equal(run.V[run.vertex_map[keep]], self.V[keep])
+        self.close(run.P[run.vertex_map[keep]], scipy.sparse.csr_matrix(np.eye(len(self.V))[keep]))
+
+    def test_a_border_and_other_types(self):
+        V, F = sheet(30)
+        a = ss.simplify(V, F, 200, 30, "paper")
+        b = ss.simplify(np.asfortranarray(V), F.astype(np.uint64).tolist(), np.int16(200), k=30, preset="paper")
+        self.close(a.V, b.V)
+        c = ss.simplify(V.astype(np.float32), F.astype(np.int16), 200, 30, "paper")
+        self.close(c.V, ss.simplify(V.astype(np.float32).astype(float), F, 200, 30, "paper").V)
+
+    def test_eigenpairs_are_used_again(self):
+        pairs = ss.eigenpairs(self.V, self.F, 60, tolerance=1e-8)
+        phases = []
+        run = ss.simplify(self.V, self.F, 200, 60, eigenpairs=pairs, progress=lambda phase, _: phases.append(phase))
+        self.assertNotIn("eigenpairs", phases)
+        self.assertIs(run.eigenpairs, pairs)
+        self.close(run.V, ss.simplify(self.V, self.F, 200, 60).V)
+        fewer = ss.simplify(self.V, self.F, 200, 30, eigenpairs=pairs)
+        self.assertEqual(fewer.report["eigenvectors"], 30)
+
+    def test_threads_change_nothing(self):
+        two = ss.simplify(self.V, self.F, 200, 50, threads=2)
+        np.testing.assert_array_equal(two.V, self.run_.V)
+        np.testing.assert_array_equal(two.F, self.run_.F)
+        self.assertEqual(abs(two.P - self.run_.P).max(), 0)
+
+    def test_warnings(self):
+        with self.assertWarnsRegex(UserWarning, "less than 3 K = 300") as caught:
+            run = ss.simplify(self.V, self.F, 200)
+        self.assertEqual(caught.filename, __file__)
+        self.assertIn("less than 3 K", run.report["warnings"][0])
+        with self.assertWarnsRegex(UserWarning, "instead of 3 because every edge left was refused"):
+            self.assertGreater(len(ss.simplify(self.V, self.F, 3, 1).V), 3)
+
+    def test_match(self):
+        V, F = sphere(3)
+        order = np.random.default_rng(1).permutation(len(V))
+        place = np.argsort(order)
+        try:
+            found = ss.match(V, F, V[order], place[F], 150, 30, fine_iterations=10)
+        except RuntimeError as error:
+            self.assertRegex(str(error), "LEMON was not found")
+            return
+        self.assertGreater(np.mean(order[found.map] == np.arange(len(V))), 0.9)
+        self.assertEqual(found.C.shape, (30, 30))
+        with self.assertRaises(ss.Cancelled):
+            ss.match(V, F, V, F, 150, 30, progress=lambda phase, _: phase != "proxies")
+        with self.assertRaisesRegex(ValueError, r"landmarks\[1, 1\] is 9999, but VY has 642 vertices"):
+            ss.match(V, F, V, F, 150, 30, landmarks=[[0, 0], [1, 9999]])
+
+
+class Control(Shapes):
+    def test_progress(self):
+        said = []
+        ss.simplify(self.V, self.F, 200, 50, progress=lambda *arguments: said.append(arguments))
+        self.assertEqual(list(dict.fromkeys(phase for phase, _ in said)),
+                         ["eigenpairs", "first_costs", "collapses", "relocation"])
+        for (phase, fraction), (next_phase, next_fraction) in zip(said, said[1:]):
+            self.assertTrue(0 <= fraction <= 1 and (phase != next_phase or fraction <= next_fraction))
+
+    def test_the_callback_cancels(self):
+        pairs = ss.eigenpairs(self.V, self.F, 20)
+        for phase in "eigenpairs", "first_costs", "collapses", "relocation":
+            with self.subTest(phase), self.assertRaisesRegex(ss.Cancelled, "cancelled by the progress callback"):
+                ss.simplify(self.V, self.F, 200, 50, progress=lambda now, _: now != phase)
+        run = self.run_
+        for function in (lambda p: ss.eigenpairs(self.V, self.F, 20, progress=p),
+                         lambda p: ss.evaluate(self.V, self.F, run.V, run.F, run.P, 20, progress=p),
+                         lambda p: ss.fit_operators(run.V, run.F, run.P, pairs, progress=p)):
+            with self.assertRaises(ss.Cancelled):
+                function(lambda *_: np.bool_(False))
+        self.assertTrue(issubclass(ss.Cancelled, RuntimeError))
+
+    def test_what_the_callback_raises_is_raised(self):
+        with self.assertRaises(ZeroDivisionError):
+            ss.simplify(self.V, self.F, 200, 50, progress=lambda *_: 1 / 0)
+
+    def test_an_interrupt_stops_and_others_run_meanwhile(self):
+        V, F = sphere(6)  # 40,962 vertices: more than ten seconds
+        seen = []
+
+        def interrupt():
+            for _ in range(20):
+                time.sleep(0.02)
+                seen.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        start = time.monotonic()
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            ss.simplify(V, F, 600, 200)
+        thread.join()
+        # The thread had its turns while the computation went on: at the pace it wanted, give or take the machine's.
+        self.assertLess(seen[9] - start, 2)
+        self.assertLess(time.monotonic() - seen[-1], 3)
+
+
+class Memory(Shapes):
+    def test_arrays_are_not_copied(self):
+        V, F = sphere(5)
+        tracemalloc.start()
+        run = ss.simplify(V, F, 200, 20)
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        results = sum(a.nbytes for a in (run.V, run.F, run.vertex_map, run.P.data, run.P.indices, run.P.indptr))
+        self.assertLess(peak, results + 60e3)
+        self.assertGreater(V.nbytes, 200e3)
+        pairs = run.eigenpairs
+        self.assertTrue(np.shares_memory(pairs.vectors, pairs.vectors))
+
+    def test_views_keep_what_they_show(self):
+        vectors = ss.eigenpairs(self.V, self.F, 20).vectors
+        expected = vectors.copy()
+        for _ in range(3):
+            ss.eigenpairs(self.V[::-1], self.F[:, ::-1].max() - self.F, 20)
+        np.testing.assert_array_equal(vectors, expected)
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            vectors[0, 0] = 1
+
+    def test_nothing_is_left_behind(self):
+        def resident():
+            with open("/proc/self/statm") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+        V, F = self.V, self.F
+        signals = np.random.default_rng(1).random((len(V), 200))  # 4 MB
+        for i in range(10):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                with self.assertRaises(ss.Cancelled):
+                    ss.simplify(V, F, 700, signals=signals, progress=lambda *_: False)
+            if i == 3:
+                before = resident()
+        self.assertLess(resident() - before, 12e6)
+
+    def test_the_input_stays(self):
+        V, F = self.V.copy(), self.F.copy()
+        ss.simplify(V, F, 300, 20)
+        np.testing.assert_array_equal(V, self.V)
+        np.testing.assert_array_equal(F, self.F)
+        V.flags.writeable = F.flags.writeable = False
+        ss.simplify(V, F, 300, 20)
+
+
+class Wrong_input(Shapes):
+    def refused(self, error, text, function, *arguments, **options):
+        with self.subTest(text):
+            with self.assertRaises(error) as caught:
+                function(*arguments, **options)
+            sentence = str(caught.exception)
+            self.assertRegex(sentence, text)
+            self.assertNotIn("\n", sentence)
+            self.assertRegex(sentence, r"\.$")
+
+    def with_face(self, *corners):
+        return np.vstack([self.F, [corners]])
+
+    def test_meshes(self):
+        V, F = self.V, self.F
+        nan, infinite = V.copy(), V.copy()
+        nan[17, 1], infinite[3] = np.nan, np.inf
+        foreign, negative, twice, turned = F.copy(), F.copy(), F.copy(), F.copy()
+        foreign[5, 2], negative[6, 0], twice[7, 1], turned[0] = 2562, -1, twice[7, 0], F[0, ::-1]
+        a, b = F[0, 0], F[0, 1]
+        c = next(v for v in range(1000, 2562) if v not in F[(F == a).any(1) | (F == b).any(1)])
+        for error, text, v, f in (
+                (TypeError, "V has the dtype complex128, it must hold real numbers", V + 0j, F),
+                (TypeError, "V has the dtype <U1", [["a", "b", "c"]], F),
+                (ValueError, r"V has the shape \(3, 2562\), it must be \(n, 3\), one row for each vertex", V.T, F),
+                (ValueError, r"V has the shape \(2562,\)", V[:, 0], F),
+                (TypeError, "F has the dtype float64, it must hold integers", V, F.astype(float)),
+                (ValueError, r"F has the shape \(5120, 2\), it must be \(n, 3\)", V, F[:, :2]),
+                (ValueError, "vertex 17 .counted from 0. has a coordinate that is not a finite number", nan, F),
+                (ValueError, "vertex 3 .counted from 0. has a coordinate that is not", infinite, F),
+                (ValueError, r"F\[5, 2\] is 2562, but V has 2562 vertices: they are counted from 0", V, foreign),
+                (ValueError, r"F\[6, 0\] is -1", V, negative),
+                (ValueError, "face 7 .counted from 0. uses a vertex twice", V, twice),
+                (ValueError, "vertex 2562 .counted from 0. is isolated", np.vstack([V, [[9, 9, 9]]]), F),
+                (ValueError, "has the vertices of face 0: remove", V, self.with_face(*F[0])),
+                (ValueError, "has more than two faces", V, self.with_face(b, a, c)),
+                (ValueError, "run along their common edge in the same direction", V, turned),
+                (ValueError, "there are no faces|is isolated|are isolated", V, np.zeros((0, 3), int)),
+                (ValueError, "above 1e50 in magnitude: scale the mesh", V * 1e60, F)):
+            self.refused(error, text, ss.simplify, v, f, 200, 50)
+        self.refused(ValueError, "V, F: .*vertex 2562 .counted from 0. is isolated", ss.eigenpairs,
+                     np.vstack([V, [[9, 9, 9]]]), F, 20)
+        self.refused(ValueError, "Vc, Fc: .*face 7 .counted from 0. uses one vertex twice", ss.evaluate, V, F, V, twice,
+                     scipy.sparse.eye(2562), 20)
+
+    def test_options(self):
+        V, F, pairs = self.V, self.F, ss.eigenpairs(self.V, self.F, 20)
+        signals = V.copy()
+        signals[9, 1] = np.nan
+        for error, text, options in (
+                (ValueError, "n is 2563, it must be an integer from 1 to 2562", dict(n=2563)),
+                (TypeError, "n is 200.0, it must be an integer", dict(n=200.0)),
+                (TypeError, "n is True, it must be an integer", dict(n=True)),
+                (ValueError, "n is 1000000000000000000000000, it must be", dict(n=10 ** 24)),
+                (ValueError, "k is 2562, it must be an integer from 1 to 2561", dict(k=2562)),
+                (ValueError, "preset is 'good', it must be 'best' or 'paper'", dict(preset="good")),
+                (ValueError, "mass is 'full', it must be 'lumped' or 'averaged'", dict(mass="full")),
+                (TypeError, "placement is 3, it must be None, 'on_edge', 'midpoint' or 'free'", dict(placement=3)),
+                (ValueError, "placement is 'edge'", dict(placement="edge")),
+                (ValueError, "shape is -1, it must be a finite number from 0", dict(shape=-1)),
+                (ValueError, "shape is nan", dict(shape=np.nan)),
+                (TypeError, "shape is 'round', it must be a number", dict(shape="round")),
+                (ValueError, "self_intersections is 'no', it must be", dict(self_intersections="no")),
+                (ValueError, "relocate is 'yes', it must be", dict(relocate="yes")),
+                (ValueError, "flips is 'all', it must be 'none', 'spectral' or 'delaunay'", dict(flips="all")),
+                (ValueError, "binary asks for a P of ones and zeros", dict(binary=True)),
+                (TypeError, "binary is 1, it must be True or False", dict(binary=1)),
+                (TypeError, "preserve_border is 'no', it must be True or False", dict(preserve_border="no")),
+                (ValueError, r"keep\[1\] is 2562, but V has 2562 vertices", dict(keep=[0, 2562])),
+                (TypeError, "keep has the dtype bool, it must hold integers", dict(keep=np.ones(2562, bool))),
+                (ValueError, r"keep has the shape \(1, 2\), it must be \(n,\)", dict(keep=[[1, 2]])),
+                (ValueError, "signals has 9 rows, but V has 2562 vertices", dict(signals=V[:9])),
+                (ValueError, r"signals\[9, 1\] is not a finite number", dict(signals=signals)),
+                (ValueError, "signals has 3 columns, which replace the k = 50", dict(signals=V, k=50)),
+                (ValueError, "only one can be given", dict(signals=V, eigenpairs=pairs)),
+                (ValueError, "eigenpairs are 20, but k is 50: pass k=20", dict(eigenpairs=pairs, k=50)),
+                (ValueError, "eigenpairs are of the averaged mass, but this run is of the lumped one",
+                 dict(eigenpairs=pairs, k=20, mass="lumped")),
+                (TypeError, "eigenpairs is of the type ndarray, it must be Eigenpairs", dict(eigenpairs=V)),
+                (ValueError, "eigenpairs are of 200 vertices, but V has 2562",
+                 dict(eigenpairs=ss.eigenpairs(self.run_.V, self.run_.F, 20), k=20)),
+                (ValueError, "eigenpair . is not one of this mesh in the averaged mass",
+                 dict(eigenpairs=ss.eigenpairs(V * [1, 1, 2], F, 20), k=20)),
+                (ValueError, "pre_simplify is 100, it must not be below n, which is 200", dict(pre_simplify=100)),
+                (ValueError, "max_error is 0, it must be a finite number above 0", dict(max_error=0)),
+                (ValueError, "threads is 0, it must be an integer from 1", dict(threads=0)),
+                (TypeError, "progress is 3, it must be None or a function", dict(progress=3))):
+            self.refused(error, text, ss.simplify, V, F, **{**dict(n=200), **options})
+        with self.assertRaisesRegex(TypeError, "unexpected keyword argument 'colour'"):
+            ss.simplify(V, F, 200, colour=1)
+
+    def test_other_functions(self):
+        V, F, run = self.V, self.F, self.run_
+        pairs, P = run.eigenpairs, run.P
+        bad = P.copy()
+        bad.data[0] = np.nan
+        self.refused(TypeError, "P is of the type ndarray, it must be a sparse matrix", ss.evaluate, V, F, run.V, run.F,
+                     P.toarray())
+        self.refused(ValueError, r"P has the shape \(2562, 200\), it must be \(200, 2562\), coarse x fine", ss.evaluate,
+                     V, F, run.V, run.F, P.T)
+        self.refused(ValueError, r"P\[0, \d+\] is not a finite number", ss.evaluate, V, F, run.V, run.F, bad)
+        self.refused(ValueError, "eigenpairs are those of another mesh", ss.evaluate, V, F, run.V, run.F, P, 20,
+                     eigenpairs=ss.eigenpairs(V * [1, 1, 2], F, 20))
+        self.refused(TypeError, "operators must be Fitted_operators", ss.evaluate, V, F, run.V, run.F, P, operators=pairs)
+        self.refused(ValueError, "rings is 3, it must be an integer from 1 to 2", ss.fit_operators, run.V, run.F, P,
+                     pairs, rings=3)
+        self.refused(ValueError, "mass is 'lumped', it must be 'diagonal' or 'edges'|None", ss.fit_operators, run.V,
+                     run.F, P, pairs, mass="lumped")
+        self.refused(ValueError, "tolerance is 0, it must be", ss.eigenpairs, V, F, 20, tolerance=0)
+        self.refused(ValueError, "kind is 'euclidean', it must be", ss.distances, pairs, 0, "euclidean")
+        self.refused(ValueError, "sources is 2562, it must be an integer from 0 to 2561", ss.distances, pairs, 2562)
+        self.refused(ValueError, r"sources\[0\] is -1, but the mesh has 2562", ss.distances, pairs, [-1])
+        self.refused(ValueError, "time belongs to the kind 'diffusion'", ss.distances, pairs, 0, time=1)
+        self.refused(ValueError, "time is -1, it must be", ss.distances, pairs, 0, "diffusion", time=-1)
+        self.refused(TypeError, r"energies is \(1, 2\), it must be \(t_min, t_max, sigma, steps\)", ss.distances, pairs,
+                     0, "wave_kernel", energies=(1, 2))
+        self.refused(ValueError, "the time -1.0+ is negative", ss.heat_kernel_signature, pairs, [-1])
+
+
+class Documentation(unittest.TestCase):
+    def test_help_says_what_each_argument_is(self):
+        functions = [f for name, f in vars(ss).items() if inspect.isfunction(f)]
+        self.assertEqual(len(functions), 10)
+        for function in functions:
+            for name, parameter in inspect.signature(function).parameters.items():
+                self.assertIsNot(parameter.annotation, parameter.empty)
+                if function not in (ss.wave_kernel_energies, ss.wave_kernel_signature, ss.heat_kernel_signature):
+                    words = {"coarse_eigenpairs": "coarse", "sources": "sources"}.get(name, name)
+                    self.assertRegex(function.__doc__, r"\b%s\b" % words)
+            self.assertLess(max(map(len, function.__doc__.split("\n"))), 120)
+
+    def test_objects_are_described(self):
+        for kind in ss.Eigenpairs, ss.Fitted_operators, ss.Level, ss.Simplification, ss.Evaluation, ss.Cancelled:
+            self.assertTrue(kind.__doc__)
+            for name, member in vars(kind).items():
+                if isinstance(member, property):
+                    self.assertTrue(member.__doc__, name)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()
