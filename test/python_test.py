@@ -443,6 +443,8 @@ class Wrong_input(Shapes):
                      P.toarray())
         self.refused(ValueError, r"P has the shape \(2562, 200\), it must be \(200, 2562\), coarse x fine", ss.evaluate,
                      V, F, run.V, run.F, P.T)
+        self.refused(TypeError, "P has the dtype complex128, it must hold real numbers", ss.evaluate, V, F, run.V, run.F,
+                     P * 1j)
         self.refused(ValueError, r"P\[0, \d+\] is not a finite number", ss.evaluate, V, F, run.V, run.F, bad)
         self.refused(ValueError, "eigenpairs are those of another mesh", ss.evaluate, V, F, run.V, run.F, P, 20,
                      eigenpairs=ss.eigenpairs(V * [1, 1, 2], F, 20))
@@ -463,9 +465,19 @@ class Wrong_input(Shapes):
 
 
 class Documentation(unittest.TestCase):
+    def test_the_example_of_its_page(self):
+        with open(os.path.join(os.path.dirname(__file__), "..", "examples", "python", "README.md")) as file:
+            code = file.read().split("```python\n")[1].split("```")[0]
+        names = dict(V=V, F=F)
+        exec(code, names)
+        self.assertEqual((names["run"].V.shape, names["finer"].V.shape), ((600, 3), (1200, 3)))
+        self.assertLess(abs(names["back"] - V[:, 2]).max(), 0.1)
+
     def test_help_says_what_each_argument_is(self):
         functions = [f for name, f in vars(ss).items() if inspect.isfunction(f)]
         self.assertEqual(len(functions), 10)
+        self.assertLess({f.__name__ for f in functions}, set(ss.__all__))
+        self.assertEqual(len(ss.__all__), 10 + 6 + hasattr(ss, "Match"))
         for function in functions:
             for name, parameter in inspect.signature(function).parameters.items():
                 self.assertIsNot(parameter.annotation, parameter.empty)

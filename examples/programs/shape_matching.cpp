@@ -19,7 +19,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <future>
 #include <iostream>
 #include <stdexcept>
 #include <string>
@@ -34,15 +33,6 @@ namespace {
 bool keep_going()
 {
   return !interrupted;
-}
-
-// f for X beside f for Y, with more than one thread.
-template <class Function_X, class Function_Y>
-auto side_by_side(int threads, const Function_X& for_X, const Function_Y& for_Y)
-{
-  auto x = std::async(threads > 1 ? std::launch::async : std::launch::deferred, for_X);
-  auto y = for_Y();
-  return std::make_pair(x.get(), std::move(y));
 }
 
 // One run of the program.

@@ -33,7 +33,6 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <future>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -230,6 +229,10 @@ public:
        value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
       refuse(std::string(name) + " has the shape " + shown(value.attr("shape")) + ", it must be (" +
              to_string(rows) + ", " + to_string(columns) + "), coarse x fine vertices.");
+    const std::string kind = py::str(value.attr("dtype").attr("kind"));
+    if(kind != "f" && kind != "i" && kind != "u")
+      throw py::type_error(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +
+                           ", it must hold real numbers: pass float64.");
     py::object matrix = scipy.attr("csc_matrix")(value, py::arg("dtype") = "float64");
     if(!matrix.attr("has_canonical_format").cast<bool>()) {
       matrix = matrix.attr("copy")();
@@ -279,7 +282,10 @@ public:
         throw py::error_already_set();
       if(!m_callback.is_none()) {
         const py::object answer = m_callback(phase, fraction);
-        m_stopped = !answer.is_none() && !answer.cast<bool>();
+        const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+        if(goes_on < 0)
+          throw py::error_already_set();
+        m_stopped = goes_on == 0;
       }
     } catch(...) {
       m_error = std::current_exception();
@@ -461,6 +467,7 @@ Mesh surface_mesh(const SG::Mesh_matrices& matrices)
 
 SG::Mesh_diagnosis checked(const SG::Mesh_matrices& matrices, const std::string& names)
 {
+  const py::gil_scoped_release no_gil;
   std::vector<std::vector<std::size_t>> polygons;
   for(Index f = 0; f < matrices.T.rows(); ++f)
     polygons.push_back(
@@ -859,16 +866,18 @@ py::object distances(const Arguments& a)
 Eigen::MatrixXd heat_kernel_signature(const Arguments& a)
 {
   const Pairs given = pairs_of(a, "eigenpairs");
-  if(!a.has("times"))
-    return SG::heat_kernel_signature(*given.pairs);
-  return SG::heat_kernel_signature(
-      *given.pairs, Eigen::VectorXd(a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()));
+  const Eigen::VectorXd times = a.has("times") ? a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()
+                                               : SG::heat_kernel_times(*given.pairs);
+  const py::gil_scoped_release no_gil;
+  return SG::heat_kernel_signature(*given.pairs, times);
 }
 
 Eigen::MatrixXd wave_kernel_signature(const Arguments& a)
 {
   const Pairs given = pairs_of(a, "eigenpairs");
-  return SG::wave_kernel_signature(*given.pairs, energies_of(a, *given.pairs));
+  const SG::Wave_kernel_energies energies = energies_of(a, *given.pairs);
+  const py::gil_scoped_release no_gil;
+  return SG::wave_kernel_signature(*given.pairs, energies);
 }
 
 py::tuple wave_kernel_energies(const Arguments& a)
@@ -885,15 +894,6 @@ struct Matched
   Eigen::MatrixXd C;
   double condition, relative_residual;
 };
-
-// f for X beside f for Y, with more than one thread.
-template <class Function_X, class Function_Y>
-auto side_by_side(const int threads, const Function_X& for_X, const Function_Y& for_Y)
-{
-  auto x = std::async(threads > 1 ? std::launch::async : std::launch::deferred, for_X);
-  auto y = for_Y();
-  return std::make_pair(x.get(), std::move(y));
-}
 
 // What the program shape_matching does.
 Matched match(const Arguments& a)
@@ -950,7 +950,7 @@ Matched match(const Arguments& a)
 #endif
 
 // What a user sees.
-constexpr const char* interface = R"py(
+constexpr const char* python_interface = R"py(
 from collections.abc import Callable, Sequence
 import numpy
 import scipy.sparse
@@ -962,9 +962,9 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
              mass: str | None = None, placement: str | None = None, shape: float | None = None,
              self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
-             signals: numpy.ndarray | None = None, eigenpairs: 'Eigenpairs | None' = None,
+             signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
              pre_simplify: int = 0, max_error: float | None = None, threads: int = 1,
-             progress: Progress | None = None) -> 'Simplification':
+             progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
 
     V          (v, 3) real numbers, positions in any unit of length
@@ -1003,7 +1003,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
 
 
 def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               threads: int = 1, progress: Progress | None = None) -> 'Eigenpairs':
+               threads: int = 1, progress: Progress | None = None) -> Eigenpairs:
     """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
     an inverse area.
 
@@ -1017,9 +1017,9 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
 
 
 def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
-             k: int = 100, mass: str = 'averaged', *, eigenpairs: 'Eigenpairs | None' = None,
-             operators: 'Fitted_operators | None' = None, threads: int = 1,
-             progress: Progress | None = None) -> 'Evaluation':
+             k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
+             operators: Fitted_operators | None = None, threads: int = 1,
+             progress: Progress | None = None) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
     meshes at unit area; compare figures of one mass only.
 
@@ -1035,10 +1035,10 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
     return _evaluate(locals())
 
 
-def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: 'Eigenpairs',
+def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: Eigenpairs,
                   k: int | None = None, mass: str | None = None, rings: int | None = None, *,
                   low_modes: float = 2.5, orthonormality: float = 0.01, plain: float = 0.2,
-                  progress: Progress | None = None) -> 'Fitted_operators':
+                  progress: Progress | None = None) -> Fitted_operators:
     """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of the fine
     one as nearly as they can: for functional maps and spectral distances, not for geometry.
 
@@ -1056,7 +1056,7 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
     return _fit_operators(locals())
 
 
-def functional_map(eigenpairs: 'Eigenpairs', coarse_eigenpairs: 'Eigenpairs',
+def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
                    P: scipy.sparse.csr_matrix) -> numpy.ndarray:
     """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse coefficients C x. It is
     vectors^T M P vectors, the first two of coarse_eigenpairs, the last of eigenpairs, at the scale of the
@@ -1064,7 +1064,7 @@ def functional_map(eigenpairs: 'Eigenpairs', coarse_eigenpairs: 'Eigenpairs',
     return _functional_map(locals())
 
 
-def distances(eigenpairs: 'Eigenpairs', sources: int | Sequence[int], kind: str = 'biharmonic', *,
+def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int], kind: str = 'biharmonic', *,
               time: float | None = None, energies: tuple | None = None) -> numpy.ndarray:
     """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for a sequence of them.
 
@@ -1076,17 +1076,17 @@ def distances(eigenpairs: 'Eigenpairs', sources: int | Sequence[int], kind: str 
     return _distances(locals())
 
 
-def heat_kernel_signature(eigenpairs: 'Eigenpairs', times: Sequence[float] | None = None) -> numpy.ndarray:
+def heat_kernel_signature(eigenpairs: Eigenpairs, times: Sequence[float] | None = None) -> numpy.ndarray:
     """(v, t), one column for each time, which has the unit of area; 100 times of constant ratio if none are given."""
     return _heat_kernel_signature(locals())
 
 
-def wave_kernel_signature(eigenpairs: 'Eigenpairs', energies: tuple | None = None) -> numpy.ndarray:
+def wave_kernel_signature(eigenpairs: Eigenpairs, energies: tuple | None = None) -> numpy.ndarray:
     """(v, steps), one column for each energy; those of wave_kernel_energies(eigenpairs) if none are given."""
     return _wave_kernel_signature(locals())
 
 
-def wave_kernel_energies(eigenpairs: 'Eigenpairs', steps: int = 100) -> tuple:
+def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
     """(t_min, t_max, sigma, steps): energies, logarithms of eigenvalues, as Aubry et al. 2011 choose them."""
     return _wave_kernel_energies(locals())
 
@@ -1283,5 +1283,9 @@ PYBIND11_MODULE(spectral_simplification, m)
                              "build again.");
   });
 #endif
-  py::exec(interface, m.attr("__dict__"));
+  py::exec(python_interface, m.attr("__dict__"));
+  m.attr("__all__") =
+      py::eval("sorted(n for n, x in globals().items() if getattr(x, '__module__', '') == __name__ "
+               "and n[0] != '_')",
+               m.attr("__dict__"));
 }

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <future>
 #include <utility>
 #include <vector>
 
@@ -44,5 +45,14 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
 // full size.
 Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
                      const Matching_options& options, const Keep_going& keep_going);
+
+// f for X beside f for Y, with more than one thread.
+template <class Function_X, class Function_Y>
+auto side_by_side(int threads, const Function_X& for_X, const Function_Y& for_Y)
+{
+  auto x = std::async(threads > 1 ? std::launch::async : std::launch::deferred, for_X);
+  auto y = for_Y();
+  return std::make_pair(x.get(), std::move(y));
+}
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_MATCHER_H
