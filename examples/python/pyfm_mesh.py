@@ -1,0 +1,37 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# For pyFM (github.com/RobinMagnet/pyFM): meshes with eigenpairs that are ready, and the coarse mesh of one.
+#
+#     fine = TriMesh("cat.off")
+#     coarse, run = simplified(fine, 600)
+#     model = FunctionalMapping(coarse, other_coarse)
+#     model.preprocess(n_ev=(50, 50), k_process=100)
+#
+# pyFM uses A in products alone, so that the averaged mass, which is not diagonal, will do; pass A, not its diagonal. process(k)
+# with more than the k that are there, 200 unless k_process says otherwise, computes W and A anew, lumped.
+
+from pyFM.mesh import TriMesh
+
+import spectral_simplification as ss
+
+
+def trimesh(V, F, pairs):
+    """The TriMesh of V and F with L as W, M as A, and the eigenpairs of both."""
+    mesh = TriMesh(V, F)
+    mesh.W, mesh.A = pairs.L.tocsc(), pairs.M.tocsc()
+    mesh.eigenvalues, mesh.eigenvectors = pairs.values.copy(), pairs.vectors.copy()
+    return mesh
+
+
+def simplified(mesh, n, k=100, **options):
+    """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P carries functions of `mesh` to it,
+    run.Q back, run.vertex_map says which vertex became which. `mesh` gets W, A and the k eigenpairs of the run as well. Options as
+    of spectral_simplification.simplify()."""
+    run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
+    mass = run.report["mass"]
+    pairs = run.eigenpairs or ss.eigenpairs(mesh.vertlist, mesh.facelist, k, mass)
+    mesh.W, mesh.A = pairs.L.tocsc(), pairs.M.tocsc()
+    mesh.eigenvalues, mesh.eigenvectors = pairs.values[:k].copy(), pairs.vectors[:, :k].copy()
+    return trimesh(run.V, run.F, ss.eigenpairs(run.V, run.F, k, mass)), run
