@@ -4,7 +4,9 @@
 #
 # python_test.py [SPECTRAL_SIMPLIFY]: the Python module beside the program, on shapes that are made here.
 
+import contextlib
 import inspect
+import io
 import json
 import os
 import signal
@@ -292,8 +294,8 @@ class Control(Shapes):
             ss.simplify(V, F, 600, 200)
         thread.join()
         # The thread had its turns while the computation went on: at the pace it wanted, give or take the machine's.
-        self.assertLess(seen[9] - start, 2)
-        self.assertLess(time.monotonic() - seen[-1], 3)
+        self.assertLess(seen[9] - start, 5)
+        self.assertLess(time.monotonic() - seen[-1], 5)
 
 
 class Memory(Shapes):
@@ -367,6 +369,7 @@ class Wrong_input(Shapes):
         for error, text, v, f in (
                 (TypeError, "V has the dtype complex128, it must hold real numbers", V + 0j, F),
                 (TypeError, "V has the dtype <U1", [["a", "b", "c"]], F),
+                (TypeError, "V is not an array of numbers: give each row the same length", [[1, 2, 3], [1, 2]], F),
                 (ValueError, r"V has the shape \(3, 2562\), it must be \(n, 3\), one row for each vertex", V.T, F),
                 (ValueError, r"V has the shape \(2562,\)", V[:, 0], F),
                 (TypeError, "F has the dtype float64, it must hold integers", V, F.astype(float)),
@@ -396,6 +399,8 @@ class Wrong_input(Shapes):
                 (ValueError, "n is 2563, it must be an integer from 1 to 2562", dict(n=2563)),
                 (TypeError, "n is 200.0, it must be an integer", dict(n=200.0)),
                 (TypeError, "n is True, it must be an integer", dict(n=True)),
+                (TypeError, "n is of the type ndarray, it must be an integer", dict(n=V)),
+                (TypeError, "shape is of the type ndarray, it must be a number", dict(shape=V)),
                 (ValueError, "n is 1000000000000000000000000, it must be", dict(n=10 ** 24)),
                 (ValueError, "k is 2562, it must be an integer from 1 to 2561", dict(k=2562)),
                 (ValueError, "preset is 'good', it must be 'best' or 'paper'", dict(preset="good")),
@@ -469,7 +474,8 @@ class Documentation(unittest.TestCase):
         with open(os.path.join(os.path.dirname(__file__), "..", "examples", "python", "README.md")) as file:
             code = file.read().split("```python\n")[1].split("```")[0]
         names = dict(V=V, F=F)
-        exec(code, names)
+        with contextlib.redirect_stdout(io.StringIO()):
+            exec(code, names)
         self.assertEqual((names["run"].V.shape, names["finer"].V.shape), ((600, 3), (1200, 3)))
         self.assertLess(abs(names["back"] - V[:, 2]).max(), 0.1)
 

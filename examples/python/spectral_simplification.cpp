@@ -56,9 +56,16 @@ namespace {
   throw py::value_error(sentence);
 }
 
+std::string type_name(const py::handle& value)
+{
+  return "of the type " + std::string(py::str(py::type::of(value).attr("__name__")));
+}
+
+// For a sentence of one line.
 std::string shown(const py::handle& value)
 {
-  return py::repr(value);
+  const std::string text = py::repr(value);
+  return text.size() > 80 || text.find('\n') != std::string::npos ? type_name(value) : text;
 }
 
 // The arguments of a function by name, each read with a sentence for what cannot be meant.
@@ -88,10 +95,12 @@ public:
     if(!PyIndex_Check(value.ptr()) || PyBool_Check(value.ptr()))
       must_be(name, "an integer", true);
     const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if(!index) {
+      PyErr_Clear(); // an array of several
+      must_be(name, "an integer", true);
+    }
     int overflow = 0;
-    const long long result = index ? PyLong_AsLongLongAndOverflow(index.ptr(), &overflow) : 0;
-    if(PyErr_Occurred())
-      throw py::error_already_set();
+    const long long result = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if(overflow != 0 || result < least || result > most)
       must_be(name, "an integer from " + to_string(least) +
                         (most == (std::numeric_limits<Index>::max)() ? "" : " to " + to_string(most)) + why);
@@ -150,8 +159,15 @@ public:
   py::array_t<Number> array(const char* name, const Index columns, const std::string& rows_of) const
   {
     constexpr bool real = std::is_floating_point<Number>::value;
-    const py::array array = py::module_::import("numpy").attr("asarray")((*this)[name]);
     const std::string kinds = real ? "fiu" : "iu", label = name;
+    py::array array;
+    try {
+      array = py::module_::import("numpy").attr("asarray")((*this)[name]);
+    } catch(const py::error_already_set& error) {
+      if(!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError))
+        throw;
+      throw py::type_error(label + " is not an array of numbers: give each row the same length.");
+    }
     if(kinds.find(array.dtype().kind()) == std::string::npos && array.size() != 0)
       throw py::type_error(label + " has the dtype " + std::string(py::str(array.dtype())) +
                            ", it must hold " +
@@ -222,8 +238,7 @@ public:
     const py::module_ scipy = py::module_::import("scipy.sparse");
     const py::object value = (*this)[name];
     if(!scipy.attr("issparse")(value).cast<bool>())
-      throw py::type_error(std::string(name) + " is of the type " +
-                           std::string(py::str(py::type::of(value).attr("__name__"))) +
+      throw py::type_error(std::string(name) + " is " + type_name(value) +
                            ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
     if(value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows ||
        value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
@@ -377,8 +392,7 @@ struct Fitted_pairs : Pairs
 const Pairs& pairs_of(const Arguments& a, const char* name)
 {
   if(!py::isinstance<Pairs>(a[name]))
-    throw py::type_error(std::string(name) + " is of the type " +
-                         std::string(py::str(py::type::of(a[name]).attr("__name__"))) +
+    throw py::type_error(std::string(name) + " is " + type_name(a[name]) +
                          ", it must be Eigenpairs: pass what eigenpairs() returns.");
   return a[name].cast<const Pairs&>();
 }
