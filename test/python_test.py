@@ -464,7 +464,7 @@ class Wrong_input(Shapes):
         self.refused(ValueError, r"sources\[0\] is -1, but the mesh has 2562", ss.distances, pairs, [-1])
         self.refused(ValueError, "time belongs to the kind 'diffusion'", ss.distances, pairs, 0, time=1)
         self.refused(ValueError, "time is -1, it must be", ss.distances, pairs, 0, "diffusion", time=-1)
-        self.refused(TypeError, r"energies is \(1, 2\), it must be \(t_min, t_max, sigma, steps\)", ss.distances, pairs,
+        self.refused(TypeError, r"energies is \(1, 2\), it must be a tuple \(t_min, t_max, sigma, steps\)", ss.distances, pairs,
                      0, "wave_kernel", energies=(1, 2))
         self.refused(ValueError, "the time -1.0+ is negative", ss.heat_kernel_signature, pairs, [-1])
 

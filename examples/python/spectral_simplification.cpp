@@ -32,12 +32,15 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -841,11 +844,13 @@ SG::Wave_kernel_energies energies_of(const Arguments& a, const SG::Eigenpairs& p
   if(!a.has("energies"))
     return SG::wave_kernel_energies(pairs);
   try {
-    const auto e = a["energies"].cast<std::tuple<double, double, double, Index>>();
-    return {std::get<0>(e), std::get<1>(e), std::get<2>(e), std::get<3>(e)};
+    if(py::isinstance<py::tuple>(a["energies"])) {
+      const auto e = a["energies"].cast<std::tuple<double, double, double, Index>>();
+      return {std::get<0>(e), std::get<1>(e), std::get<2>(e), std::get<3>(e)};
+    }
   } catch(const py::cast_error&) {
-    a.must_be("energies", "(t_min, t_max, sigma, steps), see wave_kernel_energies()", true);
   }
+  a.must_be("energies", "a tuple (t_min, t_max, sigma, steps), see wave_kernel_energies()", true);
 }
 
 py::object distances(const Arguments& a)
