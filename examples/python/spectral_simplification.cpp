@@ -567,6 +567,8 @@ const char* phase_name(const SMS::Spectral_phase phase)
     return "flips";
   case SMS::Spectral_phase::relocation:
     return "relocation";
+  case SMS::Spectral_phase::operator_fit:
+    return "operator_fit";
   case SMS::Spectral_phase::collapses:
     break;
   }
@@ -794,19 +796,17 @@ Fitted_pairs fit_operators(const Arguments& a)
   const Index k =
       a.has("k") ? a.integer("k", 1, coarse.V.rows()) : (std::min)(fine.pairs->size(), coarse.V.rows());
   using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
-  SG::Operator_fit_options options;
   const std::string mass = a.word("mass", {"diagonal", "edges"}, true);
-  options.mass = mass == "diagonal" || (mass.empty() && fine.mass == "lumped") ? Mass_pattern::diagonal
-                                                                               : Mass_pattern::edges;
-  // On edges alone a diagonal mass is at the expense of the low modes.
-  options.rings = a.has("rings")                           ? int(a.integer("rings", 1, 2))
-                  : options.mass == Mass_pattern::diagonal ? 2
-                                                           : 1;
+  SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(mass.empty()      ? fine.op->theta
+                                                                        : mass == "edges" ? 1.
+                                                                                          : 0.);
+  if(a.has("rings"))
+    options.rings = int(a.integer("rings", 1, 2));
   options.low_modes = a.number("low_modes", 0);
   options.orthonormality = a.number("orthonormality", 0);
   options.plain = a.number("plain", 0);
   Watch watch(a);
-  options.progress = [&](const double fraction) { return watch("fit", fraction); };
+  options.progress = [&](const double fraction) { return watch("operator_fit", fraction); };
   SG::Eigenpairs_options solver;
   solver.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
@@ -930,6 +930,8 @@ Matched match(const Arguments& a)
   options.local_weight = a.number("local_weight", 0, true, 100);
   options.threads = a.threads();
   const std::string proxy = a.word("proxy", {"spectral", "garland_heckbert", "none"});
+  const auto operators =
+      a.word("operators", {"fitted", "mesh"}) == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
   Landmarks landmarks;
   if(a.has("landmarks")) {
     const auto rows = a.array<std::int64_t>("landmarks", 2, "pair of vertices");
@@ -957,7 +959,7 @@ Matched match(const Arguments& a)
     const auto kind = proxy == "spectral" ? Proxy_kind::spectral : Proxy_kind::garland_heckbert;
     const auto coarse = [&](const Shape& fine) {
       return make_proxy(surface_mesh(fine.matrices), fine, kind, std::size_t(n), options.modes, mass,
-                        going("proxies", 1. / 3));
+                        operators, going("proxies", 1. / 3));
     };
     const Shape &fine_X = x, &fine_Y = y;
     const auto [coarse_X, coarse_Y] = side_by_side(
@@ -1111,7 +1113,8 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
 
 
 def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
-          mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral', initial: int = 20,
+          mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
+          operators: str = 'mesh', initial: int = 20,
           filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int = 2,
           progress: Progress | None = None) -> 'Match':
     """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
@@ -1124,6 +1127,7 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
     mass       'lumped' or 'averaged'
     landmarks  (l, 2) integers, pairs of vertices of X and Y that are known to correspond
     proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
+    operators  'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own
     initial    modes of the functional map from signatures, from 4 to 60
     filter_iterations
                of the Product Manifold Filter; 0: none
