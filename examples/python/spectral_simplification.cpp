@@ -40,6 +40,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -110,7 +111,12 @@ public:
     return Index(result);
   }
 
-  int threads() const { return int(integer("threads", 1, 1024)); }
+  // All cores unless told otherwise.
+  int threads() const
+  {
+    return has("threads") ? int(integer("threads", 1, 1024))
+                          : int((std::max)(1u, std::thread::hardware_concurrency()));
+  }
 
   double number(const char* name, const double least, const bool itself = true,
                 const double most = std::numeric_limits<double>::infinity()) const
@@ -984,7 +990,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
              self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
              signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
-             pre_simplify: int = 0, max_error: float | None = None, threads: int = 1,
+             pre_simplify: int = 0, max_error: float | None = None, threads: int | None = None,
              progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
 
@@ -1014,7 +1020,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
                first reduce a larger mesh to this number of vertices with plane quadrics; 0: do not
     max_error  stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum
                closely, 0.14 well
-    threads    for eigenpairs, costs and relocation; the result does not depend on it
+    threads    for eigenpairs, costs and relocation, all cores by default; the result does not depend on it
     progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
                Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
 
@@ -1024,7 +1030,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
 
 
 def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               threads: int = 1, progress: Progress | None = None) -> Eigenpairs:
+               threads: int | None = None, progress: Progress | None = None) -> Eigenpairs:
     """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
     an inverse area.
 
@@ -1039,7 +1045,7 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
 
 def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
              k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
-             operators: Fitted_operators | None = None, threads: int = 1,
+             operators: Fitted_operators | None = None, threads: int | None = None,
              progress: Progress | None = None) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
     meshes at unit area; compare figures of one mass only.
@@ -1114,8 +1120,8 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
 
 def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
           mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
-          operators: str = 'mesh', initial: int = 20,
-          filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int = 2,
+          operators: str = 'fitted', initial: int = 20,
+          filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int | None = None,
           progress: Progress | None = None) -> 'Match':
     """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
     simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter.
@@ -1135,7 +1141,7 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
                at most, from vertices of the fine meshes to the functional map and back
     local_weight
                of curvature in these, from 0 to 100
-    threads    at most; the result does not depend on it
+    threads    all cores by default; the result does not depend on it
     progress   as of simplify(); the fraction counts three stages"""
     return _match(locals())
 )py";
