@@ -17,6 +17,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -87,7 +88,8 @@ double difference(const Sparse& A, const Sparse& B)
 void check_definite(const SG::Operator_fit_result& result, const Laplace_operator& own, Index components)
 {
   CHECK(spectral_test::fault_of_fit(result, own) == "");
-  CHECK(spectral_test::components_of_graph(own.L) == components);
+  const std::vector<Index> roots = spectral_test::components_of_graph(own.L);
+  CHECK(std::set<Index>(roots.begin(), roots.end()).size() == std::size_t(components));
   CHECK(SG::number_of_zero_eigenvalues(result.op) == components);
 }
 

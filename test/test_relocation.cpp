@@ -421,6 +421,35 @@ TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, 
   CHECK(ends.empty());
 }
 
+TEST_CASE("closest points are those of the same component, whichever lies in the way")
+{
+  // A small sphere that is half inside of a large one.
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const shapes::Matrices small = shapes::icosphere_matrices(2, 0.3);
+  const Eigen::Index n = input.V.rows(), m = input.T.rows();
+  input.V.conservativeResize(n + small.V.rows(), 3);
+  input.T.conservativeResize(m + small.T.rows(), 3);
+  input.V.bottomRows(small.V.rows()) = small.V.rowwise() + Eigen::RowVector3d(1, 0, 0);
+  input.T.bottomRows(small.T.rows()) = small.T.array() + int(n);
+  SMS::Spectral_edge_collapse_options options = options_with(20);
+  options.mass = SG::Mass::averaged;
+  options.relocate = true;
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 160, options);
+  CHECK(result.relocation.moved_vertices > 0);
+  Eigen::VectorXd is_small = Eigen::VectorXd::Zero(input.V.rows());
+  is_small.tail(small.V.rows()).setOnes();
+  const Eigen::VectorXd share = result.restriction * is_small;
+  int mixed = 0, of_small = 0;
+  for(std::size_t v = 0; v < std::size_t(input.V.rows()); ++v) {
+    const double expected = v < std::size_t(n) ? 0 : 1, found = share(Eigen::Index(result.vertex_map[v]));
+    mixed += std::abs(found - expected) > 1e-12;
+    of_small += found > 0.5;
+  }
+  CHECK(mixed == 0);
+  CHECK(of_small > 0);
+}
+
 TEST_CASE("a relocation that is cancelled in the one-call form leaves what the collapses made")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);

@@ -110,8 +110,8 @@ with \f$ d_a = e_i - e_j \f$ for each edge and positive bounds on these, so that
 the graph. An edge of negative weight (an obtuse or thin triangle) lies in this cone together with the other two edges of its triangles:
 \f$ d_a = e_k - (1-t) e_i - t e_j \f$ with k opposite to ij, as much as it needs. Two rings add for each vertex of up to 64
 neighbours its row of L, and for each edge between two triangles \f$ d_a = e_i + e_j - e_k - e_l \f$, the second difference
-across it: these, not edges to far vertices, make up for a diagonal mass. The total of the mass is that of the coarse mesh (an
-exact scaling of both matrices follows a penalty that leaves little to do).
+across it: these, not edges to far vertices, make up for a diagonal mass. The total of the mass of each component is that of
+the coarse mesh (an exact scaling of both matrices follows a penalty that leaves little to do).
 
 This is a convex quadratic program with bounds. A primal-dual barrier method solves it from the own entries on, each step by
 conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky factor of the sparse normal matrix of the second

@@ -13,6 +13,8 @@
 #include <CGAL/Spectral_geometry/internal/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/connected_components.h>
 #include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
 
 #include <Eigen/Core>
@@ -80,8 +82,9 @@ inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
 class Sheet_guard
 {
 public:
-  explicit Sheet_guard(const Closest_point_query& closest)
+  Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
     : m_closest(&closest)
+    , m_parts(&parts)
   {}
 
   bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
@@ -90,7 +93,8 @@ public:
       m_starts.resize(std::size_t(v) + 1);
     Start& start = m_starts[std::size_t(v)];
     if(start.position != from) {
-      start.closest = start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from);
+      start.closest =
+          start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from, (*m_parts)[std::size_t(v)]);
       start.position = from;
       start.known = true;
     }
@@ -106,6 +110,7 @@ private:
   };
 
   const Closest_point_query* m_closest;
+  const std::vector<Eigen::Index>* m_parts;
   std::vector<Start> m_starts; // by vertex
 };
 
@@ -126,8 +131,8 @@ public:
     , m_size(T, m_start, fine, options.size_tolerance)
   {
     m_timer.start();
-    if(needs_surface())
-      m_closest = std::make_unique<Closest_point_query>(fine);
+    if(m_options.signals != Relocation_options::Signals::carried)
+      set_surface(P);
     set_guards(fixed);
     set_objective(P, F, Z, theta);
     m_has_reverted.assign(std::size_t(m_start.rows()), 0);
@@ -135,6 +140,12 @@ public:
       m_crossing = self_intersecting_faces(m_start, m_T);
     if(m_options.keep_hausdorff_distance)
       measure_fine();
+  }
+
+  /// P at the closest points; where signals are sampled.
+  Eigen::SparseMatrix<double> sampled_restriction(const Eigen::MatrixXd& V) const
+  {
+    return interpolation(*m_closest, m_fine, V, m_parts);
   }
 
   Positions run(Relocation_result& result)
@@ -198,12 +209,6 @@ private:
     return {m_options.trust_radius, m_options.smallest_angle_ratio, std::cos(m_options.largest_turn)};
   }
 
-  bool needs_surface() const
-  {
-    return m_options.signals != Relocation_options::Signals::carried ||
-           std::isfinite(m_options.largest_distance);
-  }
-
   void set_guards(const std::vector<bool>& fixed)
   {
     for(std::size_t v = 0; v < fixed.size(); ++v)
@@ -221,11 +226,36 @@ private:
       else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
         m_guards.keep_on(Eigen::Index(v), boundary);
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_guards.set_leaps(Sheet_guard(*m_closest));
-    if(std::isfinite(m_options.largest_distance))
-      m_guards.set_bound([this](const Eigen::Vector3d& p) {
-        return ((*m_closest)(p).point - p).norm() <= m_options.largest_distance;
+      m_guards.set_leaps(Sheet_guard(*m_closest, m_parts));
+    if(std::isfinite(m_options.largest_distance)) {
+      const auto surface = std::make_shared<Closest_point_query>(m_fine);
+      m_guards.set_bound([this, surface](const Eigen::Vector3d& p) {
+        return ((*surface)(p).point - p).norm() <= m_options.largest_distance;
       });
+    }
+  }
+
+  // The closest points of a vertex are those of the component that its row of P is about.
+  void set_surface(const Eigen::SparseMatrix<double>& P)
+  {
+    const std::vector<Eigen::Index> parts = connected_components(m_fine.V.rows(), [this](const auto& join) {
+      for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+        for(int c = 1; c < 3; ++c)
+          join(m_fine.T(f, 0), m_fine.T(f, c));
+    });
+    m_closest = std::make_unique<Closest_point_query>(m_fine, parts);
+    std::vector<char> has_faces(parts.size(), 0);
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+      has_faces[std::size_t(m_fine.T(f, 0))] = has_faces[std::size_t(m_fine.T(f, 1))] =
+          has_faces[std::size_t(m_fine.T(f, 2))] = 1;
+    m_parts.assign(std::size_t(P.rows()), parts[std::size_t(m_fine.T(0, 0))]);
+    Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
+    for(Eigen::Index j = 0; j < P.cols(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
+        if(has_faces[std::size_t(j)] && it.value() > most(it.row())) {
+          most(it.row()) = it.value();
+          m_parts[std::size_t(it.row())] = parts[std::size_t(j)];
+        }
   }
 
   void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
@@ -239,7 +269,7 @@ private:
     if(m_options.signals != Relocation_options::Signals::carried) {
       m_fine_F = F;
       m_fine_Z = Z;
-      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_fine.T, m_fine_F, m_fine_Z);
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z);
     }
     m_objective = std::make_unique<Relocation_objective>(
         m_T, carried_F, carried_Z, theta, m_size, m_start, m_sampled.get(),
@@ -338,6 +368,7 @@ private:
   Relocation_guards m_guards;
   Size_bounds m_size;
   std::unique_ptr<Closest_point_query> m_closest;
+  std::vector<Eigen::Index> m_parts; // in which of them each vertex is looked for
   Position_dependent_signals::Rows m_fine_F, m_fine_Z;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;

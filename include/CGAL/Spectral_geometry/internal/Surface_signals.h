@@ -20,68 +20,15 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-/// Closest points of one surface, asked for again and again.
-class Closest_point_query
-{
-public:
-  struct Answer
-  {
-    Eigen::Index face;
-    Eigen::Vector3d weights, point;
-  };
-
-  explicit Closest_point_query(const Mesh_matrices& surface)
-  {
-    m_faces.reserve(std::size_t(surface.T.rows()));
-    for(Eigen::Index f = 0; f < surface.T.rows(); ++f) {
-      Eigen::Matrix3d corners;
-      for(int c = 0; c < 3; ++c)
-        corners.col(c) = surface.V.row(surface.T(f, c)).transpose();
-      m_faces.emplace_back(f, corners);
-    }
-    m_tree.insert(m_faces.cbegin(), m_faces.cend());
-    m_tree.build();
-  }
-
-  Closest_point_query(const Closest_point_query&) = delete; // the tree points into the faces
-  Closest_point_query& operator=(const Closest_point_query&) = delete;
-
-  Answer operator()(const Eigen::Vector3d& query) const
-  {
-    return answer(query, m_tree.closest_point_and_primitive(to_point(query)).second);
-  }
-
-  /// The same from the answer to a query nearby, which saves half of the search.
-  Answer operator()(const Eigen::Vector3d& query, const Answer& nearby) const
-  {
-    const Face face = m_faces.begin() + nearby.face;
-    const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
-    const auto hint = std::make_pair(to_point(face->corners * weights), face);
-    return answer(query, m_tree.closest_point_and_primitive(to_point(query), hint).second);
-  }
-
-  const Eigen::Matrix3d& corners(const Eigen::Index face) const { return m_faces[std::size_t(face)].corners; }
-
-private:
-  using Face = std::vector<Indexed_face>::const_iterator;
-
-  static Answer answer(const Eigen::Vector3d& query, const Face face)
-  {
-    const Eigen::Vector3d weights = closest_point_of_triangle(query, face->corners).weights;
-    return {face->id, weights, face->corners * weights};
-  }
-
-  std::vector<Indexed_face> m_faces;
-  CGAL::AABB_tree<Face_traits> m_tree;
-};
-
 /// Signals of the fine mesh, read off at the closest points of the coarse vertices.
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K. All three are kept by reference.
-  Surface_signals(const Closest_point_query& closest, const Eigen::MatrixXi& T, const Rows& F, const Rows& Z)
+  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. All five are kept by reference.
+  Surface_signals(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts,
+                  const Eigen::MatrixXi& T, const Rows& F, const Rows& Z)
     : m_closest(closest)
+    , m_parts(parts)
     , m_T(T)
     , m_F(F)
     , m_Z(Z)
@@ -97,7 +44,7 @@ public:
     m_answers.resize(std::size_t(V.rows()));
     for(Eigen::Index w = 0; w < V.rows(); ++w) {
       Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      a = first ? m_closest(V.row(w)) : m_closest(V.row(w), a);
+      a = first ? m_closest(V.row(w), m_parts[std::size_t(w)]) : m_closest(V.row(w), a);
       const Eigen::RowVector3i t = m_T.row(a.face);
       F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
       Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
@@ -137,6 +84,7 @@ public:
 
 private:
   const Closest_point_query& m_closest;
+  const std::vector<Eigen::Index>& m_parts;
   const Eigen::MatrixXi& m_T;
   const Rows &m_F, &m_Z;
   std::vector<Closest_point_query::Answer> m_answers;

@@ -56,29 +56,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
 {
   internal::check_interpolation_input(points, surface);
-  std::vector<internal::Indexed_face> faces;
-  faces.reserve(static_cast<std::size_t>(surface.T.rows()));
-  for(Eigen::Index f = 0; f < surface.T.rows(); ++f) {
-    Eigen::Matrix3d corners;
-    for(int c = 0; c < 3; ++c)
-      corners.col(c) = surface.V.row(surface.T(f, c)).transpose();
-    faces.emplace_back(f, corners);
-  }
-  const CGAL::AABB_tree<internal::Face_traits> tree(faces.cbegin(), faces.cend());
-
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(3 * points.rows()));
-  for(Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d query = points.row(i).transpose();
-    const auto face = tree.closest_point_and_primitive(internal::to_point(query)).second;
-    const Eigen::Vector3d weights = internal::closest_point_of_triangle(query, face->corners).weights;
-    for(int c = 0; c < 3; ++c)
-      if(weights(c) != 0)
-        entries.emplace_back(static_cast<int>(i), surface.T(face->id, c), weights(c));
-  }
-  Eigen::SparseMatrix<double> W(points.rows(), surface.V.rows());
-  W.setFromTriplets(entries.begin(), entries.end());
-  return W;
+  return internal::interpolation(internal::Closest_point_query(surface), surface, points);
 }
 
 } // namespace Spectral_geometry

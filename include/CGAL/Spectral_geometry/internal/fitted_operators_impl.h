@@ -9,6 +9,7 @@
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
 #include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
+#include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -203,6 +204,7 @@ public:
     }
     m_total = Vector::Zero(n);
     m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(m_G.rows())).cwiseAbs2();
+    find_components(own);
     m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / m_G.rows());
     assemble_normal_matrix();
   }
@@ -212,7 +214,7 @@ public:
     Operator_fit_result result;
     const Index n = m_start.size(), nL = m_stiffness.size();
     Vector g;
-    const Vector own = m_start / m_total.dot(m_start);
+    const Vector own = scaled(m_start);
     result.objective_before = objective(own, g);
     // Slacks s and multipliers z, both positive; g is half the gradient.
     Vector s = (m_start - m_lowest).cwiseMax(0.01 * m_typical);
@@ -235,7 +237,7 @@ public:
     }
     Vector x = m_lowest + s;
     result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
-    x /= m_total.dot(x);
+    x = scaled(x);
     result.objective_after = objective(x, g);
     if(!(result.objective_after < result.objective_before)) {
       x = own;
@@ -249,6 +251,45 @@ public:
   }
 
 private:
+  // Which unknowns belong to which component of the mesh, and what is its share of the area.
+  void find_components(const Laplace_operator& own)
+  {
+    const Index N = m_G.rows(), nL = m_stiffness.size();
+    const std::vector<Index> component = connected_components(N, [&](const auto& join) {
+      for(Index j = 0; j < N; ++j)
+        for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
+          join(it.row(), j);
+    });
+    m_share = Vector::Zero(*std::max_element(component.begin(), component.end()) + 1);
+    for(Index v = 0; v < N; ++v)
+      m_share(component[v]) += own.mass(v) / m_area;
+    m_component.resize(m_start.size());
+    for(Index a = 0; a < m_start.size(); ++a) {
+      const bool stiffness = a < nL;
+      Rank_one_terms::Sparse_rows::InnerIterator first((stiffness ? m_stiffness : m_mass).vectors(),
+                                                       stiffness ? a : a - nL);
+      m_component[a] = component[first.col()];
+    }
+  }
+
+  // The mass of each component.
+  Vector totals(const Vector& x) const
+  {
+    Vector result = Vector::Zero(m_share.size());
+    for(Index a = 0; a < x.size(); ++a)
+      result(m_component[a]) += m_total(a) * x(a);
+    return result;
+  }
+
+  // The number of its component for each unknown.
+  Vector spread(const Vector& of_components) const
+  {
+    return Vector::NullaryExpr(m_start.size(), [&](Index a) { return of_components(m_component[a]); });
+  }
+
+  // Each component with the mass that it has: without that those that fit badly would shrink, which lowers their residual.
+  Vector scaled(const Vector& x) const { return x.cwiseProduct(spread(m_share.cwiseQuotient(totals(x)))); }
+
   struct Edge
   {
     Index i, j;
@@ -412,13 +453,13 @@ private:
     R = BG * m_lambda.asDiagonal() - R;
     if(affine)
       T.diagonal().array() -= 1.;
-    const double total = m_total.dot(x) - affine;
+    const Vector total = (affine ? Vector(totals(x) - m_share) : totals(x)).cwiseQuotient(m_share);
     const Vector change = affine ? Vector(x - m_start) : x;
     const Vector row_weight = m_options.plain * m_row_mass.cwiseInverse();
     const double f = affine
                          ? (row_weight.transpose() * R.cwiseAbs2() * m_weight).value() +
                                (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
-                               penalty * total * total + change.cwiseAbs2().dot(m_tie)
+                               penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_tie)
                          : 0.;
     R = (row_weight.asDiagonal() * R * m_weight.asDiagonal()).eval();
     Tall_products::add(R, m_G, X * m_weight.asDiagonal());
@@ -427,7 +468,7 @@ private:
     R = R * m_lambda.asDiagonal();
     Tall_products::add(R, m_G, m_options.orthonormality * T);
     g.tail(nB) = m_mass.derivatives(R, m_G);
-    g += penalty * total * m_total + m_tie.cwiseProduct(change);
+    g += penalty * m_total.cwiseProduct(spread(total)) + m_tie.cwiseProduct(change);
     return f;
   }
 
@@ -445,13 +486,14 @@ private:
         m_cholesky = std::make_unique<Cholesky>(M);
       m_solved_total.resize(r.size());
       m_cholesky->solve(m_total, m_solved_total);
-      m_rank_one = penalty / (1. + penalty * m_total.dot(m_solved_total));
+      // one term for each component, and none in common
+      m_rank_one = penalty * (m_share + penalty * totals(m_solved_total)).cwiseInverse();
     }
     dx = Qdx = Vector::Zero(r.size());
     double first = 0., last = 0.;
     for(m_steps = 0; m_steps < 20; ++m_steps) {
       m_cholesky->solve(r, y);
-      y -= (m_rank_one * m_total.dot(y)) * m_solved_total;
+      y -= m_solved_total.cwiseProduct(spread(m_rank_one.cwiseProduct(totals(y))));
       const double next = r.dot(y);
       if(m_steps == 0)
         first = next;
@@ -478,18 +520,19 @@ private:
   // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left out, a block of more unknowns
   // of the preconditioner is diagonal.
   static constexpr Index largest_star = 64, largest_block = 256;
-  static constexpr double penalty = 1e4; // of the total of the mass; the other terms are about 1 or less
+  static constexpr double penalty = 1e4; // of the totals of the mass; the other terms are about 1 or less
   const Operator_fit_options& m_options;
   const Rows m_G;
   const Vector m_lambda;
   const double m_area;
   const Vector m_row_mass;
-  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie;
+  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie, m_share;
+  std::vector<Index> m_component; // of each unknown
   Rank_one_terms m_stiffness, m_mass;
   Sparse_matrix m_H;
   std::unique_ptr<Cholesky> m_cholesky; // of a recent preconditioner
   Vector m_solved_total;                // its solution for m_total
-  double m_rank_one = 0.;
+  Vector m_rank_one;
   int m_steps = 1000; // of conjugate gradients, the last time
 };
 

@@ -27,7 +27,7 @@ relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Sp
   internal::Relocation relocation(V, T, P, fine, F, Z, theta, fixed, options);
   V = relocation.run(result);
   result.resampled = options.signals == Relocation_options::Signals::sampled;
-  result.restriction = result.resampled ? closest_point_interpolation(V, fine) : P;
+  result.restriction = result.resampled ? relocation.sampled_restriction(V) : P;
   return result;
 }
 
