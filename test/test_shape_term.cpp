@@ -467,7 +467,8 @@ TEST_CASE("A step that leaps to another sheet is told from one along the surface
   sheets.V.bottomRows(half) = sheets.V.topRows(half);
   sheets.V.bottomRows(half).col(2).setConstant(0.1);
   const SG::internal::Closest_point_query closest(sheets);
-  SG::internal::Sheet_guard leaps(closest);
+  const std::vector<Eigen::Index> parts(2, 0);
+  SG::internal::Sheet_guard leaps(closest, parts);
   const Eigen::Vector3d low(0.5, 0.5, 0.04), high(0.5, 0.5, 0.06);
   CHECK(leaps(0, low, high));
   CHECK_FALSE(leaps(0, low, {0.6, 0.52, 0.045}));
