@@ -13,6 +13,7 @@
 #include "io/npy_reader.h"
 #include "io/output_files.h"
 #include "io/program.h"
+#include "option_words.h"
 #include "report/html_report.h"
 #include "report/json_text.h"
 #include "report/judgement.h"
@@ -106,62 +107,14 @@ struct Both_meshes
   SG::Eigenpairs coarse_pairs;
 };
 
-const char* phase_name(SMS::Spectral_phase phase)
-{
-  switch(phase) {
-  case SMS::Spectral_phase::pre_simplification:
-    return "preparation";
-  case SMS::Spectral_phase::eigenpairs:
-    return "eigenpairs";
-  case SMS::Spectral_phase::first_costs:
-    return "first costs";
-  case SMS::Spectral_phase::flips:
-    return "edge flips";
-  case SMS::Spectral_phase::relocation:
-    return "relocation";
-  case SMS::Spectral_phase::operator_fit:
-    return "fit";
-  case SMS::Spectral_phase::collapses:
-    break;
-  }
-  return "collapses";
-}
-
-// The preset and what overrides it.
-SMS::Spectral_edge_collapse_options preset_options(const Arguments& a)
-{
-  using Options = SMS::Spectral_edge_collapse_options;
-  using Signals = SG::Relocation_options::Signals;
-  Options options = a.preset == "paper" ? Options::paper() : Options::best();
-  if(!a.placement.empty())
-    options.placement = a.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
-                        : a.placement == "free"   ? SMS::Spectral_placement_strategy::free
-                                                  : SMS::Spectral_placement_strategy::on_edge;
-  if(!a.mass.empty())
-    options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
-  if(a.shape)
-    options.shape = *a.shape;
-  if(!a.self_intersections.empty())
-    options.keep_free_of_self_intersections = a.self_intersections == "refuse";
-  if(!a.relocate.empty()) {
-    options.relocate = a.relocate != "none";
-    options.relocation.signals = a.relocate == "carried"   ? Signals::carried
-                                 : a.relocate == "sampled" ? Signals::sampled
-                                                           : Signals::carried_and_sampled;
-  }
-  return options;
-}
-
 SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Vertex_numbering& numbering,
                                                    Progress_bar& bar)
 {
-  SMS::Spectral_edge_collapse_options options = preset_options(a);
+  SMS::Spectral_edge_collapse_options options =
+      options_of({a.preset, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.flips});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
-  options.flips = a.flips == "spectral"   ? SG::Edge_flips::spectral
-                  : a.flips == "delaunay" ? SG::Edge_flips::delaunay
-                                          : SG::Edge_flips::none;
   options.threads = a.threads;
   options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {

@@ -6,6 +6,7 @@
 // and stands at the end; each function there hands its arguments to one here.
 
 #include "../programs/io/polygon_soup.h"
+#include "../programs/option_words.h"
 #ifdef SPECTRAL_PYTHON_MATCH
 #include "../programs/matching/matcher.h"
 #endif
@@ -560,62 +561,25 @@ struct Simplification : Level
   }
 };
 
-const char* phase_name(const SMS::Spectral_phase phase)
+SMS::Spectral_edge_collapse_options run_options(const Arguments& a)
 {
-  switch(phase) {
-  case SMS::Spectral_phase::pre_simplification:
-    return "pre_simplification";
-  case SMS::Spectral_phase::eigenpairs:
-    return "eigenpairs";
-  case SMS::Spectral_phase::first_costs:
-    return "first_costs";
-  case SMS::Spectral_phase::flips:
-    return "flips";
-  case SMS::Spectral_phase::relocation:
-    return "relocation";
-  case SMS::Spectral_phase::operator_fit:
-    return "operator_fit";
-  case SMS::Spectral_phase::collapses:
-    break;
-  }
-  return "collapses";
-}
-
-// The preset and what overrides it.
-SMS::Spectral_edge_collapse_options preset_options(const Arguments& a)
-{
-  using Options = SMS::Spectral_edge_collapse_options;
   using Signals = SG::Relocation_options::Signals;
-  Options options = a.word("preset", {"best", "paper"}) == "paper" ? Options::paper() : Options::best();
-  const std::string placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
-  if(!placement.empty())
-    options.placement = placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
-                        : placement == "free"   ? SMS::Spectral_placement_strategy::free
-                                                : SMS::Spectral_placement_strategy::on_edge;
-  if(a.has("mass"))
-    options.mass = a.mass();
+  Option_words words;
+  words.preset = a.word("preset", {"best", "paper"});
+  words.placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
+  words.mass = a.word("mass", {"lumped", "averaged"}, true);
   if(a.has("shape"))
-    options.shape = a.number("shape", 0);
-  if(a.has("self_intersections"))
-    options.keep_free_of_self_intersections = a.word("self_intersections", {"allow", "refuse"}) == "refuse";
-  const std::string relocate =
-      a.word("relocate", {"none", "sampled", "carried", "carried_and_sampled"}, true);
-  if(!relocate.empty()) {
-    options.relocate = relocate != "none";
-    options.relocation.signals = relocate == "carried"   ? Signals::carried
-                                 : relocate == "sampled" ? Signals::sampled
-                                                         : Signals::carried_and_sampled;
-  }
+    words.shape = a.number("shape", 0);
+  words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
+  words.relocate = a.word("relocate", {"none", "sampled", "carried", "carried_and_sampled"}, true);
+  words.flips = a.word("flips", {"none", "spectral", "delaunay"});
+  SMS::Spectral_edge_collapse_options options = options_of(words);
   options.binary = a.flag("binary");
   if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)
     refuse(
         "binary asks for a P of ones and zeros, and relocation by the closest points makes another one: pass "
         "relocate='none' or relocate='carried'.");
   options.preserve_border = a.flag("preserve_border");
-  const std::string flips = a.word("flips", {"none", "spectral", "delaunay"});
-  options.flips = flips == "spectral"   ? SG::Edge_flips::spectral
-                  : flips == "delaunay" ? SG::Edge_flips::delaunay
-                                        : SG::Edge_flips::none;
   options.threads = a.threads();
   if(a.has("max_error"))
     options.maximum_error = a.number("max_error", 0, false);
@@ -706,7 +670,7 @@ Simplification simplify(const Arguments& a)
   const Index vertices = fine->V.rows();
   const SG::Mesh_diagnosis diagnosis = checked(*fine, "V, F");
   const Index n = a.integer("n", 1, vertices, ", as many as V has");
-  SMS::Spectral_edge_collapse_options options = preset_options(a);
+  SMS::Spectral_edge_collapse_options options = run_options(a);
   set_signals(a, vertices, n, options);
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");

@@ -1,0 +1,79 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_OPTION_WORDS_H
+#define SPECTRAL_EXAMPLES_OPTION_WORDS_H
+
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+
+#include <optional>
+#include <string>
+
+// The words in which the command line and Python speak of options; who reads them has checked that they are among these.
+struct Option_words
+{
+  std::string preset; // best, paper
+  // Empty: as the preset has it.
+  std::string placement;          // on_edge, midpoint, free
+  std::string mass;               // lumped, averaged
+  std::string self_intersections; // allow, refuse
+  std::string relocate;           // none, sampled, carried, carried_and_sampled
+  std::optional<double> shape;
+  std::string flips; // none, spectral, delaunay
+};
+
+// The preset and what overrides it.
+inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options_of(const Option_words& words)
+{
+  namespace SMS = CGAL::Surface_mesh_simplification;
+  namespace SG = CGAL::Spectral_geometry;
+  using Options = SMS::Spectral_edge_collapse_options;
+  using Signals = SG::Relocation_options::Signals;
+  Options options = words.preset == "paper" ? Options::paper() : Options::best();
+  if(!words.placement.empty())
+    options.placement = words.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
+                        : words.placement == "free"   ? SMS::Spectral_placement_strategy::free
+                                                      : SMS::Spectral_placement_strategy::on_edge;
+  if(!words.mass.empty())
+    options.mass = words.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  if(words.shape)
+    options.shape = *words.shape;
+  if(!words.self_intersections.empty())
+    options.keep_free_of_self_intersections = words.self_intersections == "refuse";
+  if(!words.relocate.empty()) {
+    options.relocate = words.relocate != "none";
+    options.relocation.signals = words.relocate == "carried"   ? Signals::carried
+                                 : words.relocate == "sampled" ? Signals::sampled
+                                                               : Signals::carried_and_sampled;
+  }
+  options.flips = words.flips == "spectral"   ? SG::Edge_flips::spectral
+                  : words.flips == "delaunay" ? SG::Edge_flips::delaunay
+                                              : SG::Edge_flips::none;
+  return options;
+}
+
+// The name of a phase, that of its enumerator.
+inline const char* phase_name(const CGAL::Surface_mesh_simplification::Spectral_phase phase)
+{
+  using Phase = CGAL::Surface_mesh_simplification::Spectral_phase;
+  switch(phase) {
+  case Phase::pre_simplification:
+    return "pre_simplification";
+  case Phase::eigenpairs:
+    return "eigenpairs";
+  case Phase::first_costs:
+    return "first_costs";
+  case Phase::flips:
+    return "flips";
+  case Phase::relocation:
+    return "relocation";
+  case Phase::operator_fit:
+    return "operator_fit";
+  case Phase::collapses:
+    break;
+  }
+  return "collapses";
+}
+
+#endif // SPECTRAL_EXAMPLES_OPTION_WORDS_H
