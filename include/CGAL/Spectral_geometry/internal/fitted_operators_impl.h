@@ -8,7 +8,8 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
-#include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
+#include <CGAL/Spectral_geometry/internal/Rank_one_terms.h>
+#include <CGAL/Spectral_geometry/internal/Tall_products.h>
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <CGAL/number_type_config.h>
@@ -29,148 +30,6 @@
 namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
-
-/// Products of tall matrices, in wide registers: blocks of rows, short enough for the cache, in panels of eight columns, the last of
-/// which is filled up with zeros.
-class Tall_products
-{
-public:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-  // A^T B, which is known to be symmetric
-  static Eigen::MatrixXd symmetric(const Rows& A, const Rows& B)
-  {
-    const Index panels = (A.cols() + panel_width - 1) / panel_width;
-    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
-    for(Index first = 0; first < A.rows(); first += block) {
-      const Index rows = (std::min)(block, A.rows() - first);
-      pack(A, first, rows, P);
-      pack(B, first, rows, W);
-      for(Index p = 0; p < panels; ++p)
-        for(Index q = p; q < panels; ++q)
-          gram(P.data() + p * size, W.data() + q * size, rows, H.data() + (p * panels + q) * square);
-    }
-    Eigen::MatrixXd result(A.cols(), A.cols());
-    for(Index j = 0; j < result.cols(); ++j)
-      for(Index i = 0; i <= j; ++i)
-        result(i, j) = result(j, i) =
-            H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
-              j % panel_width);
-    return result;
-  }
-
-  // C += A M
-  static void add(Rows& C, const Rows& A, const Eigen::MatrixXd& M)
-  {
-    const Index panels = (A.cols() + panel_width - 1) / panel_width;
-    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
-    for(Index j = 0; j < M.cols(); ++j)
-      for(Index i = 0; i < M.rows(); ++i)
-        H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
-          j % panel_width) = -M(i, j);
-    for(Index first = 0; first < A.rows(); first += block) {
-      const Index rows = (std::min)(block, A.rows() - first);
-      pack(A, first, rows, P);
-      pack(C, first, rows, W);
-      for(Index q = 0; q < panels; ++q) {
-        for(Index p = 0; p < panels; ++p)
-          subtract_product(W.data() + q * size, P.data() + p * size, rows,
-                           H.data() + (p * panels + q) * square);
-        const Index begin = q * panel_width, width = (std::min)(Index(panel_width), C.cols() - begin);
-        C.block(first, begin, rows, width) = W.block(q * block, 0, rows, width);
-      }
-    }
-  }
-
-private:
-  static constexpr Index block = 128, size = block * panel_width, square = panel_width * panel_width;
-
-  static void pack(const Rows& A, Index first, Index rows, Rows& P)
-  {
-    for(Index p = 0; p * panel_width < A.cols(); ++p) {
-      const Index begin = p * panel_width, width = (std::min)(Index(panel_width), A.cols() - begin);
-      P.block(p * block, 0, rows, width) = A.block(first, begin, rows, width);
-      P.block(p * block, width, rows, panel_width - width).setZero();
-    }
-  }
-};
-
-/// A symmetric matrix sum_a x_a d_a d_a^T with bounds on x; d_a is row a of a sparse matrix.
-class Rank_one_terms
-{
-public:
-  using Index = Eigen::Index;
-  using Vector = Eigen::VectorXd;
-  using Row = Eigen::RowVectorXd;
-  using Rows = Tall_products::Rows;
-  using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  using Entries = std::vector<std::pair<Index, double>>;
-  // start, lower bound and typical size of a coefficient
-  using Range = std::array<double, 3>;
-
-  Index size() const { return static_cast<Index>(m_ranges.size()); }
-  const std::vector<Range>& ranges() const { return m_ranges; }
-  const Sparse_rows& vectors() const { return m_D; }
-
-  void add(const Entries& d, double start, double lowest, double typical)
-  {
-    for(const auto& e : d)
-      m_entries.emplace_back(static_cast<int>(size()), static_cast<int>(e.first), e.second);
-    m_ranges.push_back({(std::max)(start, lowest), lowest, typical});
-  }
-
-  void assemble(Index n)
-  {
-    m_D.resize(size(), n);
-    m_D.setFromTriplets(m_entries.begin(), m_entries.end());
-    m_entries = {};
-  }
-
-  // y = d_a^T G, with room for it
-  void row(Index a, const Rows& G, Row& y) const
-  {
-    y.setZero();
-    for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
-      y += d.value() * G.row(d.col());
-  }
-
-  // sum_a x_a d_a d_a^T G
-  Rows times(const Vector& x, const Rows& G) const
-  {
-    Rows result = Rows::Zero(G.rows(), G.cols());
-    Row y(G.cols());
-    for(Index a = 0; a < size(); ++a) {
-      row(a, G, y);
-      for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
-        result.row(d.col()) += (d.value() * x(a)) * y;
-    }
-    return result;
-  }
-
-  // the derivatives by x of the inner product of R with that
-  Vector derivatives(const Rows& R, const Rows& G) const
-  {
-    Vector result(size());
-    Row y(G.cols()), z(G.cols());
-    for(Index a = 0; a < size(); ++a) {
-      row(a, G, y);
-      row(a, R, z);
-      result(a) = y.dot(z);
-    }
-    return result;
-  }
-
-  Sparse_matrix matrix(const Vector& x) const
-  {
-    const Sparse_matrix D = m_D, Dt = m_D.transpose();
-    return Dt * x.asDiagonal() * D;
-  }
-
-private:
-  std::vector<Eigen::Triplet<double>> m_entries;
-  std::vector<Range> m_ranges;
-  Sparse_rows m_D;
-};
 
 /// The quadratic program of fit_operators() and its solver, at unit area.
 class Operator_fit

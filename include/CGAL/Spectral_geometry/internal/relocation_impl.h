@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_IMPL_H
 
-#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/internal/Relocation.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
