@@ -16,8 +16,7 @@
 
 namespace spectral_test {
 
-// Connected components of the graph of a matrix.
-// For each vertex that which stands for its component.
+// For each vertex of the graph of a matrix the one that stands for its component.
 inline std::vector<Eigen::Index> components_of_graph(const Eigen::SparseMatrix<double>& A)
 {
   std::vector<Eigen::Index> parent(static_cast<std::size_t>(A.cols()));

@@ -157,6 +157,24 @@ TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of 
   }
 }
 
+TEST_CASE("Pre-simplification never merges a vertex to keep with the end of a constrained edge")
+{
+  // A fan around the vertex to keep: every edge leads to it or is on the border.
+  const shapes::Matrices input = shapes::disc_matrices(12);
+  Spectral_edge_collapse_options options = options_with(1);
+  options.kept_vertices = {0};
+  options.pre_simplify = 4;
+  const bool constrained = GENERATE(false, true);
+  Mesh mesh = make_mesh(input);
+  auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  for(const auto e : edges(mesh))
+    constraints[e] = constrained && is_border(e, mesh);
+  const Result result =
+      SMS::spectral_edge_collapse(mesh, 4, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  CHECK(result.pre_simplified_vertices == (constrained ? 13 : 4));
+  CHECK(survivors({0}, input, mesh, result.restriction, result.vertex_map) == 1);
+}
+
 TEST_CASE("Pre-simplification never brings two vertices to keep together that share a position")
 {
   // Two triangles on one edge, of which every other edge leads from an end to one of the two.
@@ -170,57 +188,4 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
   const Result result = SMS::spectral_edge_collapse(mesh, 2, options);
   CHECK(result.pre_simplified_vertices == 4);
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
-}
-
-namespace {
-
-// A placement that happens to lie on an end of the edge: the one that is not to be kept.
-template <class Tracker>
-struct Other_end_placement
-{
-  std::shared_ptr<const Tracker> tracker;
-
-  template <class Profile>
-  SMS::internal::Spectral_optional<Kernel::Point_3> operator()(const Profile& profile) const
-  {
-    return tracker->is_kept(profile.v0()) ? profile.p1() : profile.p0();
-  }
-};
-
-} // namespace
-
-TEST_CASE("A vertex to keep takes in a neighbour on which the placement happens to lie, unless constraints "
-          "hold that one")
-{
-  using Tracker = SMS::internal::Restriction_tracker<Mesh>;
-  const bool constrained = GENERATE(false, true);
-  CAPTURE(constrained);
-  // A fan around the vertex to keep: every edge that may be collapsed leads to it or is on the border.
-  Mesh mesh = make_mesh(shapes::disc_matrices(12));
-  std::vector<char> flags(13, 0);
-  flags[0] = 1;
-  const auto tracker = std::make_shared<Tracker>(mesh, flags);
-  const auto shared = std::make_shared<const SMS::internal::Shared_positions>();
-  auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
-  for(const auto e : edges(mesh))
-    constraints[e] = constrained && is_border(e, mesh);
-  using Is_constrained = SMS::internal::Ends_of_constrained_edges<decltype(constraints)>;
-  using Placement =
-      SMS::internal::Kept_vertices_placement<Tracker, Other_end_placement<Tracker>, Is_constrained>;
-  const Placement placement(tracker, shared, Other_end_placement<Tracker>{tracker},
-                            Is_constrained{constraints});
-  int at_centre = 0, refused = 0;
-  for(const auto h : halfedges(mesh)) {
-    using Profile = SMS::Edge_profile<Mesh, Mesh::Property_map<Mesh::Vertex_index, Kernel::Point_3>, Kernel>;
-    const Kernel traits;
-    const Profile profile(h, mesh, traits, get(boost::vertex_index, mesh), mesh.points(),
-                          get(boost::halfedge_index, mesh), true);
-    if(!tracker->is_kept(profile.v0()) && !tracker->is_kept(profile.v1()))
-      continue;
-    const auto point = placement(profile);
-    at_centre += point && *point == mesh.point(Mesh::Vertex_index(0));
-    refused += !point;
-  }
-  CHECK(at_centre == (constrained ? 0 : 24));
-  CHECK(refused == (constrained ? 24 : 0));
 }

@@ -34,6 +34,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -305,7 +306,9 @@ private:
       throw;
     } catch(const Write_error&) {
       throw;
-    } catch(const std::runtime_error& error) {
+    } catch(const std::bad_alloc&) {
+      throw;
+    } catch(const std::exception& error) {
       throw std::runtime_error(rival.option.empty() ? error.what() : rival.option + ": " + error.what());
     }
   }

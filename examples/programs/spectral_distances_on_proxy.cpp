@@ -31,6 +31,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -47,6 +48,7 @@ struct Distance_arguments
 {
   std::string mesh, report, mass = "averaged", operators = "fitted", command, help;
   long vertices = 0, eigenvectors = 100, sources = 10;
+  int threads = all_threads();
   bool repair = false, strict = false;
 };
 
@@ -67,20 +69,16 @@ struct Unit_shape
   SG::Laplace_operator op;
   SG::Eigenpairs pairs;
   double area = 0, seconds = 0; // of the eigenpairs
-  double seconds_fit = 0;
 
-  // `fit` changes the operator.
-  Unit_shape(SG::Mesh_matrices mesh, Eigen::Index K, SG::Mass mass,
-             const std::function<void(SG::Laplace_operator&)>& fit = {})
+  Unit_shape(SG::Mesh_matrices mesh, SG::Laplace_operator of_mesh, Eigen::Index K, int threads)
     : matrices(std::move(mesh))
+    , op(std::move(of_mesh))
   {
-    op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
     area = op.mass.sum();
     op.B /= area;
     op.mass /= area;
-    if(fit)
-      seconds_fit = seconds_of([&] { fit(op); });
     SG::Eigenpairs_options options;
+    options.threads = threads;
     options.progress = [](double) { return !interrupted; };
     seconds = seconds_of([&] { pairs = SG::eigenpairs(op, K, options); });
   }
@@ -116,7 +114,7 @@ struct Pair
   Eigen::SparseMatrix<double> P, Q; // restriction and prolongation
   std::vector<std::size_t> vertex_map;
   Eigen::MatrixXd C;
-  double seconds_simplification = 0;
+  double seconds_simplification = 0, seconds_fit = 0;
 
   // Functions on the coarse mesh, one per column, in the way of that number.
   Eigen::MatrixXd bring_back(int way, const Eigen::MatrixXd& g) const
@@ -144,30 +142,38 @@ Pair simplify(const Distance_arguments& a)
                              std::to_string(n) + " vertices.");
   if(!input.changes.empty())
     std::cout << printable(input.changes_of(a.mesh)) << "\n" << std::flush;
-  const SG::Mass mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
-  Unit_shape fine(SG::mesh_matrices(mesh), a.eigenvectors, mass);
   SMS::Spectral_edge_collapse_options options;
-  options.mass = mass;
+  options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  options.fit_operators = a.operators == "fitted";
+  options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
+  options.threads = usable_threads(a.threads, false);
   options.cancel = &interrupted;
+  const auto shape = [&](const std::optional<SG::Operator_fit_result>& fitted) {
+    SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
+    SG::Laplace_operator own = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(options.mass));
+    return Unit_shape(std::move(matrices), fitted ? fitted->op : std::move(own), a.eigenvectors,
+                      options.threads);
+  };
+  Unit_shape fine = shape({});
   SG::Eigenpairs pairs = fine.pairs; // at the scale of the mesh
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
-  SMS::Spectral_edge_collapse_result result;
-  const double seconds = seconds_of(
-      [&] { result = SMS::spectral_edge_collapse(mesh, static_cast<std::size_t>(a.vertices), options); });
+  const SMS::Spectral_edge_collapse_result result =
+      SMS::spectral_edge_collapse(mesh, static_cast<std::size_t>(a.vertices), options);
   stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);
-  std::function<void(SG::Laplace_operator&)> fit;
-  if(a.operators == "fitted")
-    fit = [&](SG::Laplace_operator& op) {
-      SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
-      fit_options.progress = [](double) { return !interrupted; };
-      op = SG::fit_operators(op, result.restriction, fine.op, fine.pairs, fit_options).op;
-    };
-  Unit_shape coarse(SG::mesh_matrices(mesh), a.eigenvectors, mass, fit);
-  Pair pair{std::move(fine), std::move(coarse), result.restriction, {}, result.vertex_map, {}, seconds};
+  if(options.fit_operators && !result.fitted)
+    throw std::runtime_error(result.warnings.back());
+  Pair pair{std::move(fine),
+            shape(result.fitted),
+            result.restriction,
+            {},
+            result.vertex_map,
+            {},
+            result.seconds_total - result.seconds_operator_fit,
+            result.seconds_operator_fit};
   pair.Q = SG::closest_point_interpolation(pair.fine.matrices.V, pair.coarse.matrices);
   pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
   return pair;
@@ -243,8 +249,8 @@ void print(const Pair& pair, const Summary& s)
 {
   std::printf("%ld -> %ld vertices, simplified in %.2f s", static_cast<long>(pair.fine.op.mass.size()),
               static_cast<long>(pair.coarse.op.mass.size()), pair.seconds_simplification);
-  if(pair.coarse.seconds_fit > 0)
-    std::printf(", operators fitted in %.2f s", pair.coarse.seconds_fit);
+  if(pair.seconds_fit > 0)
+    std::printf(", operators fitted in %.2f s", pair.seconds_fit);
   std::printf("\n\n");
   std::printf("%-24s %14s %14s %14s %10s\n", "relative error", "prolongation", "spectrum", "vertex map",
               "speed-up");
@@ -313,13 +319,12 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
   html += "<tr>" + cell("eigenpairs", "td", "l") + "<td></td><td></td><td></td>" +
           cell(formatted(pair.fine.seconds)) + cell(formatted(pair.coarse.seconds)) +
           cell(formatted(pair.fine.seconds / pair.coarse.seconds)) + "</tr>\n";
-  html +=
-      "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) + " s" +
-      (pair.coarse.seconds_fit > 0 ? ", fit of the operators: " + formatted(pair.coarse.seconds_fit) + " s"
-                                   : std::string()) +
-      ", once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
-      "(the wave "
-      "kernel's is not squared), mean over the sources.</p>\n<table>\n";
+  html += "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) + " s" +
+          (pair.seconds_fit > 0 ? ", fit of the operators: " + formatted(pair.seconds_fit) + " s"
+                                : std::string()) +
+          ", once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
+          "(the wave "
+          "kernel's is not squared), mean over the sources.</p>\n<table>\n";
   for(const auto& [signature, error] : s.signatures)
     html += "<tr>" + cell(escaped(signature) + ", at the heaviest vertex of each cluster, %", "td", "l") +
             cell(percent(error)) + "</tr>\n";
@@ -345,7 +350,8 @@ Distance_arguments parse(int argc, char* argv[])
       "mass", po::value(&a.mass)->value_name("lumped|averaged")->default_value(a.mass), "the mass matrix")(
       "operators", po::value(&a.operators)->value_name("fitted|mesh")->default_value(a.operators),
       "of the simplified mesh: fitted to the spectrum of MESH, or its own")(
-      "report", po::value(&a.report)->value_name("report.html"), "write a page with pictures")(
+      "threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
+      "at most")("report", po::value(&a.report)->value_name("report.html"), "write a page with pictures")(
       "repair", po::bool_switch(&a.repair), "change a mesh that cannot be used, as spectral_simplify does")(
       "strict", po::bool_switch(&a.strict),
       "change nothing of it, not even what leaves the surface as it is");
@@ -364,6 +370,8 @@ Distance_arguments parse(int argc, char* argv[])
                              std::to_string(a.eigenvectors) + ".");
   if(a.sources < 1)
     throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
+  if(a.threads < 1)
+    throw std::runtime_error("--threads is " + std::to_string(a.threads) + ", it must be at least 1.");
   check_choice("--mass", a.mass, {"lumped", "averaged"});
   check_choice("--operators", a.operators, {"fitted", "mesh"});
   return a;

@@ -100,8 +100,7 @@ inline boost::program_options::options_description described(Arguments& a)
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep, the constant one included; N should be at least 3 K");
   add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
-      "first reduce a larger INPUT to this number, with CGAL's Garland-Heckbert cost; 100000 for large "
-      "meshes");
+      "first reduce a larger INPUT to this number by quadrics alone; 100000 for large meshes");
   add("preset", text(a.preset, "best|paper")->default_value(a.preset),
       "best: what keeps the spectrum best; paper: what the paper describes. Each of the next five overrides "
       "it");

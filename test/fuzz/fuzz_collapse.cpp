@@ -296,8 +296,10 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   options.progress = [&](const SMS::Spectral_progress&) { return ++calls != call.calls_until_cancelled; };
   SMS::Spectral_edge_collapse_result result;
   try {
-    result = SMS::spectral_edge_collapse(
-        mesh, call.N, options, CGAL::parameters::edge_is_constrained_map(flags).filter(call.filter));
+    const auto np = CGAL::parameters::edge_is_constrained_map(flags);
+    result = call.pre_simplified() // which calls no filter
+                 ? SMS::spectral_edge_collapse(mesh, call.N, options, np)
+                 : SMS::spectral_edge_collapse(mesh, call.N, options, np.filter(call.filter));
   } catch(const SG::Cancelled&) {
     return unchanged(mesh, before) ? "" : "a cancelled run has changed the mesh";
   } catch(const std::invalid_argument& error) {

@@ -38,7 +38,7 @@ The gradient is exact: derivatives with respect to the entries of B, L and M are
 derivatives with respect to its three cotangents and its area, and go on from there to its corners.
 
 E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows nothing of
-inversions. Whoever moves vertices has to guard them, see `relocate_vertices()`.
+inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
 */
 class Relocation_energy
 {

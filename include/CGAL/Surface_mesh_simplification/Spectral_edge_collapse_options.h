@@ -56,9 +56,10 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// where flips or relocation raise the error above it, a warning says so. With it `largest_loss` is infinite.
   double maximum_error = std::numeric_limits<double>::infinity();
 
-  /// First reduces a mesh of more vertices to this number with CGAL's
-  /// `GarlandHeckbert_plane_policies`, and goes on with the spectral cost; 100,000 to 200,000 is advised for
-  /// larger meshes (section 6 of the paper). P spans both stages. 0: never.
+  /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M. Garland and P. Heckbert,
+  /// *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997), and goes on with the spectral cost; 100,000 to 200,000
+  /// is advised for larger meshes (section 6 of the paper). Takes microseconds for each vertex. P spans both stages. Kept vertices
+  /// and the ends of constrained edges stay. 0: never.
   std::size_t pre_simplify = 0;
 
   /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
@@ -77,7 +78,8 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// How they are moved; its progress callback is replaced by that of the run.
   Spectral_geometry::Relocation_options relocation;
 
-  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have the spectrum of the input:
+  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have the spectrum of the input, or
+  /// of the mesh that `pre_simplify` has left:
   /// `Spectral_geometry::fit_operators()`, whose result is in `Spectral_edge_collapse_result::fitted`. The mesh stays as it
   /// is. They are fitted to a fifth more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are
   /// given. Not with `signals`.

@@ -18,6 +18,8 @@
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+#include <CGAL/Spectral_geometry/internal/connected_components.h>
+
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -25,6 +27,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -172,36 +175,25 @@ Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies
 /// Why a mesh that has run out of edges cannot be reduced further.
 template <class TriangleMesh>
 std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edge_collapse_result& result,
-                                    const std::size_t target)
+                                    const std::size_t wanted)
 {
   std::size_t border_edges = 0;
   for(const auto h : halfedges(mesh))
     if(is_border(h, mesh))
       ++border_edges;
-  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> todo;
-  std::size_t components = 0;
-  auto seen = get(dynamic_vertex_property_t<bool>(), mesh);
+  const auto index = get(dynamic_vertex_property_t<Eigen::Index>(), mesh);
+  Eigen::Index n = 0;
   for(const auto v : vertices(mesh))
-    put(seen, v, false);
-  for(const auto seed : vertices(mesh)) {
-    if(get(seen, seed))
-      continue;
-    ++components;
-    put(seen, seed, true);
-    todo.push_back(seed);
-    while(!todo.empty()) {
-      const auto v = todo.back();
-      todo.pop_back();
-      for(const auto w : vertices_around_target(halfedge(v, mesh), mesh))
-        if(!get(seen, w)) {
-          put(seen, w, true);
-          todo.push_back(w);
-        }
-    }
-  }
+    put(index, v, n++);
+  const std::vector<Eigen::Index> component =
+      Spectral_geometry::internal::connected_components(n, [&](const auto& join) {
+        for(const auto e : edges(mesh))
+          join(get(index, source(e, mesh)), get(index, target(e, mesh)));
+      });
+  const Eigen::Index components = *std::max_element(component.begin(), component.end()) + 1;
   using std::to_string;
   return "The mesh stopped at " + to_string(result.output_vertices) + " vertices instead of " +
-         to_string(target) + " because every edge left was refused (topology " +
+         to_string(wanted) + " because every edge left was refused (topology " +
          to_string(result.refusals.topology) + ", geometry " + to_string(result.refusals.geometry) +
          ", filter " + to_string(result.refusals.filter) + ", placement " +
          to_string(result.refusals.placement) + " times; constrained edges are never collapsed): it has " +
@@ -286,10 +278,6 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
   if(resampled)
     result.restriction =
         first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
-  Real_timer timer;
-  timer.start();
-  post_process.fit(mesh, policies, resampled ? own : policies.restriction(), np, result);
-  result.seconds_operator_fit = timer.time();
   own.resize(0, 0);
 }
 
@@ -398,8 +386,6 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                                                     get_property_map(vertex_point, mesh)))
           .geom_traits(choose_parameter<Geom_traits>(get_parameter(np, internal_np::geom_traits)));
   try {
-    if(first.cancelled)
-      throw Spectral_geometry::Cancelled();
     run_spectral_stage(mesh, target, options, policies_np, np, first, result);
   } catch(const Spectral_geometry::Cancelled&) {
     result.output_vertices = result.pre_simplified_vertices = first.slots.size();
@@ -458,8 +444,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
- * Filter and visitor take part in the stage of `Spectral_edge_collapse_options::pre_simplify` as well: the visitor sees two loops
- * from `OnStarted()` to `OnFinished()`. The other named parameters of `edge_collapse()` do not compile: cost, placement and
+ * `Spectral_edge_collapse_options::pre_simplify` collapses arrays and knows neither filter nor visitor: with one of them it is
+ * refused. The other named parameters of `edge_collapse()` do not compile: cost, placement and
  * order are those of the metric, and indices are its own.
  *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
@@ -476,7 +462,6 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
                                                      const Spectral_edge_collapse_options& options = {},
                                                      const NamedParameters& np = parameters::default_values())
 {
-  using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   static_assert(!internal::overrides_policies<NamedParameters>,
                 "spectral_edge_collapse() takes no get_cost, get_placement, use_relaxed_order or index map");
   Real_timer timer;
@@ -486,7 +471,7 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   internal::check_target(number_of_vertices, result.input_vertices);
   internal::check_edge_collapse_options(options);
   const internal::Pre_simplification first =
-      internal::pre_simplify<Geom_traits>(mesh, result.input_vertices, number_of_vertices, options, np);
+      internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = timer.time();
   if(first.done)
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);

@@ -131,8 +131,7 @@ public:
     , m_size(T, m_start, fine, options.size_tolerance)
   {
     m_timer.start();
-    if(m_options.signals != Relocation_options::Signals::carried)
-      set_surface(P);
+    set_parts(P);
     set_guards(fixed);
     set_objective(P, F, Z, theta);
     m_has_reverted.assign(std::size_t(m_start.rows()), 0);
@@ -214,48 +213,43 @@ private:
     for(std::size_t v = 0; v < fixed.size(); ++v)
       if(fixed[v])
         m_guards.fix(Eigen::Index(v));
-    std::vector<Boundary_segment> boundary;
+    std::vector<std::vector<Boundary_segment>> boundary(m_fine_parts.size()); // of each component
     for(const auto& [i, j] : boundary_edges(m_fine.T))
-      boundary.push_back({m_fine.V.row(i), m_fine.V.row(j)});
+      boundary[std::size_t(m_fine_parts[std::size_t(i)])].push_back({m_fine.V.row(i), m_fine.V.row(j)});
     std::vector<bool> on_boundary(std::size_t(m_start.rows()), false);
     for(const auto& [i, j] : boundary_edges(m_T))
       on_boundary[std::size_t(i)] = on_boundary[std::size_t(j)] = true;
     for(std::size_t v = 0; v < on_boundary.size(); ++v)
-      if(on_boundary[v] && (m_options.fix_boundary || boundary.empty()))
+      if(on_boundary[v] && m_options.fix_boundary)
         m_guards.fix(Eigen::Index(v));
       else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
-        m_guards.keep_on(Eigen::Index(v), boundary);
+        m_guards.keep_on(Eigen::Index(v), boundary[std::size_t(m_parts[v])]);
     if(m_options.signals != Relocation_options::Signals::carried)
       m_guards.set_leaps(Sheet_guard(*m_closest, m_parts));
-    if(std::isfinite(m_options.largest_distance)) {
-      const auto surface = std::make_shared<Closest_point_query>(m_fine);
-      m_guards.set_bound([this, surface](const Eigen::Vector3d& p) {
-        return ((*surface)(p).point - p).norm() <= m_options.largest_distance;
+    if(std::isfinite(m_options.largest_distance))
+      m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
+        return ((*m_closest)(p, m_parts[std::size_t(v)]).point - p).norm() <= m_options.largest_distance;
       });
-    }
   }
 
-  // The closest points of a vertex are those of the component that its row of P is about.
-  void set_surface(const Eigen::SparseMatrix<double>& P)
+  // The closest points of a vertex, on the surface or on its boundary, are those of the component that its row of P is about.
+  void set_parts(const Eigen::SparseMatrix<double>& P)
   {
-    const std::vector<Eigen::Index> parts = connected_components(m_fine.V.rows(), [this](const auto& join) {
-      for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
-        for(int c = 1; c < 3; ++c)
-          join(m_fine.T(f, 0), m_fine.T(f, c));
-    });
-    m_closest = std::make_unique<Closest_point_query>(m_fine, parts);
-    std::vector<char> has_faces(parts.size(), 0);
+    m_fine_parts = connected_components(m_fine.V.rows(), m_fine.T);
+    std::vector<char> has_faces(m_fine_parts.size(), 0);
     for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
       has_faces[std::size_t(m_fine.T(f, 0))] = has_faces[std::size_t(m_fine.T(f, 1))] =
           has_faces[std::size_t(m_fine.T(f, 2))] = 1;
-    m_parts.assign(std::size_t(P.rows()), parts[std::size_t(m_fine.T(0, 0))]);
+    m_parts.assign(std::size_t(P.rows()), m_fine_parts[std::size_t(m_fine.T(0, 0))]);
     Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
     for(Eigen::Index j = 0; j < P.cols(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
         if(has_faces[std::size_t(j)] && it.value() > most(it.row())) {
           most(it.row()) = it.value();
-          m_parts[std::size_t(it.row())] = parts[std::size_t(j)];
+          m_parts[std::size_t(it.row())] = m_fine_parts[std::size_t(j)];
         }
+    if(m_options.signals != Relocation_options::Signals::carried || std::isfinite(m_options.largest_distance))
+      m_closest = std::make_unique<Closest_point_query>(m_fine, m_fine_parts);
   }
 
   void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
@@ -368,7 +362,8 @@ private:
   Relocation_guards m_guards;
   Size_bounds m_size;
   std::unique_ptr<Closest_point_query> m_closest;
-  std::vector<Eigen::Index> m_parts; // in which of them each vertex is looked for
+  std::vector<Eigen::Index> m_fine_parts; // the component of each vertex of the fine mesh
+  std::vector<Eigen::Index> m_parts;      // that in which each vertex is looked for
   Position_dependent_signals::Rows m_fine_F, m_fine_Z;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;

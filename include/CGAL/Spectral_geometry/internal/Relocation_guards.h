@@ -81,8 +81,9 @@ public:
 
   bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[std::size_t(v)].empty(); }
 
-  /// A further condition on the position of any vertex: a distance to a surface.
-  void set_bound(std::function<bool(const Eigen::Vector3d&)> allowed) { m_allowed = std::move(allowed); }
+  /// A further condition on the position of a vertex: a distance to a surface.
+  using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
+  void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
 
   /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
   using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
@@ -237,7 +238,7 @@ private:
         return from;
       }
     }
-    if(m_allowed && !m_allowed(to)) {
+    if(m_allowed && !m_allowed(v, to)) {
       held |= by_distance;
       return from;
     }
@@ -269,7 +270,7 @@ private:
   Positions m_anchors;
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
-  std::function<bool(const Eigen::Vector3d&)> m_allowed;
+  Allowed m_allowed;
   Leaps m_leaps;
   mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
   Eigen::VectorXd m_radius, m_smallest_angle;

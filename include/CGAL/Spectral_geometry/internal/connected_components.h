@@ -36,6 +36,16 @@ std::vector<Eigen::Index> connected_components(const Eigen::Index n, const For_e
   return result;
 }
 
+/// The same where triangles (m x 3) join vertices.
+inline std::vector<Eigen::Index> connected_components(const Eigen::Index n, const Eigen::MatrixXi& T)
+{
+  return connected_components(n, [&](const auto& join) {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int c = 1; c < 3; ++c)
+        join(T(f, 0), T(f, c));
+  });
+}
+
 } // namespace internal
 } // namespace Spectral_geometry
 } // namespace CGAL

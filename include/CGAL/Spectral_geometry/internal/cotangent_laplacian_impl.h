@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,33 +20,27 @@ namespace Spectral_geometry {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
 {
+  using Entry = Eigen::SparseMatrix<double>::InnerIterator;
   const double rounding = 1e-6; // of a row's sum, relative to its entries
-  std::vector<char> seen(op.L.cols(), false);
-  std::vector<Eigen::Index> stack;
-  Eigen::Index zeros = 0;
-  for(Eigen::Index root = 0; root < op.L.cols(); ++root) {
-    if(seen[root])
-      continue;
-    bool kernel = true;
-    seen[root] = true;
-    stack.push_back(root);
-    while(!stack.empty()) {
-      const Eigen::Index v = stack.back();
-      stack.pop_back();
-      double sum = 0., size = 0.;
-      for(Eigen::SparseMatrix<double>::InnerIterator entry(op.L, v); entry; ++entry) {
-        sum += entry.value();
-        size += std::abs(entry.value());
-        if(entry.value() != 0. && !seen[entry.row()]) {
-          seen[entry.row()] = true;
-          stack.push_back(entry.row());
-        }
-      }
-      kernel = kernel && std::abs(sum) <= rounding * size;
+  const std::vector<Eigen::Index> component =
+      internal::connected_components(op.L.cols(), [&](const auto& join) {
+        for(Eigen::Index v = 0; v < op.L.cols(); ++v)
+          for(Entry entry(op.L, v); entry; ++entry)
+            if(entry.value() != 0.)
+              join(v, entry.row());
+      });
+  std::vector<char> kernel;
+  for(Eigen::Index v = 0; v < op.L.cols(); ++v) {
+    double sum = 0., size = 0.;
+    for(Entry entry(op.L, v); entry; ++entry) {
+      sum += entry.value();
+      size += std::abs(entry.value());
     }
-    zeros += kernel;
+    const std::size_t c = std::size_t(component[std::size_t(v)]);
+    kernel.resize((std::max)(kernel.size(), c + 1), true);
+    kernel[c] = kernel[c] && std::abs(sum) <= rounding * size;
   }
-  return zeros;
+  return Eigen::Index(std::count(kernel.begin(), kernel.end(), true));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,

@@ -180,6 +180,7 @@ template <class TriangleMesh, class NamedParameters = parameters::Default_named_
 class Collapse_replay
 {
 public:
+  using Index = Eigen::Index;         ///< of a slot
   using Triangle_mesh = TriangleMesh; ///< the type of the mesh
   /// that of the named parameters, or the mesh's own
   using Vertex_point_map = typename GetVertexPointMap<Triangle_mesh, NamedParameters>::type;
@@ -237,16 +238,23 @@ public:
   /// Number of vertices of the mesh as it is.
   std::size_t number_of_vertices() const { return m_log.number_of_vertices() - std::size_t(m_done); }
 
-  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const
+  /// For each vertex of the mesh as it is, in the order of `vertices(mesh)`, its slot: which vertex of the input it goes on from.
+  std::vector<Index> slots() const
   {
-    return m_log.forest().restriction(current_slots(), m_done);
+    check_slots();
+    std::vector<Index> result;
+    for(const vertex_descriptor v : vertices(*m_mesh))
+      result.push_back(m_slots[v]);
+    return result;
   }
+
+  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
+  Eigen::SparseMatrix<double> restriction() const { return m_log.forest().restriction(slots(), m_done); }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Index> map = m_log.forest().vertex_map(current_slots(), m_done);
+    const std::vector<Index> map = m_log.forest().vertex_map(slots(), m_done);
     return std::vector<std::size_t>(map.begin(), map.end());
   }
 
@@ -254,7 +262,6 @@ private:
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
   using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
-  using Index = Eigen::Index;
   using Merge = Spectral_geometry::Merge_forest::Merge;
   using FT = typename Kernel_traits<Point>::Kernel::FT;
 
@@ -269,15 +276,6 @@ private:
       throw std::logic_error(
           "Collapse_replay: another mesh has been assigned to the one that it was made for; begin again "
           "with another copy.");
-  }
-
-  std::vector<Index> current_slots() const
-  {
-    check_slots();
-    std::vector<Index> slots;
-    for(const vertex_descriptor v : vertices(*m_mesh))
-      slots.push_back(m_slots[v]);
-    return slots;
   }
 
   halfedge_descriptor halfedge_between(const vertex_descriptor from, const vertex_descriptor to) const

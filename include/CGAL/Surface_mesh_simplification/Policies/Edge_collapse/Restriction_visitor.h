@@ -40,12 +40,10 @@ public:
   using Slots = Fine_vertex_slots<TriangleMesh>;
   using vertex_descriptor = typename Slots::vertex_descriptor;
 
-  /// `kept`: a flag for each vertex whose position and values the placement keeps, or nothing.
-  explicit Restriction_tracker(TriangleMesh& mesh, std::vector<char> kept = {})
+  explicit Restriction_tracker(TriangleMesh& mesh)
     : m_mesh(&mesh)
     , m_slots(mesh, "Restriction_visitor")
     , m_log(m_slots.size())
-    , m_kept_flags(std::move(kept))
   {}
 
   void check_mesh(const TriangleMesh& mesh)
@@ -80,11 +78,6 @@ public:
       m_weight = 0.5;
     }
     m_open = false;
-    if(is_kept_slot(m_removed) ||
-       is_kept_slot(m_kept)) { // on an edge without length the weight is still open
-      m_weight = is_kept_slot(m_kept) ? 0. : 1.;
-      m_kept_flags[std::size_t(m_kept)] = m_kept_flags[std::size_t(m_removed)] = true;
-    }
     // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
     const Eigen::Index kept = m_slots.slot(kept_vertex);
     const Eigen::Vector3d point = to_vector(get(profile.vertex_point_map(), kept_vertex));
@@ -99,23 +92,6 @@ public:
   const Slots& slots() const { return m_slots; }
   const Collapse_log& log() const { return m_log; }
 
-  /// Whether a vertex is to be kept, or stands for one that is.
-  bool is_kept(const vertex_descriptor v) const
-  {
-    return !m_kept_flags.empty() && is_kept_slot(m_slots.slot(v));
-  }
-
-  /// The positions, in `vertices(mesh)` as it is now, of those that are kept.
-  std::vector<std::size_t> kept_indices() const
-  {
-    std::vector<std::size_t> result;
-    const std::vector<Eigen::Index> slots = m_slots.current();
-    for(std::size_t i = 0; i < slots.size(); ++i)
-      if(is_kept_slot(slots[i]))
-        result.push_back(i);
-    return result;
-  }
-
 private:
   template <class Point>
   static Eigen::Vector3d to_vector(const Point& p)
@@ -123,15 +99,9 @@ private:
     return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
-  bool is_kept_slot(const Eigen::Index s) const
-  {
-    return !m_kept_flags.empty() && m_kept_flags[std::size_t(s)] != 0;
-  }
-
   const TriangleMesh* m_mesh;
   Slots m_slots;
   Collapse_log m_log;
-  std::vector<char> m_kept_flags;
   bool m_open = false;
   Eigen::Index m_removed = 0, m_kept = 0;
   double m_weight = 0; // of the removed slot
@@ -177,13 +147,6 @@ public:
   /// Takes the mesh as it is now for the fine one.
   explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())
     : m_tracker(std::make_shared<Tracker>(mesh))
-    , m_user(std::move(user))
-  {}
-
-  /// What is tracked, shared with others.
-  explicit Restriction_visitor(std::shared_ptr<internal::Restriction_tracker<Triangle_mesh>> tracker,
-                               User_visitor user = User_visitor())
-    : m_tracker(std::move(tracker))
     , m_user(std::move(user))
   {}
 

@@ -16,6 +16,8 @@
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
+#include <CGAL/Real_timer.h>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -45,18 +47,31 @@ public:
       m_fine = Spectral_geometry::mesh_matrices(mesh, np);
   }
 
-  /// Flips and relocation. `kept`: what P has in the rows of vertices that must stay, or empty.
+  /// `kept`: what P has in the rows of vertices that must stay, or empty.
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void run(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& kept,
            const NamedParameters& np, Result& result) const
   {
-    using namespace Spectral_geometry;
-    if(!changes_mesh() || result.stop_reason == Result::Stop_reason::cancelled)
+    using Reason = typename Result::Stop_reason;
+    if((!changes_mesh() && !m_options.fit_operators) || result.stop_reason == Reason::cancelled)
       return;
+    const Eigen::SparseMatrix<double> P = policies.restriction();
+    if(changes_mesh())
+      change(mesh, policies, P, kept, np, result);
+    if(m_options.fit_operators && result.stop_reason != Reason::cancelled)
+      fit(mesh, policies, result.relocation.resampled ? result.relocation.restriction : P, np, result);
+  }
+
+private:
+  // Flips and relocation.
+  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
+  void change(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
+              const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
+  {
+    using namespace Spectral_geometry;
     const double theta = mass_blend(m_options.mass);
     Eigen::MatrixXd F, Z;
     signals(theta, result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
-    const Eigen::SparseMatrix<double> P = policies.restriction();
     const char* where = "as the collapses left them";
     try {
       if(m_options.flips != Edge_flips::none && allows(mesh, "No edge was flipped: ", false, np, result)) {
@@ -72,14 +87,14 @@ public:
     }
   }
 
-  /// Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
+  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void fit(const TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
            const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
-    if(!m_options.fit_operators || result.stop_reason == Result::Stop_reason::cancelled)
-      return;
+    Real_timer timer;
+    timer.start();
     const auto progress = [&](const double fraction) {
       return policies.state().report(Spectral_phase::operator_fit, fraction);
     };
@@ -108,9 +123,9 @@ public:
     } catch(const std::runtime_error& error) {
       result.warnings.push_back(consequence + std::string(error.what()));
     }
+    result.seconds_operator_fit = timer.time();
   }
 
-private:
   bool changes_mesh() const
   {
     return m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none;
@@ -153,7 +168,7 @@ private:
     };
     const Eigen::Index seen = policies.state().core().number_of_signals();
     result.flips = flip_mesh_edges(mesh, P, F.leftCols(seen), Z.leftCols(seen), theta, flipping, np);
-    set_error(mesh, P, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
+    set_error(mesh, policies.state().area(), P, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
@@ -182,7 +197,7 @@ private:
       own += kept;
     }
     const Eigen::Index seen = policies.state().core().number_of_signals();
-    set_error(mesh, own, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
+    set_error(mesh, policies.state().area(), own, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
@@ -200,13 +215,12 @@ private:
   // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's
   // signals are as they were given, and Z is multiplied by the area.
   template <class TriangleMesh, class NamedParameters, class Result>
-  void set_error(const TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const double theta,
-                 const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Z,
-                 const NamedParameters& np, Result& result) const
+  void set_error(const TriangleMesh& mesh, const double area, const Eigen::SparseMatrix<double>& P,
+                 const double theta, const Eigen::Ref<const Eigen::MatrixXd>& F,
+                 const Eigen::Ref<const Eigen::MatrixXd>& Z, const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
     const Mesh_matrices coarse = mesh_matrices(mesh, np);
-    const double area = laplace_operator(m_fine.V, m_fine.T, theta).mass.sum();
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
     const double before = result.E;
     // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.

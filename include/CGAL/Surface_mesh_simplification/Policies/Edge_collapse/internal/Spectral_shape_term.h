@@ -7,9 +7,9 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_quadric.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -19,38 +19,6 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
-
-/// q(x) = x^T A x + 2 b.x + c.
-struct Spectral_quadric
-{
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d b = Eigen::Vector3d::Zero();
-  double c = 0;
-
-  double operator()(const Eigen::Vector3d& x) const { return x.dot(A * x + 2 * b) + c; }
-
-  Spectral_quadric& operator+=(const Spectral_quadric& other)
-  {
-    A += other.A;
-    b += other.b;
-    c += other.c;
-    return *this;
-  }
-
-  /// Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane through p whose unit normal n
-  /// has that variance in each coordinate (Trettner and Kobbelt, *Fast and Robust QEF Minimization using Probabilistic
-  /// Quadrics*, Computer Graphics Forum 39(2), 2020, Eq. 14). A variance of p adds a constant there, which no change contains.
-  void add_plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& p, const double weight,
-                 const double variance)
-  {
-    Eigen::Matrix3d plane = weight * normal * normal.transpose();
-    plane.diagonal().array() += weight * variance;
-    const Eigen::Vector3d at_p = plane * p;
-    A += plane;
-    b -= at_p;
-    c += p.dot(at_p);
-  }
-};
 
 /*!
  * The shape term of the cost: for each slot w the quadric
@@ -94,8 +62,7 @@ public:
   /// The x of least cost. Unique: the variance makes the sum positive definite unless the faces have no area.
   Eigen::Vector3d minimiser(const Spectral_slot u, const Spectral_slot v) const
   {
-    const Eigen::Matrix3d A = m_quadrics[u].A + m_quadrics[v].A;
-    return m_origin - A.llt().solve(m_quadrics[u].b + m_quadrics[v].b);
+    return m_origin + (m_quadrics[u] + m_quadrics[v]).minimiser();
   }
 
   /// Follows the collapse of `removed` into `kept`.
@@ -106,11 +73,6 @@ public:
   }
 
 private:
-  // sigma^2: of the direction of a normal, 0.15 radians. Between 0.1 and 0.25 the norms hardly depend on it; 0.5 shrinks tips.
-  static constexpr double variance = 0.0225;
-  // Of a border edge beside a face of as much area; 100 is as good, 1 lets the border wear off.
-  static constexpr double border_weight = 10;
-
   // Angles and lengths are taken from the vertex itself: far from the origin nothing is lost.
   void add_ring(const std::vector<Eigen::Vector3d>& points, const Spectral_ring& ring, const Spectral_slot w)
   {
@@ -126,18 +88,12 @@ private:
       if(!(double_area > 0))
         continue;
       const Eigen::Vector3d normal = cross / double_area;
-      m_quadrics[w].add_plane(normal, p, double_area / 2, variance);
+      m_quadrics[w].add_face(normal, p, double_area / 2);
       if(!ring[before].face)
-        add_border(a, normal, p, w);
+        m_quadrics[w].add_border(a, normal, p);
       if(!ring[after].face)
-        add_border(b, normal, p, w);
+        m_quadrics[w].add_border(b, normal, p);
     }
-  }
-
-  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal, const Eigen::Vector3d& p,
-                  const Spectral_slot w)
-  {
-    m_quadrics[w].add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm(), variance);
   }
 
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();

@@ -8,6 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 // All definitions of the collapse loop that depend on no mesh type.
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Quadric_collapses_impl.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core_impl.h>
 

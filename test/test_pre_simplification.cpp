@@ -1,0 +1,215 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+// The quadric collapses of the first stage: their order against all costs computed anew, and what they keep.
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include "catch.h"
+#include "collapse_helpers.h"
+#include "topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+using namespace spectral_test;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target, const std::vector<char>& fixed = {})
+{
+  return SMS::internal::quadric_collapses(SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh)),
+                                          fixed, target, [](std::size_t) {});
+}
+
+Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
+{
+  SMS::Collapse_replay<Mesh>(mesh, log).collapse_to(N);
+  return mesh;
+}
+
+// The expected squared distance to the planes of a vertex, as a matrix in homogeneous coordinates: from the definition.
+using Quadric = Eigen::Matrix4d;
+
+Quadric plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& p, const double weight)
+{
+  Quadric point = Quadric::Identity();
+  point.topRightCorner<3, 1>() = -p;
+  point.bottomLeftCorner<1, 3>() = -p.transpose();
+  point(3, 3) = p.squaredNorm();
+  const Eigen::Vector4d h(normal[0], normal[1], normal[2], -normal.dot(p));
+  return weight * (h * h.transpose() + 0.15 * 0.15 * point);
+}
+
+std::vector<Quadric> quadrics_of(const shapes::Matrices& mesh)
+{
+  std::vector<Quadric> result(std::size_t(mesh.V.rows()), Quadric::Zero());
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    const auto point = [&](const int k) { return Eigen::Vector3d(mesh.V.row(mesh.T(f, k % 3))); };
+    const Eigen::Vector3d cross = (point(1) - point(0)).cross(point(2) - point(0));
+    for(int k = 0; k < 3; ++k)
+      result[std::size_t(mesh.T(f, k))] += plane(cross.normalized(), point(k), cross.norm() / 2);
+  }
+  return result;
+}
+
+double least_value(const Quadric& q, Eigen::Vector3d& x)
+{
+  x = q.topLeftCorner<3, 3>().fullPivLu().solve(-q.topRightCorner<3, 1>());
+  return x.homogeneous().dot(q * x.homogeneous());
+}
+
+// Whether the faces at u that do not contain v turn by more than 78 degrees or become needles when u moves to x.
+bool spoils_faces(const Mesh& mesh, const Mesh::Vertex_index u, const Mesh::Vertex_index v,
+                  const Eigen::Vector3d& x)
+{
+  const auto at = [&](const Mesh::Vertex_index w) {
+    return Eigen::Vector3d(mesh.point(w).x(), mesh.point(w).y(), mesh.point(w).z());
+  };
+  for(const auto h : halfedges_around_target(u, mesh)) {
+    const auto a = source(h, mesh), b = target(next(h, mesh), mesh);
+    if(is_border(h, mesh) || a == v || b == v)
+      continue;
+    const Eigen::Vector3d before = (at(b) - at(u)).cross(at(a) - at(u)), after = (at(b) - x).cross(at(a) - x);
+    const double longest = (std::max)({(at(a) - x).norm(), (at(b) - x).norm(), (at(a) - at(b)).norm()});
+    if(before.normalized().dot(after.normalized()) < 0.2 + 1e-9 ||
+       after.norm() < 1.0001e-3 * longest * longest)
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+TEST_CASE("Each collapse is the cheapest that is possible, with all costs computed anew")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  Mesh mesh = make_mesh(input);
+  const SMS::Collapse_log log = quadric_log(mesh, 20);
+  REQUIRE(log.number_of_vertices_left() == 20);
+  std::vector<Quadric> quadrics = quadrics_of(input);
+  SMS::Collapse_replay<Mesh> replay(mesh, log);
+  std::size_t dearer = 0, off = 0;
+  for(std::size_t i = 0; i < log.points().size(); ++i) {
+    const std::vector<Eigen::Index> slots = replay.slots();
+    std::vector<Eigen::Index> slot_of(mesh.num_vertices(), -1);
+    std::size_t k = 0;
+    for(const auto v : mesh.vertices())
+      slot_of[v.idx()] = slots[k++];
+    double cheapest = std::numeric_limits<double>::infinity();
+    for(const auto e : mesh.edges()) {
+      const auto u = source(e, mesh), v = target(e, mesh);
+      Eigen::Vector3d x;
+      const double cost =
+          least_value(quadrics[std::size_t(slot_of[u.idx()])] + quadrics[std::size_t(slot_of[v.idx()])], x);
+      if(cost < cheapest && CGAL::Euler::does_satisfy_link_condition(e, mesh) &&
+         !spoils_faces(mesh, u, v, x) && !spoils_faces(mesh, v, u, x))
+        cheapest = cost;
+    }
+    const auto& merge = log.forest().merges()[i];
+    quadrics[std::size_t(merge.kept)] += quadrics[std::size_t(merge.removed)];
+    Eigen::Vector3d x;
+    dearer += least_value(quadrics[std::size_t(merge.kept)], x) > cheapest * (1 + 1e-5);
+    off += (x - log.points()[i]).norm() > 1e-9;
+    replay.collapse_to(log.number_of_vertices() - i - 1);
+  }
+  CHECK(dearer == 0);
+  CHECK(off == 0);
+}
+
+TEST_CASE("The first stage keeps a manifold what it is, its border and its parts")
+{
+  const bool hub = GENERATE(false, true);
+  shapes::Matrices input = hub ? shapes::gear_matrices(600, 3)
+                               : GENERATE(wavy_grid_matrices(24, 20), shapes::torus_matrices(24, 12),
+                                          shapes::components_matrices(shapes::tetrahedron_matrices(), 5),
+                                          shapes::components_matrices(shapes::icosphere_matrices(1), 3));
+  CAPTURE(hub, input.V.rows());
+  const Mesh mesh = make_mesh(input);
+  const SMS::Collapse_log log = quadric_log(mesh, 1);
+  const Mesh coarse = replayed(mesh, log, log.number_of_vertices_left());
+  CHECK(CGAL::is_valid_polygon_mesh(coarse));
+  CHECK(topology(coarse) == topology(mesh));
+  CHECK(log.number_of_vertices_left() < (std::max)(std::size_t(26), std::size_t(input.V.rows()) / 10));
+}
+
+TEST_CASE("Edges without length go first, and faces without area are no obstacle")
+{
+  shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  for(const int f : {10, 100, 200})
+    input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
+  input.V.row(input.T(300, 0)) = (input.V.row(input.T(300, 1)) + input.V.row(input.T(300, 2))) / 2;
+  const Mesh mesh = make_mesh(input);
+  const SMS::Collapse_log log = quadric_log(mesh, 60);
+  REQUIRE(log.number_of_vertices_left() == 60);
+  const Mesh first = replayed(mesh, log, log.number_of_vertices() - 3), last = replayed(mesh, log, 60);
+  const auto shortest = [](const Mesh& m) {
+    double length = std::numeric_limits<double>::infinity();
+    for(const auto e : m.edges())
+      length = (std::min)(length, CGAL::squared_distance(m.point(source(e, m)), m.point(target(e, m))));
+    return length;
+  };
+  CHECK(shortest(mesh) == 0);
+  CHECK(shortest(first) > 0);
+  CHECK(shortest(last) > 1e-4);
+  CHECK(CGAL::is_valid_polygon_mesh(last));
+}
+
+TEST_CASE("Vertices that are fixed stay, and the unit of length does not matter")
+{
+  shapes::Matrices input = wavy_grid_matrices(20, 18);
+  std::vector<char> fixed(std::size_t(input.V.rows()), 0);
+  for(const std::size_t v : every(17, input.V.rows()))
+    fixed[v] = 1;
+  const SMS::Collapse_log log = quadric_log(make_mesh(input), 60, fixed);
+  REQUIRE(log.number_of_vertices_left() == 60);
+  for(std::size_t i = 0; i < log.points().size(); ++i) {
+    const auto& merge = log.forest().merges()[i];
+    CHECK(!fixed[std::size_t(merge.removed)]);
+    if(fixed[std::size_t(merge.kept)]) {
+      CHECK(merge.alpha == 0);
+      CHECK(log.points()[i] == Eigen::Vector3d(input.V.row(merge.kept)));
+    }
+  }
+  const double unit = GENERATE(0x1p-60, 0x1p60);
+  input.V *= unit;
+  const SMS::Collapse_log scaled = quadric_log(make_mesh(input), 60, fixed);
+  REQUIRE(scaled.points().size() == log.points().size());
+  for(std::size_t i = 0; i < log.points().size(); ++i)
+    CHECK(scaled.points()[i] == unit * log.points()[i]);
+}
+
+TEST_CASE("The vertex where several fans of faces meet is named")
+{
+  // Two tetrahedra on one vertex.
+  shapes::Matrices one = shapes::tetrahedron_matrices();
+  Mesh mesh = make_mesh(one);
+  shapes::Matrices input{Eigen::MatrixXd(7, 3), Eigen::MatrixXi(8, 3)};
+  input.V << one.V, -one.V.bottomRows(3) + one.V.row(0).replicate(3, 1) * 2;
+  for(int f = 0; f < 4; ++f)
+    for(int k = 0; k < 3; ++k) {
+      input.T(f, k) = one.T(f, k);
+      input.T(4 + f, 2 - k) = one.T(f, k) == 0 ? 0 : one.T(f, k) + 3;
+    }
+  SMS::internal::Triangle_arrays arrays;
+  arrays.V = input.V;
+  for(Eigen::Index f = 0; f < 8; ++f)
+    for(int k = 0; k < 3; ++k)
+      arrays.vertex.push_back(input.T(f, k));
+  for(int c = 0; c < 24; ++c)
+    for(int d = 0; d < 24; ++d) {
+      const auto end = [&](const int corner) {
+        return arrays.vertex[std::size_t(3 * (corner / 3) + (corner + 1) % 3)];
+      };
+      if(arrays.vertex[std::size_t(c)] == end(d) && end(c) == arrays.vertex[std::size_t(d)])
+        arrays.opposite.push_back(d);
+    }
+  REQUIRE(arrays.opposite.size() == 24);
+  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, 4, [](std::size_t) {}),
+                    ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
+}
