@@ -450,6 +450,46 @@ TEST_CASE("closest points are those of the same component, whichever lies in the
   CHECK(of_small > 0);
 }
 
+TEST_CASE("a vertex of the border stays on that of its own component, whichever is nearer")
+{
+  // Two patches, one close above the other.
+  const shapes::Matrices patch = wavy_grid_matrices(24, 20);
+  const Eigen::Index n = patch.V.rows(), m = patch.T.rows();
+  const Eigen::RowVector3d up(0, 0, 0.004);
+  shapes::Matrices input{Eigen::MatrixXd(2 * n, 3), Eigen::MatrixXi(2 * m, 3)};
+  input.V << patch.V, patch.V.rowwise() + up;
+  input.T << patch.T, patch.T.array() + int(n);
+  std::vector<SG::internal::Boundary_segment> border;
+  for(const auto& [i, j] : SG::internal::boundary_edges(patch.T))
+    border.push_back({patch.V.row(i), patch.V.row(j)});
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.relocation.signals =
+      GENERATE(SG::Relocation_options::Signals::carried, SG::Relocation_options::Signals::sampled);
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 120, options);
+  std::vector<char> is_upper(mesh.number_of_vertices());
+  for(std::size_t v = 0; v < std::size_t(2 * n); ++v)
+    is_upper[result.vertex_map[v]] = v >= std::size_t(n);
+  const Eigen::MatrixXd after = SG::mesh_matrices(mesh).V;
+  Eigen::Index i = 0;
+  int on_border = 0, strayed = 0;
+  for(const auto v : vertices(mesh)) {
+    const Eigen::Vector3d p =
+        after.row(i) - (is_upper[std::size_t(i)] ? up : Eigen::RowVector3d::Zero().eval());
+    ++i;
+    if(!is_border(v, mesh) || result.relocation.moved_vertices == 0)
+      continue;
+    double distance = std::numeric_limits<double>::infinity();
+    for(const auto& segment : border)
+      distance = (std::min)(distance, (segment.closest(p) - p).norm());
+    ++on_border;
+    strayed += std::abs(distance - up.norm()) < up.norm() / 4;
+  }
+  CHECK(on_border > 30);
+  CHECK(strayed == 0);
+}
+
 TEST_CASE("a relocation that is cancelled in the one-call form leaves what the collapses made")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
