@@ -315,6 +315,11 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
     fault = fault_of_constraints(mesh, flags, before, flags_before, call, result);
   if(fault.empty())
     fault = fault_of_log(before, flags_of_replay, mesh, call, result);
+  if(fault.empty() && result.fitted) {
+    const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+    fault = fault_of_fit(*result.fitted,
+                         SG::laplace_operator(coarse.V, coarse.T, SG::mass_blend(call.options.mass)));
+  }
   return fault.empty() && !is_large(call.fine) && bytes.one_in(4)
              ? fault_of_fitting(SG::mesh_matrices(mesh), call, result, bytes)
              : fault;

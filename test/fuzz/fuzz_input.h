@@ -283,6 +283,27 @@ struct One_call
   bool has_zero_lengths() const { return diagnosis.zero_length_edges.count != 0; }
 };
 
+// For signals as rough as any, too.
+inline SG::Operator_fit_options fit_options_from(Bytes& bytes)
+{
+  SG::Operator_fit_options o = SG::Operator_fit_options::for_mass(0.5 * bytes.below(2));
+  o.rings = 1 + bytes.below(2);
+  if(bytes.one_in(2))
+    return o;
+  const auto one_of = [&](const std::vector<double>& values) {
+    return values[std::size_t(bytes.below(int(values.size())))];
+  };
+  o.low_modes = one_of({0, 1, 2.5, 6});
+  o.orthonormality = one_of({0, 0.01, 1, 1e6});
+  o.plain = one_of({0, 0.2, 1e6});
+  o.tie = one_of({0.05, 1e-9, 1e6});
+  o.smallest_weight = one_of({0.02, 1e-6, 1});
+  o.smallest_mass = one_of({0.01, 1e-6, 1});
+  o.tolerance = one_of({0.05, 1e-6, 0.9});
+  o.maximum_iterations = int(one_of({30, 0, 3}));
+  return o;
+}
+
 inline void add_one_call_options(One_call& call, Bytes& bytes)
 {
   SMS::Spectral_edge_collapse_options& o = call.options;
@@ -305,31 +326,14 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
     if(o.weights.size() != 0)
       o.weights.conservativeResize(o.number_of_eigenvectors);
   }
+  if(o.signals.size() == 0 && !is_large(call.fine) && bytes.one_in(4)) {
+    o.fit_operators = true;
+    o.operator_fit = fit_options_from(bytes);
+  }
   o.kept_vertices = some_vertices(bytes, call.fine);
   call.filter = filter_from(bytes);
   call.calls_until_cancelled = bytes.one_in(8) ? 1 + int(bytes.byte()) : 0;
   call.level = bytes.byte();
-}
-
-// For signals as rough as any, too.
-inline SG::Operator_fit_options fit_options_from(Bytes& bytes)
-{
-  SG::Operator_fit_options o = SG::Operator_fit_options::for_mass(0.5 * bytes.below(2));
-  o.rings = 1 + bytes.below(2);
-  if(bytes.one_in(2))
-    return o;
-  const auto one_of = [&](const std::vector<double>& values) {
-    return values[std::size_t(bytes.below(int(values.size())))];
-  };
-  o.low_modes = one_of({0, 1, 2.5, 6});
-  o.orthonormality = one_of({0, 0.01, 1, 1e6});
-  o.plain = one_of({0, 0.2, 1e6});
-  o.tie = one_of({0.05, 1e-9, 1e6});
-  o.smallest_weight = one_of({0.02, 1e-6, 1});
-  o.smallest_mass = one_of({0.01, 1e-6, 1});
-  o.tolerance = one_of({0.05, 1e-6, 0.9});
-  o.maximum_iterations = int(one_of({30, 0, 3}));
-  return o;
 }
 
 } // namespace spectral_test
