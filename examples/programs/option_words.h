@@ -37,6 +37,7 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
                                                       : SMS::Spectral_placement_strategy::on_edge;
   if(!words.mass.empty())
     options.mass = words.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
   if(words.shape)
     options.shape = *words.shape;
   if(!words.self_intersections.empty())

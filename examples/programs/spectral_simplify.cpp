@@ -128,8 +128,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Ver
   if(a.max_error)
     options.maximum_error = *a.max_error;
   options.fit_operators = !a.fit_operators.empty();
-  const double blend = a.fit_mass.empty() ? SG::mass_blend(options.mass) : a.fit_mass == "edges" ? 1. : 0.;
-  options.operator_fit = SG::Operator_fit_options::for_mass(blend);
+  if(!a.fit_mass.empty())
+    options.operator_fit = SG::Operator_fit_options::for_mass(a.fit_mass == "edges" ? 1. : 0.);
   if(a.fit_rings)
     options.operator_fit.rings = *a.fit_rings;
   if(!a.keep.empty())
