@@ -5,6 +5,9 @@
 // What mesh files have at their vertices beside positions: read, carried to a coarse mesh, and written.
 
 #include "../examples/programs/io/input_mesh.h"
+#include "../examples/programs/io/texture_seams.h"
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include "catch.h"
 
@@ -14,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -65,6 +69,63 @@ const std::string ply =
     "0 0 0 10 20 30 7 0.5 0 0 1 1 5\n1 0 0 11 21 31 -2 1.5 0 0 1 0\n1 1 0 12 22 32 7 2.5 1 0 0 0\n"
     "0 1 0 250 0 255 9 3.5 0 1 0 0\n3 0 1 2 0.25\n3 0 2 3 0.5\n0 1\n";
 
+const double pi = std::acos(-1.);
+
+// A torus of n x m vertices whose texture is cut along two circles: at corners, or at copies of vertices, where the faces may be quads.
+std::string torus(const int n, const int m, const bool copies, const bool quads)
+{
+  std::ostringstream text;
+  text.precision(17);
+  const int rows = copies ? n + 1 : n, columns = copies ? m + 1 : m;
+  for(int i = 0; i < rows; ++i)
+    for(int j = 0; j < columns; ++j) {
+      const double u = 2 * pi * (i % n) / n, v = 2 * pi * (j % m) / m, r = 2 + std::cos(v);
+      text << "v " << r * std::cos(u) << ' ' << r * std::sin(u) << ' ' << std::sin(v) << '\n';
+    }
+  for(int i = 0; i <= n; ++i)
+    for(int j = 0; j <= m; ++j)
+      text << "vt " << double(i) / n << ' ' << double(j) / m << '\n';
+  const auto corner = [&](const int i, const int j) {
+    return " " + std::to_string((i % rows) * columns + j % columns + 1) + "/" +
+           std::to_string(i * (m + 1) + j + 1);
+  };
+  for(int i = 0; i < n; ++i)
+    for(int j = 0; j < m; ++j) {
+      const std::string a = corner(i, j), b = corner(i + 1, j), c = corner(i + 1, j + 1),
+                        d = corner(i, j + 1);
+      text << (quads ? "f" + a + b + c + d : "f" + a + b + c + "\nf" + a + c + d) << '\n';
+    }
+  return text.str();
+}
+
+// How far the corners are from the angles of their points, counted without a jump from those of the middle of the face.
+double largest_error(const Mesh& mesh, const Corner_texture& texture)
+{
+  double largest = 0;
+  const auto angles = [](const double x, const double y, const double z) {
+    const double u = std::atan2(y, x) / (2 * pi), v = std::atan2(z, std::hypot(x, y) - 2) / (2 * pi);
+    return std::array<double, 2>{u - std::floor(u), v - std::floor(v)};
+  };
+  for(const auto f : mesh.faces()) {
+    double x = 0, y = 0, z = 0;
+    for(const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
+      x += mesh.point(v).x();
+      y += mesh.point(v).y();
+      z += mesh.point(v).z();
+    }
+    const auto middle = angles(x / 3, y / 3, z / 3);
+    for(const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+      const Kernel::Point_3& p = mesh.point(mesh.target(h));
+      const auto here = angles(p.x(), p.y(), p.z());
+      for(std::size_t k = 0; k < 2; ++k) {
+        const double step = here[k] - middle[k];
+        largest = (std::max)(largest, std::abs(texture[h][k] - (middle[k] + step - std::round(step))));
+      }
+    }
+  }
+  return largest;
+}
+
 } // namespace
 
 TEST_CASE("PLY files have any property, and what cannot be carried is named")
@@ -99,11 +160,11 @@ TEST_CASE("OBJ files have colours behind the coordinates, and normals and textur
   CHECK(values(a, "nz") == Values{1, 1, 1, 1, 0});
   CHECK(a.unknown.empty());
 
-  const Vertex_attributes seam = attributes_of(".obj", points + texture + "f 1/1 2/2 3/3\nf 1/4 3/3 4/4\n");
-  CHECK(seam.find("s") == nullptr);
-  CHECK(seam.unknown ==
-        std::vector<std::string>{"normals (some corners have none)",
-                                 "texture coordinates (they differ between the corners of a vertex)"});
+  const File seam(".obj", points + texture + "usemtl wood\nf 1/1 2/2 3/3\nf 1/4 3/3 4/4\n");
+  const Polygon_soup soup = read_polygon_soup(seam.path);
+  CHECK(soup.attributes.find("s") == nullptr);
+  CHECK(soup.attributes.unknown == std::vector<std::string>{"normals (some corners have none)", "materials"});
+  CHECK(soup.texture == Corner_texture{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {0, 1}});
   for(const std::string corner : {"f 1 2/2 3/3\n", "f 1/9 2/2 3/3\n", "f 1/-9 2/2 3/3\n"})
     CHECK(attributes_of(".obj", points + "vt 0 0\nvt 1 0\nvt 1 1\n" + corner).unknown ==
           std::vector<std::string>{"texture coordinates (some corners have none)"});
@@ -197,4 +258,83 @@ TEST_CASE("Binary PLY files have the same attributes as their text")
   const Vertex_attributes a = attributes_of(".ply", bytes);
   CHECK(values(a, "part") == Values{-1, 0, 1});
   CHECK(values(a, "heat") == Values{0, 0.25, 0.5});
+}
+
+TEST_CASE("Seams are the edges across which the coordinates differ")
+{
+  // A slit in a square of 5 x 5 vertices: the vertex in the middle has other coordinates above than below.
+  std::string text;
+  for(int j = 0; j < 5; ++j)
+    for(int i = 0; i < 5; ++i)
+      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) + " " +
+              std::to_string(j) + "\n";
+  text += "vt 2 9\n";
+  for(int j = 0; j < 4; ++j)
+    for(int i = 0; i < 4; ++i) {
+      const auto corner = [&](const int k, const int l) {
+        const int v = 5 * l + k + 1;
+        return " " + std::to_string(v) + "/" + std::to_string(v == 13 && j >= 2 ? 26 : v);
+      };
+      text += "f" + corner(i, j) + corner(i + 1, j) + corner(i + 1, j + 1) + "\nf" + corner(i, j) +
+              corner(i + 1, j + 1) + corner(i, j + 1) + "\n";
+    }
+  const File file(".obj", text);
+  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  const Texture_seams seams(input.mesh, input.texture);
+  CHECK(seams.number_of_edges() == 2);
+  CHECK(seams.vertices() == std::vector<std::size_t>{11, 12, 13});
+}
+
+TEST_CASE("Seams stay, and both sides keep their coordinates")
+{
+  namespace SMS = CGAL::Surface_mesh_simplification;
+  const int n = 40, m = 20;
+  const bool copies = GENERATE(false, true), repaired = GENERATE(false, true);
+  Input_mesh input;
+  {
+    const File file(".obj", torus(n, m, copies, repaired));
+    input = read_input_mesh(file.path, repaired ? Mending::full : Mending::plain);
+  }
+  // Copies are one vertex after the repair: the seams are those of corners then.
+  REQUIRE(input.mesh.number_of_vertices() == std::size_t(copies && !repaired ? (n + 1) * (m + 1) : n * m));
+  CHECK(largest_error(input.mesh, input.texture) < 1e-12);
+  const Texture_seams seams(input.mesh, input.texture);
+  CHECK(seams.number_of_edges() == std::size_t(n + m));
+  CHECK(seams.vertices().size() == std::size_t(copies && !repaired ? 2 * (n + m) : n + m - 1));
+
+  SMS::Spectral_edge_collapse_options options =
+      GENERATE(SMS::Spectral_edge_collapse_options::best(), SMS::Spectral_edge_collapse_options::paper());
+  options.number_of_eigenvectors = 30;
+  options.kept_vertices = seams.vertices();
+  Mesh coarse = input.mesh;
+  const auto result = SMS::spectral_edge_collapse(coarse, 250, options);
+  REQUIRE(result.output_vertices == 250);
+  const Corner_texture texture = seams.simplified(coarse, result.vertex_map);
+  CHECK(largest_error(coarse, texture) < 0.01); // of a side that is taken for the other: 1
+
+  const File file(".obj");
+  write_mesh(file.path, coarse, file.path, {}, texture);
+  const Input_mesh again = read_input_mesh(file.path, Mending::none);
+  CHECK(largest_error(again.mesh, again.texture) == largest_error(coarse, texture));
+  CHECK(Texture_seams(again.mesh, again.texture).number_of_edges() == seams.number_of_edges());
+}
+
+TEST_CASE("Why there is no texture at corners is said")
+{
+  const std::string points =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1e-14 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  const auto reason = [&](const std::string& faces, const Mending mending) {
+    const File file(".obj", points + faces);
+    const Input_mesh input = read_input_mesh(file.path, mending);
+    CHECK(input.texture.empty());
+    return input.without_texture;
+  };
+  CHECK(reason("f 1 2 3\nf 1 3 4\n", Mending::plain) ==
+        "some corners of its faces have no texture coordinates");
+  CHECK(reason("f 1/1 2/2 5/2\nf 1/1 5/2 3/3\nf 1/1 3/3 4/4\n", Mending::full) ==
+        "the repair has made faces that are no part of one of the file");
+  const File file(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  CHECK(read_input_mesh(file.path, Mending::plain).without_texture == "it has no texture coordinates");
+  const File at_vertices(".off", "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+  CHECK(read_input_mesh(at_vertices.path, Mending::plain).texture.size() == 6);
 }

@@ -13,6 +13,7 @@
 #include "io/npy_reader.h"
 #include "io/output_files.h"
 #include "io/program.h"
+#include "io/texture_seams.h"
 #include "option_words.h"
 #include "report/html_report.h"
 #include "report/json_text.h"
@@ -34,6 +35,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -98,6 +100,28 @@ std::string lost_attributes(const Vertex_attributes& attributes, const std::stri
                             (of_format ? "; a .ply file holds more." : ".");
 }
 
+// What becomes of seams that are not kept; empty if there are none.
+std::string lost_seams(const Arguments& a, const Input_mesh& input)
+{
+  if(a.keep_seams || a.no_attributes || input.texture.empty())
+    return "";
+  const std::size_t n = Texture_seams(input.mesh, input.texture).number_of_edges();
+  return n == 0 ? ""
+                : "The seams of the texture, " + std::to_string(n) + (n == 1 ? " edge" : " edges") +
+                      ", are lost: add --keep-seams, and write an .obj file.";
+}
+
+// The seams to keep.
+std::optional<Texture_seams> seams_of(const Arguments& a, Input_mesh& input)
+{
+  if(!a.keep_seams)
+    return {};
+  if(input.texture.empty())
+    throw std::runtime_error("there are no seams to keep in '" + a.input + "', " + input.without_texture +
+                             ": leave out --keep-seams.");
+  return Texture_seams(input.mesh, std::move(input.texture));
+}
+
 // Both meshes as matrices, as far as the outputs need them.
 struct Both_meshes
 {
@@ -108,6 +132,7 @@ struct Both_meshes
 };
 
 SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Vertex_numbering& numbering,
+                                                   const std::optional<Texture_seams>& seams,
                                                    Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options =
@@ -135,6 +160,9 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Ver
   if(!a.keep.empty())
     options.kept_vertices =
         numbering.vertices_of_mesh(read_indices(a.keep, numbering.number_of_file_vertices()), a.keep);
+  if(seams)
+    options.kept_vertices.insert(options.kept_vertices.end(), seams->vertices().begin(),
+                                 seams->vertices().end());
   if(!a.signals.empty())
     options.signals = numbering.rows_of_mesh(read_signals(a.signals, numbering.number_of_file_vertices()));
   return options;
@@ -306,9 +334,9 @@ void write_json(const Output_files& files, const Arguments& a, const Simplificat
 // Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called.
 template <class Name>
 void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Input_mesh& input,
-                         const Mesh& mesh, const Eigen::SparseMatrix<double>& P,
-                         const std::vector<std::size_t>& map, const Name& name,
-                         std::vector<std::string>& written)
+                         const std::optional<Texture_seams>& seams, const Mesh& mesh,
+                         const Eigen::SparseMatrix<double>& P, const std::vector<std::size_t>& map,
+                         const Name& name, std::vector<std::string>& written)
 {
   const auto file = [&](const std::string& path) {
     written.push_back(name(path));
@@ -317,7 +345,8 @@ void write_mesh_and_maps(const Output_files& files, const Arguments& a, const In
   write_mesh(file(a.output), mesh, name(a.output),
              input.attributes.known.empty()
                  ? Vertex_attributes()
-                 : restricted(input.attributes, input.numbering.columns_of_file(P)));
+                 : restricted(input.attributes, input.numbering.columns_of_file(P)),
+             seams ? seams->simplified(mesh, map) : Corner_texture());
   if(!a.restriction.empty())
     write_matrix_market(file(a.restriction), input.numbering.columns_of_file(P, a.binary),
                         name(a.restriction));
@@ -327,8 +356,8 @@ void write_mesh_and_maps(const Output_files& files, const Arguments& a, const In
 
 // Writes the levels that the run has reached, from its log and a copy of the input, and returns them.
 std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a, const Input_mesh& input,
-                                      Mesh& copy, const SMS::Collapse_log& log,
-                                      std::vector<std::string>& written)
+                                      const std::optional<Texture_seams>& seams, Mesh& copy,
+                                      const SMS::Collapse_log& log, std::vector<std::string>& written)
 {
   std::vector<std::size_t> levels;
   SMS::Collapse_replay<Mesh> replay(copy, log);
@@ -337,7 +366,7 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
       break;
     replay.collapse_to(level);
     write_mesh_and_maps(
-        files, a, input, copy, replay.restriction(), replay.vertex_map(),
+        files, a, input, seams, copy, replay.restriction(), replay.vertex_map(),
         [level](const std::string& path) { return level_name(path, level); }, written);
     levels.push_back(level);
   }
@@ -392,17 +421,18 @@ void say(const Arguments& a, const Simplification_report& report)
 }
 
 // Writes what the run made and gives it its names: nothing that fails later may lose it.
-void write_result(Output_files& files, const Arguments& a, const Input_mesh& input, const Mesh& mesh,
-                  Mesh& copy, Both_meshes& meshes, Simplification_report& report)
+void write_result(Output_files& files, const Arguments& a, const Input_mesh& input,
+                  const std::optional<Texture_seams>& seams, const Mesh& mesh, Mesh& copy,
+                  Both_meshes& meshes, Simplification_report& report)
 {
   std::vector<std::string> written;
   CGAL::Real_timer timer;
   timer.start();
   write_mesh_and_maps(
-      files, a, input, mesh, report.result.restriction, report.result.vertex_map,
+      files, a, input, seams, mesh, report.result.restriction, report.result.vertex_map,
       [](const std::string& path) { return path; }, written);
   if(!a.levels.empty())
-    report.levels = write_levels(files, a, input, copy, report.result.log, written);
+    report.levels = write_levels(files, a, input, seams, copy, report.result.log, written);
   if(!a.prolongation.empty()) {
     write_matrix_market(
         files.temporary(a.prolongation),
@@ -467,11 +497,16 @@ int run(Arguments a)
   Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair));
   if(a.no_attributes)
     input.attributes = {};
+  const std::string lost_edges = lost_seams(a, input);
+  const std::optional<Texture_seams> seams = seams_of(a, input);
+  if(seams) // at corners instead
+    input.attributes.remove({"s", "t"});
   bar.clear();
   Simplification_report report;
   report.seconds_reading = timer.time();
-  const std::size_t target = checked_target(a, num_vertices(input.mesh));
-  const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, bar);
+  const std::size_t target =
+      checked_target(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
+  const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, seams, bar);
   Output_files files({a.input, a.keep, a.signals});
   announce(files, a);
   check_memory(a, input.mesh, target, options);
@@ -499,11 +534,14 @@ int run(Arguments a)
   report.options = options;
   report.attributes = writable(input.attributes, a.output).names();
   const std::string lost = lost_attributes(input.attributes, a.output);
-  if(!lost.empty())
-    report.result.warnings.push_back(lost);
+  for(const std::string& loss : {lost, lost_edges})
+    if(!loss.empty())
+      report.result.warnings.push_back(loss);
+  if(seams)
+    report.seam_edges = seams->number_of_edges();
   meshes.coarse = SG::mesh_matrices(mesh);
   bar.show("writing", 0);
-  write_result(files, a, input, mesh, copy, meshes, report);
+  write_result(files, a, input, seams, mesh, copy, meshes, report);
   const int status = evaluate_and_write(files, a, input, mesh, meshes, options.mass, bar, report);
   bar.clear();
   say(a, report);

@@ -38,7 +38,7 @@ struct Arguments
   std::optional<double> shape;                               // the same
   int threads = all_threads();
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
-       strict = false, no_attributes = false;
+       strict = false, no_attributes = false, keep_seams = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string fit_operators;                                                      // the same
   std::string fit_mass;                                                           // empty: as the mass has it
@@ -141,6 +141,12 @@ inline boost::program_options::options_description described(Arguments& a)
       "holds it (.ply all, .obj colours, normals and texture coordinates, .off colours and normals): numbers "
       "by the restriction, "
       "integers that are no colours as labels, of which the one of most weight is taken");
+  add("keep-seams", po::bool_switch(&a.keep_seams),
+      "the seams of INPUT's texture stay: edges whose two faces have other texture coordinates, and edges "
+      "that INPUT has "
+      "twice in the same place. Their vertices are kept, and OUTPUT, an .obj file, has texture coordinates "
+      "at the "
+      "corners of faces");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
       "for eigenpairs, costs and relocation, all cores by default; the result does not depend on it");
   add("restriction", text(a.restriction, "P.mtx"),
@@ -253,11 +259,19 @@ inline void check(const Arguments& a)
     refuse("--fit-rings is " + std::to_string(*a.fit_rings) + ", it must be 1 or 2.");
   if(a.no_evaluation && !a.report.empty())
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
+  if(a.keep_seams && a.no_attributes)
+    refuse("--keep-seams writes a texture, --no-attributes leaves it behind: leave one of them out.");
+  if(a.keep_seams && a.flips != "none")
+    refuse("--flips may turn an edge of a seam: leave out --flips or --keep-seams.");
   if(!a.repaired.empty() && !a.repair)
     refuse("--repaired writes what --repair makes: add --repair.");
   if(!a.repaired.empty())
     mesh_format(a.repaired);
   mesh_format(a.input);
+  if(a.keep_seams && mesh_format(a.output) != ".obj")
+    refuse("--keep-seams writes texture coordinates at the corners of faces, which only OBJ files have: "
+           "choose .obj for '" +
+           a.output + "'.");
   if(mesh_format(a.output) == ".stl" && a.wants_matrices())
     refuse(
         "an STL file does not number its vertices, so that no matrix or map can refer to them: choose .off, "
@@ -289,8 +303,9 @@ inline Arguments parse_arguments(int argc, char* argv[])
   return a;
 }
 
-// Returns the number of vertices to simplify to; throws when it or K does not suit a mesh of n vertices.
-inline std::size_t checked_target(const Arguments& a, std::size_t n)
+// Returns the number of vertices to simplify to; throws when it or K does not suit a mesh of n vertices, of which `at_seams`
+// are kept.
+inline std::size_t checked_target(const Arguments& a, const std::size_t n, const std::size_t at_seams)
 {
   const std::string size = "'" + a.input + "' has " + std::to_string(n) + " vertices";
   const long rounded = a.ratio ? std::lround(*a.ratio * static_cast<double>(n)) : 0;
@@ -298,7 +313,8 @@ inline std::size_t checked_target(const Arguments& a, std::size_t n)
   const long target = a.vertices          ? *a.vertices
                       : a.ratio           ? (std::max)(rounded, 1L)
                       : !a.levels.empty() ? static_cast<long>(a.levels.back())
-                                          : (std::min)(advised, static_cast<long>(n));
+                                          : (std::max)((std::min)(advised, static_cast<long>(n)),
+                                                       static_cast<long>(at_seams));
   if(!a.levels.empty() && a.levels.front() > n)
     throw std::runtime_error("--levels names " + std::to_string(a.levels.front()) + ", but " + size + ".");
   if(static_cast<std::size_t>(target) > n)
@@ -307,6 +323,10 @@ inline std::size_t checked_target(const Arguments& a, std::size_t n)
     throw std::runtime_error("--levels names " + std::to_string(a.levels.back()) +
                              ", but OUTPUT is to have " + std::to_string(target) +
                              " vertices: name only levels above that.");
+  if(static_cast<std::size_t>(target) < at_seams)
+    throw std::runtime_error("OUTPUT is to have " + std::to_string(target) +
+                             " vertices, but --keep-seams keeps " + std::to_string(at_seams) +
+                             ": ask for more, or leave it out.");
   if(static_cast<std::size_t>(a.eigenvectors) >= n)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be below " +
                              std::to_string(n) + ": " + size + ".");

@@ -39,7 +39,8 @@ struct Simplification_report
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset;
-  std::string attributes; // names of those that were carried
+  std::string attributes;                // names of those that were carried
+  std::optional<std::size_t> seam_edges; // kept ones of the texture
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
   std::vector<Repair> repairs;     // what was changed in the input, and how often
   std::vector<std::size_t> levels; // those that were written
@@ -112,6 +113,8 @@ inline void print_table(const Simplification_report& r)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
                 r.result.relocation.moved_vertices, r.result.relocation.steps,
                 r.result.relocation.stop_reason_name());
+  if(r.seam_edges)
+    std::printf("  kept edges of seams       %8zu\n\n", *r.seam_edges);
   if(!r.attributes.empty())
     std::printf("  carried attributes        %s\n\n", printable(r.attributes).c_str());
   std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
@@ -201,6 +204,7 @@ inline nlohmann::json to_json(const Simplification_report& r)
       {"relocation", relocation_json(r)},
       {"levels", r.levels},
       {"attributes", r.attributes},
+      {"seam_edges", r.seam_edges ? nlohmann::json(*r.seam_edges) : nlohmann::json()},
       {"relative_error", number_json(r.result.relative_error)},
       {"seconds_reading", r.seconds_reading},
       {"seconds_writing", r.seconds_writing},

@@ -12,6 +12,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
@@ -217,6 +218,64 @@ void build(Input_mesh& input, const std::string& path, const Mending mending, Po
     c.first = origin[c.first];
 }
 
+// The coordinates at the corners of polygons, which each vertex has the same of where the file has them at vertices.
+Corner_texture texture_of(const Polygon_soup& soup)
+{
+  Corner_texture texture = soup.texture;
+  const auto t = soup.attributes.find(std::array<const char*, 2>{"s", "t"});
+  if(texture.empty() && t[0] != nullptr)
+    for(const auto& p : soup.polygons)
+      for(const std::size_t v : p)
+        texture.push_back(v < soup.points.size() ? Texture_point{t[0]->values[v], t[1]->values[v]}
+                                                 : Texture_point{});
+  return texture;
+}
+
+// Gives the corners of the mesh what those of the file's polygons have: a face is a part of the polygon that has its vertices,
+// also where some of these have become one.
+void set_texture(Input_mesh& input, const Polygons& polygons, const Corner_texture& texture)
+{
+  const Vertex_numbering& numbering = input.numbering;
+  const auto corner = [&](const std::size_t v) {
+    const std::size_t w = v < numbering.number_of_file_vertices() ? numbering.mesh_vertex(v) : no_vertex;
+    return w == no_vertex ? w : numbering.file_vertex(w);
+  };
+  std::vector<std::vector<std::size_t>> polygons_at(numbering.number_of_file_vertices());
+  std::vector<std::size_t> begin; // of the corners of each
+  std::size_t corners = 0;
+  for(std::size_t p = 0; p < polygons.size(); ++p) {
+    begin.push_back(corners);
+    corners += polygons[p].size();
+    for(const std::size_t v : polygons[p])
+      if(corner(v) != no_vertex)
+        polygons_at[corner(v)].push_back(p);
+  }
+  const Mesh& mesh = input.mesh;
+  input.texture.resize(mesh.num_halfedges());
+  for(const auto f : mesh.faces()) {
+    const auto h = mesh.halfedge(f);
+    const std::array<Mesh::Halfedge_index, 3> sides = {h, mesh.next(h), mesh.prev(h)};
+    const auto take = [&](const std::size_t p) {
+      for(const auto side : sides) {
+        const auto& polygon = polygons[p];
+        const auto at = std::find_if(polygon.begin(), polygon.end(), [&](const std::size_t v) {
+          return corner(v) == numbering.file_vertex(mesh.target(side));
+        });
+        if(at == polygon.end())
+          return false;
+        input.texture[side] = texture[begin[p] + std::size_t(at - polygon.begin())];
+      }
+      return true;
+    };
+    const auto& candidates = polygons_at[numbering.file_vertex(mesh.target(h))];
+    if(std::none_of(candidates.begin(), candidates.end(), take)) {
+      input.texture.clear();
+      input.without_texture = "the repair has made faces that are no part of one of the file";
+      return;
+    }
+  }
+}
+
 } // namespace
 
 std::string Input_mesh::changes_of(const std::string& path) const
@@ -231,6 +290,9 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending)
 {
   Polygon_soup soup = read_polygon_soup(path);
   Input_mesh input;
+  const Corner_texture texture = texture_of(soup);
+  const Polygons polygons = texture.empty() ? Polygons() : soup.polygons;
+  input.without_texture = std::move(soup.without_texture);
   input.attributes = std::move(soup.attributes);
   Repair_log log;
   std::vector<std::size_t> vertex(soup.points.size()), origin;
@@ -287,5 +349,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending)
   }
   input.changes = log.changes();
   build(input, path, mending, std::move(soup), vertex, origin);
+  if(!texture.empty())
+    set_texture(input, polygons, texture);
   return input;
 }

@@ -23,6 +23,8 @@ struct Input_mesh
   CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
   std::vector<Repair> changes;
   Vertex_attributes attributes; // of the vertices of the file
+  Corner_texture texture;       // by halfedges, at the target in the face; or empty
+  std::string without_texture;  // why it is empty, the end of a sentence
 
   // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was changed.
   std::string changes_of(const std::string& path) const;

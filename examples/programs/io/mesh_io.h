@@ -193,12 +193,40 @@ inline void add_normals_and_colours(Mesh& mesh, const Vertex_attributes& attribu
   }
 }
 
+// Writes the lines vt, each value of a vertex once, and returns by halfedges which is that of the corner at the target.
+inline std::vector<std::size_t> write_texture(std::ostream& stream, const Mesh& mesh,
+                                              const Corner_texture& texture)
+{
+  std::vector<std::size_t> number(mesh.num_halfedges()), written; // corners of one vertex
+  std::size_t n = 0;
+  for(const auto v : vertices(mesh)) {
+    written.clear();
+    for(const auto h : halfedges_around_target(v, mesh)) {
+      if(mesh.is_border(h))
+        continue;
+      const auto same = std::find_if(written.begin(), written.end(),
+                                     [&](const std::size_t other) { return texture[other] == texture[h]; });
+      if(same != written.end()) {
+        number[h] = number[*same];
+        continue;
+      }
+      stream << "vt " << texture[h][0] << ' ' << texture[h][1] << '\n';
+      number[h] = ++n;
+      written.push_back(h);
+    }
+  }
+  return number;
+}
+
 // CGAL's writer of OBJ files knows neither colours nor textures.
-inline bool write_obj(std::ostream& stream, const Mesh& mesh, const Vertex_attributes& attributes)
+inline bool write_obj(std::ostream& stream, const Mesh& mesh, const Vertex_attributes& attributes,
+                      Corner_texture texture)
 {
   const auto c = attributes.find(std::array<const char*, 3>{"red", "green", "blue"});
   const auto n = attributes.find(std::array<const char*, 3>{"nx", "ny", "nz"});
   const auto t = attributes.find(std::array<const char*, 2>{"s", "t"});
+  const bool at_vertices = texture.empty() && t[0] != nullptr;
+  texture.resize(at_vertices ? mesh.num_halfedges() : texture.size());
   std::vector<std::size_t> number(mesh.num_vertices());
   std::size_t i = 0;
   for(const auto v : vertices(mesh)) {
@@ -212,21 +240,26 @@ inline bool write_obj(std::ostream& stream, const Mesh& mesh, const Vertex_attri
       write("", c, 255);
     if(n[0] != nullptr)
       write("\nvn", n, 1);
-    if(t[0] != nullptr)
-      write("\nvt", t, 1);
     stream << '\n';
+    if(at_vertices)
+      for(const auto h : halfedges_around_target(v, mesh))
+        texture[h] = {t[0]->values[i], t[1]->values[i]};
     number[v] = ++i;
   }
+  std::vector<std::size_t> texture_number;
+  if(!texture.empty())
+    texture_number = write_texture(stream, mesh, texture);
   for(const auto f : faces(mesh)) {
     stream << 'f';
-    for(const auto v : vertices_around_face(halfedge(f, mesh), mesh)) {
-      stream << ' ' << number[v];
-      if(t[0] != nullptr || n[0] != nullptr)
+    for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+      const std::size_t corner = number[mesh.target(h)];
+      stream << ' ' << corner;
+      if(!texture.empty() || n[0] != nullptr)
         stream << '/';
-      if(t[0] != nullptr)
-        stream << number[v];
+      if(!texture.empty())
+        stream << texture_number[h];
       if(n[0] != nullptr)
-        stream << '/' << number[v];
+        stream << '/' << corner;
     }
     stream << '\n';
   }
@@ -236,9 +269,9 @@ inline bool write_obj(std::ostream& stream, const Mesh& mesh, const Vertex_attri
 } // namespace mesh_io_internal
 
 // Writes a mesh, its vertices in the order of `vertices(mesh)`, with those of the attributes that the format holds, to the file
-// `file`, which errors call `name`.
+// `file`, which errors call `name`. Only OBJ holds a texture with seams, which replaces the attributes s and t.
 inline void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name,
-                       const Vertex_attributes& attributes = {})
+                       const Vertex_attributes& attributes = {}, const Corner_texture& texture = {})
 {
   const std::string format = mesh_format(name);
   const Vertex_attributes written = writable(attributes, name);
@@ -256,7 +289,7 @@ inline void write_mesh(const std::string& file, const Mesh& mesh, const std::str
   // CGAL's functions that open the file themselves do not say when the disk is full.
   const bool good = format == ".ply"   ? CGAL::IO::write_PLY(stream, decorated)
                     : format == ".stl" ? CGAL::IO::write_STL(stream, mesh)
-                    : format == ".obj" ? mesh_io_internal::write_obj(stream, mesh, written)
+                    : format == ".obj" ? mesh_io_internal::write_obj(stream, mesh, written, texture)
                                        : CGAL::IO::write_OFF(stream, decorated);
   if(!good)
     throw Write_error(name, "the disk refused it, is it full?");

@@ -103,6 +103,7 @@ public:
     }
     const long long size = static_cast<long long>(m_columns.front().size());
     const std::size_t value = static_cast<std::size_t>(index > 0 ? index - 1 : size + index);
+    m_corners.push_back(value);
     if(value >= m_columns.front().size())
       ++m_missing;
     else if(m_of[vertex] == no_vertex)
@@ -119,8 +120,8 @@ public:
       return;
     m_of.resize(n, no_vertex); // isolated ones have 0
     if(m_seams + m_missing > 0) {
-      attributes.unknown.push_back(what + (m_seams > 0 ? " (they differ between the corners of a vertex)"
-                                                       : " (some corners have none)"));
+      attributes.unknown.push_back(what + (m_missing > 0 ? " (some corners have none)"
+                                                         : " (they differ between the corners of a vertex)"));
       return;
     }
     for(std::size_t c = 0; c < names.size(); ++c) {
@@ -131,9 +132,26 @@ public:
     }
   }
 
+  // Whether there is a vertex whose corners differ.
+  bool has_seams() const { return m_seams > 0; }
+
+  // Those of all corners as a texture, or the reason why there is none.
+  void add_to(Polygon_soup& soup) const
+  {
+    if(m_columns.front().empty())
+      return;
+    if(m_missing > 0) {
+      soup.without_texture = "some corners of its faces have no texture coordinates";
+      return;
+    }
+    for(const std::size_t c : m_corners)
+      soup.texture.push_back({m_columns[0][c], m_columns[1][c]});
+  }
+
 private:
   std::vector<std::vector<double>> m_columns;
-  std::vector<std::size_t> m_of; // the value of each vertex
+  std::vector<std::size_t> m_of;      // the value of each vertex
+  std::vector<std::size_t> m_corners; // and of each corner
   std::size_t m_seams = 0, m_missing = 0;
 };
 
@@ -146,6 +164,7 @@ inline Polygon_soup read_obj(const std::string& path)
   Text_lines file(path);
   Corner_values texture(2), normals(3);
   std::vector<std::vector<double>> colours(3);
+  bool materials = false;
   while(file.next()) {
     const std::string keyword = file.word();
     if(keyword == "v") {
@@ -153,7 +172,9 @@ inline Polygon_soup read_obj(const std::string& path)
       const std::vector<double> more = file.numbers();
       for(std::size_t c = 0; more.size() >= 3 && c < 3; ++c)
         colours[c].push_back(more[c]);
-    } else if(keyword == "vt")
+    } else if(keyword == "usemtl")
+      materials = true;
+    else if(keyword == "vt")
       texture.add(file.numbers());
     else if(keyword == "vn")
       normals.add(file.numbers());
@@ -171,7 +192,11 @@ inline Polygon_soup read_obj(const std::string& path)
   if(colours[0].size() == soup.points.size())
     add_colours(soup.attributes, std::move(colours));
   normals.add_to(soup.attributes, soup.points.size(), "normals", {"nx", "ny", "nz"});
-  texture.add_to(soup.attributes, soup.points.size(), "texture coordinates", {"s", "t"});
+  if(materials)
+    soup.attributes.unknown.push_back("materials");
+  texture.add_to(soup);
+  if(soup.texture.empty() || !texture.has_seams())
+    texture.add_to(soup.attributes, soup.points.size(), "texture coordinates", {"s", "t"});
   return soup;
 }
 

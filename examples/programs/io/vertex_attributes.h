@@ -69,6 +69,15 @@ struct Vertex_attributes
     known.push_back({name, type, std::move(values)});
   }
 
+  void remove(const std::vector<std::string>& names)
+  {
+    known.erase(std::remove_if(known.begin(), known.end(),
+                               [&](const Vertex_attribute& a) {
+                                 return std::find(names.begin(), names.end(), a.name) != names.end();
+                               }),
+                known.end());
+  }
+
   // "red, green, blue, label"
   std::string names() const
   {
