@@ -117,6 +117,36 @@ class Beside_the_program(Shapes):
         self.assertLess(of_fitted.C_L, own.C_L)
         self.assertLess(of_fitted.eigenvalue_error, own.eigenvalue_error)
 
+    def test_attributes(self):
+        rng, n = np.random.default_rng(5), len(self.V)
+        colours, labels = rng.integers(0, 256, (n, 3), np.uint8), rng.integers(-3, 4, n)
+        numbers = rng.random(n)
+        names = "double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "int label", "double heat", \
+            "double nx", "double ny", "double nz"
+        with open(os.path.join(self.folder, "in.ply"), "w") as file:
+            file.write("ply\nformat ascii 1.0\nelement vertex %d\n%s\nelement face %d\n" %
+                       (n, "\n".join("property " + name for name in names), len(self.F)))
+            file.write("property list uchar int vertex_indices\nend_header\n")
+            for v, c, l, h in zip(self.V, colours, labels, numbers):
+                file.write(" ".join("%.17g" % x for x in (*v, *c, l, h, *v)) + "\n")
+            file.writelines("3 %d %d %d\n" % tuple(f) for f in self.F)
+        subprocess.run([PROGRAM, "in.ply", "out.ply", "--vertices", "200", "--eigenvectors", "50", "--quiet", "--no-evaluation"],
+                       cwd=self.folder, check=True)
+        with open(os.path.join(self.folder, "out.ply"), "rb") as file:
+            header, data = file.read().split(b"end_header\n", 1)
+        kinds = {"double": "<f8", "uchar": "u1", "int": "<i4"}
+        lines = header.decode().split("element face")[0].split("\n")
+        fields = [line.split()[1:] for line in lines if line.startswith("property")]
+        out = np.frombuffer(data, [(name, kinds[kind]) for kind, name in fields], 200)
+        run = self.run_
+        self.close(np.c_[out["x"], out["y"], out["z"]], run.V)
+        carried = run.interpolate(colours)
+        self.assertEqual(carried.dtype, np.uint8)
+        np.testing.assert_array_equal(carried, np.c_[out["red"], out["green"], out["blue"]])
+        np.testing.assert_array_equal(run.transfer_labels(labels), out["label"])
+        self.close(run.interpolate(numbers), out["heat"])
+        self.close(run.interpolate(self.V, unit=True), np.c_[out["nx"], out["ny"], out["nz"]])
+
     def test_the_options_have_their_meaning(self):
         self.V, self.F = sphere(3)
         signals, keep = self.V[:, :2] ** 2, [7, 400]
@@ -156,6 +186,35 @@ class Results(Shapes):
         self.close(run.Q @ np.ones(200), np.ones(len(self.V)))
         self.assertLess(abs(run.Q @ run.V - self.V).max(), 0.2)
         self.assertEqual((run.V.dtype, run.F.dtype, run.vertex_map.dtype), (np.float64, np.int32, np.int64))
+
+    def test_what_vertices_have_is_carried(self):
+        for level in self.run_, self.run_.levels(700):
+            self.close(level.interpolate(self.V), level.P @ self.V)
+            self.close(level.interpolate(self.V[:, 0].astype(np.float32)), level.P @ self.V[:, 0], 1e-6)
+            normals = level.interpolate(self.V, unit=True)
+            self.close(np.linalg.norm(normals, axis=1), np.ones(len(level.V)))
+            self.assertLess(abs(normals - level.V / np.linalg.norm(level.V, axis=1, keepdims=True)).max(), 0.05)
+            side = np.where(self.V[:, 0] > 0, "east", "west")
+            away = abs(level.V[:, 0]) > 0.1
+            np.testing.assert_array_equal(level.transfer_labels(side)[away],
+                                          np.where(level.V[:, 0] > 0, "east", "west")[away])
+        ends = self.run_.interpolate(np.full(len(self.V), 255, np.uint8))
+        self.assertTrue((ends == 255).all() and ends.dtype == np.uint8)
+
+    def test_fitted_operators_of_one_call(self):
+        run = ss.simplify(self.V, self.F, 200, 50, fit_operators=True)
+        self.close(run.V, self.run_.V)
+        self.assertIsNone(self.run_.fitted)
+        self.assertEqual((len(run.fitted), run.fitted.mass), (50, "edges"))
+        alone = ss.fit_operators(run.V, run.F, run.P, ss.eigenpairs(self.V, self.F, 60, tolerance=1e-8), 50)
+        self.close(run.fitted.L, alone.L, 1e-5)
+        self.close(run.fitted.values, alone.values, 1e-5)
+        self.assertLess(run.fitted.objective_after, run.fitted.objective_before)
+        judged = [ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs, operators=o)
+                  for o in (run.fitted, None)]
+        self.assertLess(judged[0].C_L, 0.9 * judged[1].C_L)
+        lumped = ss.simplify(self.V, self.F, 200, 30, "paper", fit_operators=True)
+        self.assertEqual(lumped.fitted.mass, "diagonal")
 
     def test_distances_are_what_numpy_finds(self):
         pairs = self.run_.eigenpairs
@@ -274,6 +333,8 @@ class Control(Shapes):
                          lambda p: ss.fit_operators(run.V, run.F, run.P, pairs, progress=p)):
             with self.assertRaises(ss.Cancelled):
                 function(lambda *_: np.bool_(False))
+        with self.assertRaises(ss.Cancelled):
+            ss.simplify(self.V, self.F, 200, 20, fit_operators=True, progress=lambda now, _: now != "operator_fit")
         self.assertTrue(issubclass(ss.Cancelled, RuntimeError))
 
     def test_what_the_callback_raises_is_raised(self):
@@ -419,6 +480,9 @@ class Wrong_input(Shapes):
                 (ValueError, "binary asks for a P of ones and zeros", dict(binary=True)),
                 (TypeError, "binary is 1, it must be True or False", dict(binary=1)),
                 (TypeError, "preserve_border is 'no', it must be True or False", dict(preserve_border="no")),
+                (TypeError, "fit_operators is 1, it must be True or False", dict(fit_operators=1)),
+                (ValueError, "fit_operators fits to eigenvectors, but signals are given",
+                 dict(signals=V, fit_operators=True)),
                 (ValueError, r"keep\[1\] is 2562, but V has 2562 vertices", dict(keep=[0, 2562])),
                 (TypeError, "keep has the dtype bool, it must hold integers", dict(keep=np.ones(2562, bool))),
                 (ValueError, r"keep has the shape \(1, 2\), it must be \(n,\)", dict(keep=[[1, 2]])),
@@ -461,6 +525,13 @@ class Wrong_input(Shapes):
                      pairs, rings=3)
         self.refused(ValueError, "mass is 'lumped', it must be 'diagonal' or 'edges'|None", ss.fit_operators, run.V,
                      run.F, P, pairs, mass="lumped")
+        self.refused(ValueError, r"values has the shape \(200, 3\), it must be \(2562,\) or \(2562, c\)", run.interpolate,
+                     run.V)
+        self.refused(ValueError, r"for unit=True it must be \(2562, c\)", run.interpolate, V[:, 0], unit=True)
+        self.refused(TypeError, "values has the dtype <U4, .*transfer_labels", run.interpolate, np.full(2562, "east"))
+        self.refused(ValueError, r"labels has the shape \(2562, 3\), it must be \(2562,\)", run.transfer_labels, V)
+        self.refused(TypeError, "labels has the dtype float64, it must hold integers or strings", run.transfer_labels,
+                     V[:, 0])
         self.refused(ValueError, "tolerance is 0, it must be", ss.eigenpairs, V, F, 20, tolerance=0)
         self.refused(ValueError, "kind is 'euclidean', it must be", ss.distances, pairs, 0, "euclidean")
         self.refused(ValueError, "sources is 2562, it must be an integer from 0 to 2561", ss.distances, pairs, 2562)

@@ -2,8 +2,11 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The module spectral_simplification: arrays of NumPy in, arrays out. What a user sees, signatures and texts of help(), is Python
-// and stands at the end; each function there hands its arguments to one here.
+// The module spectral_simplification: arrays of NumPy in, arrays out. What a user sees, signatures and texts of help(), is Python,
+// interface.py; each function there hands its arguments to one here.
+
+#include "arguments.h"
+#include "watch.h"
 
 #include "../programs/io/polygon_soup.h"
 #include "../programs/option_words.h"
@@ -30,326 +33,21 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-namespace py = pybind11;
 namespace SMS = CGAL::Surface_mesh_simplification;
-namespace SG = CGAL::Spectral_geometry;
 
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Eigen::Index;
-using std::to_string;
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& sentence)
-{
-  throw py::value_error(sentence);
-}
-
-std::string type_name(const py::handle& value)
-{
-  return "of the type " + std::string(py::str(py::type::of(value).attr("__name__")));
-}
-
-// For a sentence of one line.
-std::string shown(const py::handle& value)
-{
-  const std::string text = py::repr(value);
-  return text.size() > 80 || text.find('\n') != std::string::npos ? type_name(value) : text;
-}
-
-// The arguments of a function by name, each read with a sentence for what cannot be meant.
-class Arguments
-{
-public:
-  explicit Arguments(py::dict values)
-    : m_values(std::move(values))
-  {}
-
-  py::object operator[](const char* name) const { return m_values[name]; }
-  bool has(const char* name) const { return !(*this)[name].is_none(); }
-
-  [[noreturn]] void must_be(const char* name, const std::string& wanted, const bool is_type = false) const
-  {
-    const std::string sentence =
-        std::string(name) + " is " + shown((*this)[name]) + ", it must be " + wanted + ".";
-    if(is_type)
-      throw py::type_error(sentence);
-    throw py::value_error(sentence);
-  }
-
-  Index integer(const char* name, const Index least, const Index most = (std::numeric_limits<Index>::max)(),
-                const std::string& why = "") const
-  {
-    const py::object value = (*this)[name];
-    if(!PyIndex_Check(value.ptr()) || PyBool_Check(value.ptr()))
-      must_be(name, "an integer", true);
-    const py::object index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    if(!index) {
-      PyErr_Clear(); // an array of several
-      must_be(name, "an integer", true);
-    }
-    int overflow = 0;
-    const long long result = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
-    if(overflow != 0 || result < least || result > most)
-      must_be(name, "an integer from " + to_string(least) +
-                        (most == (std::numeric_limits<Index>::max)() ? "" : " to " + to_string(most)) + why);
-    return Index(result);
-  }
-
-  // All cores unless told otherwise.
-  int threads() const
-  {
-    return has("threads") ? int(integer("threads", 1, 1024))
-                          : int((std::max)(1u, std::thread::hardware_concurrency()));
-  }
-
-  double number(const char* name, const double least, const bool itself = true,
-                const double most = std::numeric_limits<double>::infinity()) const
-  {
-    const py::object value = (*this)[name];
-    const double result = PyBool_Check(value.ptr()) ? -1 : PyFloat_AsDouble(value.ptr());
-    if(PyErr_Occurred() || PyBool_Check(value.ptr())) {
-      PyErr_Clear();
-      must_be(name, "a number", true);
-    }
-    const auto text = [](const double x) { return std::string(py::str(py::float_(x))); };
-    if(!(itself ? result >= least : result > least) || !(result <= most) || std::isinf(result))
-      must_be(name, (itself ? "a finite number from " : "a finite number above ") + text(least) +
-                        (std::isinf(most) ? "" : (itself ? " to " : " and up to ") + text(most)));
-    return result;
-  }
-
-  bool flag(const char* name) const
-  {
-    if(!py::isinstance<py::bool_>((*this)[name]))
-      must_be(name, "True or False", true);
-    return (*this)[name].cast<bool>();
-  }
-
-  // One of the words, or nothing where the argument is None and may be.
-  std::string word(const char* name, const std::vector<std::string>& words, const bool optional = false) const
-  {
-    std::string list = optional ? "None" : "";
-    for(const std::string& w : words)
-      list += (list.empty() ? "'" : w == words.back() ? " or '" : ", '") + w + "'";
-    if(optional && !has(name))
-      return "";
-    if(!py::isinstance<py::str>((*this)[name]))
-      must_be(name, list, true);
-    const std::string word = (*this)[name].cast<std::string>();
-    if(std::find(words.begin(), words.end(), word) == words.end())
-      must_be(name, list);
-    return word;
-  }
-
-  SG::Mass mass(const char* name = "mass") const
-  {
-    return word(name, {"lumped", "averaged"}) == "lumped" ? SG::Mass::lumped : SG::Mass::averaged;
-  }
-
-  // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is 0 for one dimension, -1 for any
-  // number of columns.
-  template <class Number>
-  py::array_t<Number> array(const char* name, const Index columns, const std::string& rows_of) const
-  {
-    constexpr bool real = std::is_floating_point<Number>::value;
-    const std::string kinds = real ? "fiu" : "iu", label = name;
-    py::array array;
-    try {
-      array = py::module_::import("numpy").attr("asarray")((*this)[name]);
-    } catch(const py::error_already_set& error) {
-      if(!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError))
-        throw;
-      throw py::type_error(label + " is not an array of numbers: give each row the same length.");
-    }
-    if(kinds.find(array.dtype().kind()) == std::string::npos && array.size() != 0)
-      throw py::type_error(label + " has the dtype " + std::string(py::str(array.dtype())) +
-                           ", it must hold " +
-                           (real ? "real numbers: pass float64." : "integers: pass int32 or int64."));
-    if(array.ndim() != (columns == 0 ? 1 : 2) || (columns > 0 && array.shape(1) != columns))
-      refuse(label + " has the shape " + shown(array.attr("shape")) + ", it must be " +
-             (columns == 0  ? "(n,)"
-              : columns < 0 ? "(n, k)"
-                            : "(n, " + to_string(columns) + ")") +
-             ", one row for each " + rows_of + ".");
-    if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real)
-      return py::array_t<Number>(py::array(array.attr("astype")("int64", py::arg("casting") = "unsafe")));
-    return py::array_t<Number>(array);
-  }
-
-  // Indices in [0, n).
-  std::vector<std::size_t> indices(const char* name, const std::size_t n, const std::string& of) const
-  {
-    const auto values = array<std::int64_t>(name, 0, "vertex");
-    std::vector<std::size_t> result;
-    for(py::ssize_t i = 0; i < values.size(); ++i) {
-      if(values.at(i) < 0 || values.at(i) >= std::int64_t(n))
-        refuse(std::string(name) + "[" + to_string(i) + "] is " + to_string(values.at(i)) + ", but " + of +
-               " has " + to_string(n) + " vertices: they are counted from 0.");
-      result.push_back(std::size_t(values.at(i)));
-    }
-    return result;
-  }
-
-  // A finite matrix.
-  Eigen::MatrixXd matrix(const char* name, const Index rows, const std::string& of) const
-  {
-    const auto values = array<double>(name, -1, "vertex");
-    if(values.shape(0) != rows)
-      refuse(std::string(name) + " has " + to_string(values.shape(0)) + " rows, but " + of + " has " +
-             to_string(rows) + " vertices: give one row for each.");
-    Eigen::MatrixXd result = values.template cast<Eigen::MatrixXd>();
-    for(Index i = 0; i < result.rows(); ++i)
-      for(Index j = 0; j < result.cols(); ++j)
-        if(!std::isfinite(result(i, j)))
-          refuse(std::string(name) + "[" + to_string(i) + ", " + to_string(j) + "] is not a finite number.");
-    return result;
-  }
-
-  SG::Mesh_matrices mesh(const char* positions, const char* faces) const
-  {
-    SG::Mesh_matrices result;
-    result.V = array<double>(positions, 3, "vertex").template cast<Eigen::MatrixXd>();
-    const auto f = array<std::int64_t>(faces, 3, "triangle");
-    const std::int64_t n = result.V.rows();
-    if(n > (std::numeric_limits<int>::max)())
-      refuse(std::string(positions) + " has more vertices than 31 bits count.");
-    result.T.resize(f.shape(0), 3);
-    for(py::ssize_t i = 0; i < f.shape(0); ++i)
-      for(py::ssize_t j = 0; j < 3; ++j) {
-        const std::int64_t v = f.at(i, j);
-        if(v < 0 || v >= n)
-          refuse(std::string(faces) + "[" + to_string(i) + ", " + to_string(j) + "] is " + to_string(v) +
-                 ", but " + positions + " has " + to_string(n) + " vertices: they are counted from 0.");
-        result.T(i, j) = int(v);
-      }
-    return result;
-  }
-
-  // P, of any format of SciPy's.
-  Eigen::SparseMatrix<double> sparse(const char* name, const Index rows, const Index columns) const
-  {
-    const py::module_ scipy = py::module_::import("scipy.sparse");
-    const py::object value = (*this)[name];
-    if(!scipy.attr("issparse")(value).cast<bool>())
-      throw py::type_error(std::string(name) + " is " + type_name(value) +
-                           ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
-    if(value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows ||
-       value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
-      refuse(std::string(name) + " has the shape " + shown(value.attr("shape")) + ", it must be (" +
-             to_string(rows) + ", " + to_string(columns) + "), coarse x fine vertices.");
-    const std::string kind = py::str(value.attr("dtype").attr("kind"));
-    if(kind != "f" && kind != "i" && kind != "u")
-      throw py::type_error(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +
-                           ", it must hold real numbers: pass float64.");
-    py::object matrix = scipy.attr("csc_matrix")(value, py::arg("dtype") = "float64");
-    if(!matrix.attr("has_canonical_format").cast<bool>()) {
-      matrix = matrix.attr("copy")();
-      matrix.attr("sum_duplicates")();
-    }
-    auto result = matrix.cast<Eigen::SparseMatrix<double>>();
-    for(Index j = 0; j < result.cols(); ++j)
-      for(Eigen::SparseMatrix<double>::InnerIterator it(result, j); it; ++it)
-        if(!std::isfinite(it.value()))
-          refuse(std::string(name) + "[" + to_string(it.row()) + ", " + to_string(j) +
-                 "] is not a finite number.");
-    return result;
-  }
-
-private:
-  py::dict m_values;
-};
-
-// Between a computation, which has no GIL, and Python: asks for signals and calls the callback twenty times a second and at the
-// begin of each phase. May be asked by several threads.
-class Watch
-{
-public:
-  explicit Watch(const Arguments& a)
-    : m_callback(a["progress"])
-  {
-    if(!m_callback.is_none() && !PyCallable_Check(m_callback.ptr()))
-      a.must_be("progress", "None or a function of a phase and a fraction", true);
-  }
-
-  // False to stop.
-  bool operator()(const char* phase, const double fraction)
-  {
-    const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    constexpr auto pause =
-        std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::milliseconds(50))
-            .count();
-    if(m_stopped || (m_phase == phase && now - m_last < pause))
-      return !m_stopped;
-    const py::gil_scoped_acquire gil;
-    if(m_stopped)
-      return false;
-    m_phase = phase;
-    m_last = now;
-    try {
-      if(PyErr_CheckSignals() != 0)
-        throw py::error_already_set();
-      if(!m_callback.is_none()) {
-        const py::object answer = m_callback(phase, fraction);
-        const int goes_on = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
-        if(goes_on < 0)
-          throw py::error_already_set();
-        m_stopped = goes_on == 0;
-      }
-    } catch(...) {
-      m_error = std::current_exception();
-      m_stopped = true;
-    }
-    return !m_stopped;
-  }
-
-  // What `work` returns, which does without the GIL. Throws what stopped it.
-  template <class Work>
-  auto run(const Work& work)
-  {
-    std::optional<decltype(work())> result;
-    try {
-      const py::gil_scoped_release no_gil;
-      result = work();
-    } catch(...) {
-      stop();
-      throw;
-    }
-    stop();
-    return std::move(*result);
-  }
-
-private:
-  void stop() const
-  {
-    if(m_error)
-      std::rethrow_exception(m_error);
-    if(m_stopped)
-      throw SG::Cancelled();
-  }
-
-  py::object m_callback;
-  std::exception_ptr m_error;
-  std::atomic<bool> m_stopped{false};
-  std::atomic<const char*> m_phase{nullptr};
-  std::atomic<std::chrono::steady_clock::rep> m_last{0};
-};
 
 // The library speaks of a mesh; here there may be two.
 SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const double theta, const char* names)
@@ -398,6 +96,17 @@ struct Fitted_pairs : Pairs
 {
   SG::Operator_fit_result fit; // without its operator
 };
+
+Fitted_pairs fitted_pairs(SG::Operator_fit_result fit, const SG::Operator_fit_options& options, const Index k,
+                          const SG::Eigenpairs_options& solver = {})
+{
+  Fitted_pairs result;
+  result.fit = std::move(fit);
+  result.op = std::make_shared<SG::Laplace_operator>(std::move(result.fit.op));
+  result.pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*result.op, k, solver));
+  result.mass = options.mass == SG::Operator_fit_options::Mass_pattern::diagonal ? "diagonal" : "edges";
+  return result;
+}
 
 const Pairs& pairs_of(const Arguments& a, const char* name)
 {
@@ -510,7 +219,7 @@ struct Simplification : Level
   using Level::Level;
 
   SMS::Collapse_log log;
-  py::object eigenpairs;
+  py::object eigenpairs, fitted;
   py::dict report;
 
   // One record for each collapse.
@@ -580,6 +289,9 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a)
         "binary asks for a P of ones and zeros, and relocation by the closest points makes another one: pass "
         "relocate='none' or relocate='carried'.");
   options.preserve_border = a.flag("preserve_border");
+  options.fit_operators = a.flag("fit_operators");
+  if(options.fit_operators && a.has("signals"))
+    refuse("fit_operators fits to eigenvectors, but signals are given: leave one of them out.");
   options.threads = a.threads();
   if(a.has("max_error"))
     options.maximum_error = a.number("max_error", 0, false);
@@ -652,7 +364,7 @@ py::dict report(const Arguments& a, const SMS::Spectral_edge_collapse_options& o
       arg("seconds_pre_simplification") = r.seconds_pre_simplification,
       arg("seconds_eigenpairs") = r.seconds_eigenpairs, arg("seconds_collapse") = r.seconds_collapse,
       arg("seconds_flips") = r.seconds_flips, arg("seconds_relocation") = r.seconds_relocation,
-      arg("seconds_total") = r.seconds_total);
+      arg("seconds_operator_fit") = r.seconds_operator_fit, arg("seconds_total") = r.seconds_total);
   result["relocation"] = o.relocate ? py::object(relocation) : py::none();
   return result;
 }
@@ -683,6 +395,7 @@ Simplification simplify(const Arguments& a)
     SMS::Spectral_edge_collapse_result result;
     SG::Mesh_matrices coarse;
     std::shared_ptr<const SG::Laplace_operator> op;
+    std::optional<Fitted_pairs> fitted;
   };
   Run run = watch.run([&] {
     Run run;
@@ -692,6 +405,9 @@ Simplification simplify(const Arguments& a)
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
       run.op =
           std::make_shared<SG::Laplace_operator>(operator_of(*fine, SG::mass_blend(options.mass), "V, F"));
+    if(run.result.fitted)
+      run.fitted = fitted_pairs(std::move(*run.result.fitted), options.operator_fit,
+                                (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
     return run;
   });
   const auto k =
@@ -706,6 +422,7 @@ Simplification simplify(const Arguments& a)
     result.eigenpairs = a["eigenpairs"];
   else if(run.op)
     result.eigenpairs = py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)});
+  result.fitted = run.fitted ? py::cast(std::move(*run.fitted)) : py::none();
   result.log = std::move(run.result.log);
   for(const std::string& warning : run.result.warnings)
     warn(warning);
@@ -765,7 +482,6 @@ Fitted_pairs fit_operators(const Arguments& a)
   const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.op->L.rows());
   const Index k =
       a.has("k") ? a.integer("k", 1, coarse.V.rows()) : (std::min)(fine.pairs->size(), coarse.V.rows());
-  using Mass_pattern = SG::Operator_fit_options::Mass_pattern;
   const std::string mass = a.word("mass", {"diagonal", "edges"}, true);
   SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(mass.empty()      ? fine.op->theta
                                                                         : mass == "edges" ? 1.
@@ -780,13 +496,8 @@ Fitted_pairs fit_operators(const Arguments& a)
   SG::Eigenpairs_options solver;
   solver.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
-    Fitted_pairs result;
-    result.fit =
-        SG::fit_operators(operator_of(coarse, fine.op->theta, "Vc, Fc"), P, *fine.op, *fine.pairs, options);
-    result.op = std::make_shared<SG::Laplace_operator>(std::move(result.fit.op));
-    result.pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*result.op, k, solver));
-    result.mass = options.mass == Mass_pattern::diagonal ? "diagonal" : "edges";
-    return result;
+    const SG::Laplace_operator op = operator_of(coarse, fine.op->theta, "Vc, Fc");
+    return fitted_pairs(SG::fit_operators(op, P, *fine.op, *fine.pairs, options), options, k, solver);
   });
 }
 
@@ -940,175 +651,10 @@ Matched match(const Arguments& a)
 }
 #endif
 
-// What a user sees.
-constexpr const char* python_interface = R"py(
-from collections.abc import Callable, Sequence
-import numpy
-import scipy.sparse
-
-Progress = Callable[[str, float], bool | None]
-
-
-def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: str = 'best', *,
-             mass: str | None = None, placement: str | None = None, shape: float | None = None,
-             self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
-             keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
-             signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
-             pre_simplify: int = 0, max_error: float | None = None, threads: int | None = None,
-             progress: Progress | None = None) -> Simplification:
-    """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
-
-    V          (v, 3) real numbers, positions in any unit of length
-    F          (f, 3) integers, the corners of the triangles, counted from 0: an oriented manifold, with or
-               without border, in which each vertex has a face
-    n          how many vertices are left; 3 k or more, a warning says so
-    k          how many eigenvectors are kept, the constant one included; below v
-    preset     'best': what keeps the spectrum best; 'paper': what the paper describes (Lescoat et al.,
-               Spectral Mesh Simplification, 2020). Each of the next five overrides it
-    mass       'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
-               eigenvalues of coarse meshes much closer
-    placement  'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
-    shape      weight of the shape beside the spectrum (best: 3, paper: 0)
-    self_intersections
-               'allow' (paper) or 'refuse' (best) collapses that put a face through another
-    relocate   'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
-               afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
-    flips      'none', 'spectral' or 'delaunay': which edges are flipped before that
-    keep       indices of vertices of V that stay where they are; vertex_map says where they went
-    binary     P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
-    preserve_border
-               no edge is drawn away from the border
-    signals    (v, s) real numbers, functions to keep instead of eigenvectors; leave out k then
-    eigenpairs what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
-    pre_simplify
-               first reduce a larger mesh to this number of vertices with plane quadrics; 0: do not
-    max_error  stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum
-               closely, 0.14 well
-    threads    for eigenpairs, costs and relocation, all cores by default; the result does not depend on it
-    progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
-               Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
-
-    Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first thing that is
-    wrong. What is done but not advised is a UserWarning, and so is a run that ends above n."""
-    return _simplify(locals())
-
-
-def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               threads: int | None = None, progress: Progress | None = None) -> Eigenpairs:
-    """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
-    an inverse area.
-
-    V, F       as of simplify(), but faces need not form a manifold
-    k          from 1 to v
-    mass       'lumped' or 'averaged'
-    tolerance  relative accuracy of the solver; a run of simplify() has pairs of 1e-8
-    threads, progress
-               as of simplify()"""
-    return _eigenpairs(locals())
-
-
-def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
-             k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
-             operators: Fitted_operators | None = None, threads: int | None = None,
-             progress: Progress | None = None) -> Evaluation:
-    """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
-    meshes at unit area; compare figures of one mass only.
-
-    V, F       the fine mesh
-    Vc, Fc     the coarse mesh
-    P          (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1
-    k          modes to judge
-    mass       'lumped' or 'averaged', of both operators
-    eigenpairs of the fine mesh in that mass, k or more, to save the solve
-    operators  what fit_operators() returned, in the place of the coarse mesh's own operators
-    threads, progress
-               as of simplify()"""
-    return _evaluate(locals())
-
-
-def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: Eigenpairs,
-                  k: int | None = None, mass: str | None = None, rings: int | None = None, *,
-                  low_modes: float = 2.5, orthonormality: float = 0.01, plain: float = 0.2,
-                  progress: Progress | None = None) -> Fitted_operators:
-    """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of the fine
-    one as nearly as they can: for functional maps and spectral distances, not for geometry.
-
-    Vc, Fc     the coarse mesh
-    P          (vc, v) sparse matrix from fine to coarse
-    eigenpairs of the fine mesh, a fifth more than are to be judged
-    k          how many eigenpairs of the fitted operators are computed; as many as eigenpairs are
-    mass       'diagonal' (lumped mass) or 'edges' (averaged mass): where M has entries
-    rings      1, the edges (mass on edges), or 2, two rings (diagonal mass): where L has entries
-    low_modes  e: mode k has the weight (lambda_k + 4 pi)^-e; more is for distances, less for C_L
-    orthonormality
-               weight of orthonormality; more lowers C_D and raises C_L
-    plain      weight of the whole residual; more keeps the modes beyond k
-    progress   as of simplify()"""
-    return _fit_operators(locals())
-
-
-def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
-                   P: scipy.sparse.csr_matrix) -> numpy.ndarray:
-    """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse coefficients C x. It is
-    vectors^T M P vectors, the first two of coarse_eigenpairs, the last of eigenpairs, at the scale of the
-    meshes; evaluate() has that of unit area. P is (vc, v), sparse."""
-    return _functional_map(locals())
-
-
-def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int], kind: str = 'biharmonic', *,
-              time: float | None = None, energies: tuple | None = None) -> numpy.ndarray:
-    """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for a sequence of them.
-
-    kind       'diffusion', 'biharmonic' or 'commute_time', which are squared, or 'wave_kernel', which is not
-    time       of 'diffusion', in the unit of area; 1 / (4 lambda_1)
-    energies   of 'wave_kernel', (t_min, t_max, sigma, steps); wave_kernel_energies(eigenpairs)
-
-    To compare two meshes pass the time or the energies of one of them for both."""
-    return _distances(locals())
-
-
-def heat_kernel_signature(eigenpairs: Eigenpairs, times: Sequence[float] | None = None) -> numpy.ndarray:
-    """(v, t), one column for each time, which has the unit of area; 100 times of constant ratio if none are given."""
-    return _heat_kernel_signature(locals())
-
-
-def wave_kernel_signature(eigenpairs: Eigenpairs, energies: tuple | None = None) -> numpy.ndarray:
-    """(v, steps), one column for each energy; those of wave_kernel_energies(eigenpairs) if none are given."""
-    return _wave_kernel_signature(locals())
-
-
-def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
-    """(t_min, t_max, sigma, steps): energies, logarithms of eigenvalues, as Aubry et al. 2011 choose them."""
-    return _wave_kernel_energies(locals())
-
-
-def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
-          mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
-          operators: str = 'fitted', initial: int = 20,
-          filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int | None = None,
-          progress: Progress | None = None) -> 'Match':
-    """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
-    simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter.
-
-    VX, FX, VY, FY
-               two meshes, nearly isometric, as of simplify()
-    n          vertices of the simplified meshes, 3 k or more
-    k          eigenvectors of all meshes, from 10 to n
-    mass       'lumped' or 'averaged'
-    landmarks  (l, 2) integers, pairs of vertices of X and Y that are known to correspond
-    proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
-    operators  'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own
-    initial    modes of the functional map from signatures, from 4 to 60
-    filter_iterations
-               of the Product Manifold Filter; 0: none
-    fine_iterations
-               at most, from vertices of the fine meshes to the functional map and back
-    local_weight
-               of curvature in these, from 0 to 100
-    threads    all cores by default; the result does not depend on it
-    progress   as of simplify(); the fraction counts three stages"""
-    return _match(locals())
-)py";
+// What a user sees, interface.py.
+constexpr const char* python_interface =
+#include "interface.h"
+    ;
 
 template <class Function>
 void define(py::module_& m, const char* name, const Function& function)
@@ -1215,6 +761,10 @@ PYBIND11_MODULE(spectral_simplification, m)
       .def_readonly(
           "eigenpairs", &Simplification::eigenpairs,
           "of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or pre_simplify")
+      .def_readonly("fitted", &Simplification::fitted,
+                    "with fit_operators=True operators of the mesh that were fitted to the spectrum of the "
+                    "input, and k "
+                    "eigenpairs of them: for evaluate(..., operators=...); else None")
       .def_readonly("report", &Simplification::report,
                     "a dict of what was done, with the names of spectral_simplify --json: counts, seconds, "
                     "stop_reason, "
