@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -283,6 +284,43 @@ TEST_CASE("Seams are the edges across which the coordinates differ")
   const Texture_seams seams(input.mesh, input.texture);
   CHECK(seams.number_of_edges() == 2);
   CHECK(seams.vertices() == std::vector<std::size_t>{11, 12, 13});
+}
+
+TEST_CASE("A vertex that comes closer to the other side of a seam keeps to its own")
+{
+  // A square of 5 x 5 vertices, cut in the middle: its right half is elsewhere in the texture.
+  std::string text;
+  for(int j = 0; j < 5; ++j)
+    for(int i = 0; i < 5; ++i)
+      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) + " " +
+              std::to_string(j) + "\nvt " + std::to_string(i + 10) + " " + std::to_string(j) + "\n";
+  for(int j = 0; j < 4; ++j)
+    for(int i = 0; i < 4; ++i) {
+      const auto corner = [&](const int k, const int l) {
+        const int v = 5 * l + k;
+        return " " + std::to_string(v + 1) + "/" + std::to_string(2 * v + 1 + (i >= 2));
+      };
+      text += "f" + corner(i, j) + corner(i + 1, j) + corner(i + 1, j + 1) + "\nf" + corner(i, j) +
+              corner(i + 1, j + 1) + corner(i, j + 1) + "\n";
+    }
+  const File file(".obj", text);
+  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  const Texture_seams seams(input.mesh, input.texture);
+  CHECK(seams.vertices() == std::vector<std::size_t>{2, 7, 12, 17, 22});
+  Mesh moved = input.mesh;
+  const Mesh::Vertex_index v(11); // from (1, 2)
+  moved.point(v) = Kernel::Point_3(2.25, 2.5, 0);
+  std::vector<std::size_t> map(25);
+  std::iota(map.begin(), map.end(), std::size_t(0));
+  const Corner_texture texture = seams.simplified(moved, map);
+  for(const auto h : moved.halfedges()) {
+    if(moved.is_border(h))
+      continue;
+    if(moved.target(h) == v)
+      CHECK(texture[h] == Texture_point{2, 2.5});
+    else
+      CHECK(texture[h] == input.texture[h]);
+  }
 }
 
 TEST_CASE("Seams stay, and both sides keep their coordinates")
