@@ -343,6 +343,8 @@ class Control(Shapes):
 
     def test_an_interrupt_stops_and_others_run_meanwhile(self):
         V, F = sphere(6)  # 40,962 vertices: more than ten seconds
+        # Where a shell runs the test in the background, Python does not set it.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         seen = []
 
         def interrupt():
