@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 
@@ -23,6 +24,8 @@ class CMake_build(build_ext):
     def build_extension(self, extension):
         target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
         build = pathlib.Path(self.build_temp).resolve()
+        if shutil.which("ninja") and not (build / "CMakeCache.txt").exists():
+            os.environ.setdefault("CMAKE_GENERATOR", "Ninja")  # as the scripts do: a machine may have no make
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
                         "-DSPECTRAL_PYTHON=REQUIRED", "-DSPECTRAL_BUILD_TESTS=OFF", "-DPython_EXECUTABLE=" + sys.executable,
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
