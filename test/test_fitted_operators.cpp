@@ -195,6 +195,19 @@ TEST_CASE("The fit depends neither on the unit of length nor on the order of the
   CHECK(difference(Sparse(Q.transpose() * permuted.op.B * Q), result.op.B) < 1e-6);
 }
 
+TEST_CASE("The fit does not depend on the number of threads", "[fitted_operators]")
+{
+  const Problem p = nested(4, 20); // rows enough for several ranges
+  Operator_fit_options options;
+  options.maximum_iterations = 3;
+  const auto one = fit(p, options);
+  options.threads = 3;
+  const auto three = fit(p, options);
+  CHECK(one.objective_after < one.objective_before);
+  CHECK(difference(three.op.L, one.op.L) == 0.);
+  CHECK(difference(three.op.B, one.op.B) == 0.);
+}
+
 TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]")
 {
   Operator_fit_options options;
@@ -450,4 +463,7 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   options = {};
   options.maximum_iterations = -1;
   refused("maximum_iterations", options);
+  options = {};
+  options.threads = 0;
+  refused("threads", options);
 }

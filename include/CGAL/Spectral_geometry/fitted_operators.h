@@ -56,6 +56,8 @@ struct Operator_fit_options
   double tolerance = 0.05;
   /// Ends after so many iterations, each of one factorisation and a few products; from 0.
   int maximum_iterations = 30;
+  /// Threads of the products, at least 1; the result does not depend on it.
+  int threads = 1;
   /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns false to cancel.
   std::function<bool(double)> progress;
 

@@ -7,7 +7,6 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
-#include <CGAL/Spectral_geometry/internal/Tall_products.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -28,7 +27,7 @@ public:
   using Index = Eigen::Index;
   using Vector = Eigen::VectorXd;
   using Row = Eigen::RowVectorXd;
-  using Rows = Tall_products::Rows;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Entries = std::vector<std::pair<Index, double>>;
   // start, lower bound and typical size of a coefficient
@@ -49,53 +48,56 @@ public:
   {
     m_D.resize(size(), n);
     m_D.setFromTriplets(m_entries.begin(), m_entries.end());
+    m_entries.clear();
+    for(Index a = 0; a < size(); ++a)
+      for(Sparse_rows::InnerIterator i(m_D, a); i; ++i)
+        for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
+          m_entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.);
+    m_pattern.resize(n, n);
+    m_pattern.setFromTriplets(m_entries.begin(), m_entries.end());
+    m_entries.clear();
+    const int *start = m_pattern.outerIndexPtr(), *rows = m_pattern.innerIndexPtr();
+    for(Index a = 0; a < size(); ++a)
+      for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
+        for(Sparse_rows::InnerIterator i(m_D, a); i; ++i) {
+          const int* p = std::lower_bound(rows + start[j.col()], rows + start[j.col() + 1], i.col());
+          m_entries.emplace_back(static_cast<int>(p - rows), static_cast<int>(a), i.value() * j.value());
+        }
+    m_map.resize(m_pattern.nonZeros(), size());
+    m_map.setFromTriplets(m_entries.begin(), m_entries.end());
     m_entries = {};
   }
 
-  // y = d_a^T G, with room for it
-  void row(Index a, const Rows& G, Row& y) const
+  // d_a^T G
+  Row row(Index a, const Rows& G) const
   {
-    y.setZero();
+    Row y = Row::Zero(G.cols());
     for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
       y += d.value() * G.row(d.col());
+    return y;
   }
 
-  // sum_a x_a d_a d_a^T G
-  Rows times(const Vector& x, const Rows& G) const
-  {
-    Rows result = Rows::Zero(G.rows(), G.cols());
-    Row y(G.cols());
-    for(Index a = 0; a < size(); ++a) {
-      row(a, G, y);
-      for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
-        result.row(d.col()) += (d.value() * x(a)) * y;
-    }
-    return result;
-  }
+  // where the matrix has entries, all zero
+  const Sparse_matrix& pattern() const { return m_pattern; }
 
-  // the derivatives by x of the inner product of R with that
-  Vector derivatives(const Rows& R, const Rows& G) const
-  {
-    Vector result(size());
-    Row y(G.cols()), z(G.cols());
-    for(Index a = 0; a < size(); ++a) {
-      row(a, G, y);
-      row(a, R, z);
-      result(a) = y.dot(z);
-    }
-    return result;
-  }
+  // for each entry of the pattern that of the matrix
+  Vector entries(const Vector& x) const { return m_map * x; }
+
+  // the adjoint: the derivatives by x of the sum of products of entries with those
+  Vector derivatives(const Vector& of_entries) const { return m_map.transpose() * of_entries; }
 
   Sparse_matrix matrix(const Vector& x) const
   {
-    const Sparse_matrix D = m_D, Dt = m_D.transpose();
-    return Dt * x.asDiagonal() * D;
+    Sparse_matrix result = m_pattern;
+    result.coeffs() = entries(x).array();
+    return result;
   }
 
 private:
   std::vector<Eigen::Triplet<double>> m_entries;
   std::vector<Range> m_ranges;
   Sparse_rows m_D;
+  Sparse_matrix m_pattern, m_map;
 };
 
 } // namespace internal

@@ -5,80 +5,128 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_TALL_PRODUCTS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_TALL_PRODUCTS_H
 
+#include <CGAL/Spectral_geometry/internal/Aligned_buffer.h>
+#include <CGAL/Spectral_geometry/internal/Panel.h>
 #include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-/// Products of tall matrices, in wide registers: blocks of rows, short enough for the cache, in panels of eight columns, the last of
-/// which is filled up with zeros.
-class Tall_products
+/// A tall matrix, panel by panel of eight columns; the last one is filled up with zeros.
+class Tall_matrix
 {
 public:
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  // Eight columns of some rows.
+  using Rows = Eigen::Map<Eigen::Array<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>>;
 
-  // A^T B, which is known to be symmetric
-  static Eigen::MatrixXd symmetric(const Rows& A, const Rows& B)
+  Tall_matrix(Index rows, Index columns)
+    : m_rows(rows)
+    , m_panels((columns + panel_width - 1) / panel_width)
   {
-    const Index panels = (A.cols() + panel_width - 1) / panel_width;
-    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
-    for(Index first = 0; first < A.rows(); first += block) {
-      const Index rows = (std::min)(block, A.rows() - first);
-      pack(A, first, rows, P);
-      pack(B, first, rows, W);
-      for(Index p = 0; p < panels; ++p)
-        for(Index q = p; q < panels; ++q)
-          gram(P.data() + p * size, W.data() + q * size, rows, H.data() + (p * panels + q) * square);
-    }
-    Eigen::MatrixXd result(A.cols(), A.cols());
-    for(Index j = 0; j < result.cols(); ++j)
-      for(Index i = 0; i <= j; ++i)
-        result(i, j) = result(j, i) =
-            H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
-              j % panel_width);
-    return result;
+    m_storage.assign(std::size_t(m_rows * m_panels * panel_width));
+  }
+  explicit Tall_matrix(const Eigen::MatrixXd& A)
+    : Tall_matrix(A.rows(), A.cols())
+  {
+    for(Index k = 0; k < A.cols(); ++k)
+      rows(k / panel_width, 0, m_rows).col(k % panel_width) = A.col(k).array();
   }
 
-  // C += A M
-  static void add(Rows& C, const Rows& A, const Eigen::MatrixXd& M)
+  Index panels() const { return m_panels; }
+  Index panel_size() const { return m_rows * panel_width; }
+  double* row(Index p, Index i) { return m_storage.data() + (p * m_rows + i) * panel_width; }
+  const double* row(Index p, Index i) const { return m_storage.data() + (p * m_rows + i) * panel_width; }
+  Rows rows(Index p, Index first, Index count) { return Rows(row(p, first), count, panel_width); }
+
+private:
+  Index m_rows, m_panels;
+  Aligned_buffer m_storage;
+};
+
+/// A small square matrix in blocks of 8 x 8, as the kernels for panels have it.
+class Panel_blocks
+{
+public:
+  explicit Panel_blocks(Index panels)
+    : m_panels(panels)
   {
-    const Index panels = (A.cols() + panel_width - 1) / panel_width;
-    Rows P(panels * block, panel_width), W(P), H = Rows::Zero(panels * panels * panel_width, panel_width);
+    m_storage.assign(std::size_t(panels * panels * panel_width * panel_width));
+  }
+  explicit Panel_blocks(const Eigen::MatrixXd& M)
+    : Panel_blocks((M.cols() + panel_width - 1) / panel_width)
+  {
     for(Index j = 0; j < M.cols(); ++j)
       for(Index i = 0; i < M.rows(); ++i)
-        H(i / panel_width * panels * panel_width + j / panel_width * panel_width + i % panel_width,
-          j % panel_width) = -M(i, j);
-    for(Index first = 0; first < A.rows(); first += block) {
-      const Index rows = (std::min)(block, A.rows() - first);
-      pack(A, first, rows, P);
-      pack(C, first, rows, W);
-      for(Index q = 0; q < panels; ++q) {
-        for(Index p = 0; p < panels; ++p)
-          subtract_product(W.data() + q * size, P.data() + p * size, rows,
-                           H.data() + (p * panels + q) * square);
-        const Index begin = q * panel_width, width = (std::min)(Index(panel_width), C.cols() - begin);
-        C.block(first, begin, rows, width) = W.block(q * block, 0, rows, width);
+        entry(i, j) = M(i, j);
+  }
+
+  double* block(Index p, Index q)
+  {
+    return m_storage.data() + (p * m_panels + q) * panel_width * panel_width;
+  }
+  const double* block(Index p, Index q) const { return const_cast<Panel_blocks&>(*this).block(p, q); }
+
+  // adds the first rows and columns of a symmetric matrix, of which there are the blocks from the diagonal on
+  void add_to(Eigen::MatrixXd& M)
+  {
+    for(Index j = 0; j < M.cols(); ++j)
+      for(Index i = 0; i <= j; ++i) {
+        M(i, j) += entry(i, j);
+        M(j, i) = M(i, j);
       }
-    }
   }
 
 private:
-  static constexpr Index block = 128, size = block * panel_width, square = panel_width * panel_width;
-
-  static void pack(const Rows& A, Index first, Index rows, Rows& P)
+  double& entry(Index i, Index j)
   {
-    for(Index p = 0; p * panel_width < A.cols(); ++p) {
-      const Index begin = p * panel_width, width = (std::min)(Index(panel_width), A.cols() - begin);
-      P.block(p * block, 0, rows, width) = A.block(first, begin, rows, width);
-      P.block(p * block, width, rows, panel_width - width).setZero();
-    }
+    return block(i / panel_width, j / panel_width)[i % panel_width * panel_width + j % panel_width];
   }
+
+  Index m_panels;
+  Aligned_buffer m_storage;
 };
+
+// y_p = the inner product of row i of A and row column[p] of G, for each entry p of rows begin .. end of a sparse matrix; A has
+// these rows only. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
+template <class Row>
+CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* column, const double* A,
+                                               std::ptrdiff_t A_panel, const double* G,
+                                               std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
+                                               std::ptrdiff_t begin, std::ptrdiff_t end)
+{
+  for(std::ptrdiff_t i = begin; i < end; ++i, A += panel_width)
+    for(int p = start[i]; p < start[i + 1]; ++p) {
+      const double *a = A, *g = G + std::ptrdiff_t(column[p]) * panel_width;
+      Row sum, r, s;
+      clear(sum);
+      for(std::ptrdiff_t q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
+        load(r, a);
+        load(s, g);
+        add_product(sum, r, s);
+      }
+      double parts[panel_width];
+      store(parts, sum);
+      y[p] =
+          ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+    }
+}
+
+inline void sampled_product(const int* start, const int* column, const double* A, std::ptrdiff_t A_panel,
+                            const double* G, std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
+                            std::ptrdiff_t begin, std::ptrdiff_t end)
+{
+  on_vector_units(
+      [&] {
+        sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y, begin, end);
+      },
+      [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, begin, end); });
+}
 
 } // namespace internal
 } // namespace Spectral_geometry

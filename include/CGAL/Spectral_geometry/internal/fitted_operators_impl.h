@@ -10,6 +10,7 @@
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
 #include <CGAL/Spectral_geometry/internal/Rank_one_terms.h>
 #include <CGAL/Spectral_geometry/internal/Tall_products.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <CGAL/number_type_config.h>
@@ -40,13 +41,15 @@ class Operator_fit
   using Rows = Rank_one_terms::Rows;
 
 public:
-  Operator_fit(const Laplace_operator& own, Rows G, Vector lambda, const Operator_fit_options& options)
+  Operator_fit(const Laplace_operator& own, const Matrix& G, Vector lambda,
+               const Operator_fit_options& options)
     : m_options(options)
-    , m_G(std::move(G))
+    , m_G(G)
     , m_lambda(std::move(lambda))
     , m_area(own.mass.sum())
-    , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / m_G.rows()))
+    , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
     , m_weight((m_lambda.array() + 4 * CGAL_PI).pow(-options.low_modes))
+    , m_pool(options.threads)
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
     m_weight *= mean > 0. ? 1. / mean : 0.;
@@ -62,10 +65,10 @@ public:
       m_typical(a) = range[2];
     }
     m_total = Vector::Zero(n);
-    m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(m_G.rows())).cwiseAbs2();
+    m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(G.rows())).cwiseAbs2();
     find_components(own);
-    m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / m_G.rows());
-    assemble_normal_matrix();
+    m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / G.rows());
+    assemble_normal_matrix(G);
   }
 
   Operator_fit_result run()
@@ -105,7 +108,7 @@ public:
     result.unknowns = n;
     result.op.L = m_stiffness.matrix(x.head(nL));
     result.op.B = m_area * m_mass.matrix(x.tail(n - nL));
-    result.op.mass = result.op.B * Vector::Ones(m_G.rows());
+    result.op.mass = result.op.B * Vector::Ones(m_row_mass.size());
     return result;
   }
 
@@ -113,7 +116,7 @@ private:
   // Which unknowns belong to which component of the mesh, and what is its share of the area.
   void find_components(const Laplace_operator& own)
   {
-    const Index N = m_G.rows(), nL = m_stiffness.size();
+    const Index N = m_row_mass.size(), nL = m_stiffness.size();
     const std::vector<Index> component = connected_components(N, [&](const auto& join) {
       for(Index j = 0; j < N; ++j)
         for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
@@ -160,7 +163,7 @@ private:
 
   void collect_terms(const Laplace_operator& own)
   {
-    const Index N = m_G.rows();
+    const Index N = m_row_mass.size();
     const bool diagonal = m_options.mass == Operator_fit_options::Mass_pattern::diagonal;
     std::vector<Edge> edges;
     std::vector<std::vector<std::pair<Index, Index>>> rings(N); // neighbour and edge, ascending
@@ -262,7 +265,7 @@ private:
 
   // The lower triangle of H = sum_v A_v^T A_v / D_v, where row v of R, times the root of W, is A_v^T x. It only preconditions: of
   // a vertex in whose row very many unknowns are, the diagonal is enough.
-  void assemble_normal_matrix()
+  void assemble_normal_matrix(const Rows& G)
   {
     const Index nL = m_stiffness.size();
     const Sparse_matrix DL = m_stiffness.vectors(), DB = m_mass.vectors();
@@ -270,18 +273,15 @@ private:
                              of_mass = -of_stiffness.cwiseProduct(m_lambda.transpose());
     std::vector<Eigen::Triplet<double>> lower;
     std::vector<Index> unknowns;
-    Eigen::RowVectorXd y(m_G.cols());
-    for(Index v = 0; v < m_G.rows(); ++v) {
-      Rows A(DL.col(v).nonZeros() + DB.col(v).nonZeros(), m_G.cols());
+    for(Index v = 0; v < G.rows(); ++v) {
+      Rows A(DL.col(v).nonZeros() + DB.col(v).nonZeros(), G.cols());
       unknowns.clear();
       for(Sparse_matrix::InnerIterator d(DL, v); d; ++d) {
-        m_stiffness.row(d.row(), m_G, y);
-        A.row(unknowns.size()) = d.value() * y.cwiseProduct(of_stiffness);
+        A.row(unknowns.size()) = d.value() * m_stiffness.row(d.row(), G).cwiseProduct(of_stiffness);
         unknowns.push_back(d.row());
       }
       for(Sparse_matrix::InnerIterator d(DB, v); d; ++d) {
-        m_mass.row(d.row(), m_G, y);
-        A.row(unknowns.size()) = d.value() * y.cwiseProduct(of_mass);
+        A.row(unknowns.size()) = d.value() * m_mass.row(d.row(), G).cwiseProduct(of_mass);
         unknowns.push_back(nL + d.row());
       }
       if(A.rows() > largest_block) {
@@ -299,36 +299,108 @@ private:
     m_H.setFromTriplets(lower.begin(), lower.end());
   }
 
-  double objective(const Vector& x, Vector& g) const { return evaluate(x, true, g); }
+  double objective(const Vector& x, Vector& g) { return evaluate(x, true, g); }
 
-  // The objective and half its gradient; or, for a direction, Q x.
-  double evaluate(const Vector& x, bool affine, Vector& g) const
+  // The objective and half its gradient; or, for a direction, Q x. Two passes over the rows of G, by blocks that stay in the cache.
+  double evaluate(const Vector& x, bool affine, Vector& g)
   {
-    const Index nL = m_stiffness.size(), nB = m_mass.size();
-    const Rows BG = m_mass.times(x.tail(nB), m_G);
-    Rows R = m_stiffness.times(x.head(nL), m_G);
-    Matrix T = Tall_products::symmetric(m_G, BG);
-    const Matrix X = T * m_lambda.asDiagonal() - Tall_products::symmetric(m_G, R);
-    R = BG * m_lambda.asDiagonal() - R;
+    const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(), panels = m_G.panels();
+    const Sparse_matrix L = m_stiffness.matrix(x.head(nL)), B = m_mass.matrix(x.tail(nB));
+    Tall_matrix R(m_row_mass.size(), K);
+    struct Sums
+    {
+      Panel_blocks GBG, GLG;
+      double f;
+    };
+    std::vector<Sums> sums(number_of_ranges(), {Panel_blocks(panels), Panel_blocks(panels), 0.});
+    for_each_block([&](Index range, Index first, Index rows, Tall_matrix& BG, Tall_matrix& LG) {
+      Sums& sum = sums[range];
+      for(Index q = 0; q < panels; ++q) {
+        for(const auto& product : {std::make_pair(&B, &BG), std::make_pair(&L, &LG)})
+          multiply(product.first->outerIndexPtr() + first, product.first->innerIndexPtr(),
+                   product.first->valuePtr(), m_G.row(q, 0), product.second->row(q, 0), 0, rows);
+        for(Index p = 0; p <= q; ++p) {
+          gram(m_G.row(p, first), BG.row(q, 0), rows, sum.GBG.block(p, q));
+          gram(m_G.row(p, first), LG.row(q, 0), rows, sum.GLG.block(p, q));
+        }
+        auto E = R.rows(q, first, rows);
+        E = BG.rows(q, 0, rows).rowwise() * of_panel(m_lambda, q) - LG.rows(q, 0, rows);
+        const Panel_numbers W = of_panel(m_weight, q);
+        const auto row_weight = m_options.plain / m_row_mass.segment(first, rows).array();
+        if(affine)
+          sum.f += ((E.square().rowwise() * W).rowwise().sum() * row_weight).sum();
+        E = ((E.rowwise() * W).colwise() * row_weight).eval();
+      }
+    });
+    Matrix T = Matrix::Zero(K, K), S = T;
+    double f = 0.;
+    for(Sums& sum : sums) {
+      sum.GBG.add_to(T);
+      sum.GLG.add_to(S);
+      f += sum.f;
+    }
+    const Matrix X = T * m_lambda.asDiagonal() - S;
     if(affine)
       T.diagonal().array() -= 1.;
     const Vector total = (affine ? Vector(totals(x) - m_share) : totals(x)).cwiseQuotient(m_share);
     const Vector change = affine ? Vector(x - m_start) : x;
-    const Vector row_weight = m_options.plain * m_row_mass.cwiseInverse();
-    const double f = affine
-                         ? (row_weight.transpose() * R.cwiseAbs2() * m_weight).value() +
-                               (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
-                               penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_tie)
-                         : 0.;
-    R = (row_weight.asDiagonal() * R * m_weight.asDiagonal()).eval();
-    Tall_products::add(R, m_G, X * m_weight.asDiagonal());
+    if(affine)
+      f += (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
+           penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_tie);
+    const Panel_blocks of_L(-X * m_weight.asDiagonal()), of_B(-m_options.orthonormality * T);
+    Vector by_L(L.nonZeros()), by_B(B.nonZeros());
+    for_each_block([&](Index, Index first, Index rows, Tall_matrix& A, Tall_matrix&) {
+      const auto add_product_of_G = [&](const Panel_blocks& minus_M, Index q) {
+        for(Index p = 0; p < panels; ++p)
+          subtract_product(A.row(q, 0), m_G.row(p, first), rows, minus_M.block(p, q));
+      };
+      const auto sample = [&](const Sparse_matrix& pattern, Vector& result) {
+        sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0), A.panel_size(),
+                        m_G.row(0, 0), m_G.panel_size(), panels, result.data(), 0, rows);
+      };
+      for(Index q = 0; q < panels; ++q) {
+        A.rows(q, 0, rows) = R.rows(q, first, rows);
+        add_product_of_G(of_L, q);
+      }
+      sample(L, by_L);
+      for(Index q = 0; q < panels; ++q) {
+        A.rows(q, 0, rows).rowwise() *= of_panel(m_lambda, q);
+        add_product_of_G(of_B, q);
+      }
+      sample(B, by_B);
+    });
     g.resize(x.size());
-    g.head(nL) = -m_stiffness.derivatives(R, m_G);
-    R = R * m_lambda.asDiagonal();
-    Tall_products::add(R, m_G, m_options.orthonormality * T);
-    g.tail(nB) = m_mass.derivatives(R, m_G);
+    g.head(nL) = -m_stiffness.derivatives(by_L);
+    g.tail(nB) = m_mass.derivatives(by_B);
     g += penalty * m_total.cwiseProduct(spread(total)) + m_tie.cwiseProduct(change);
     return f;
+  }
+
+  using Panel_numbers = Eigen::Array<double, 1, panel_width>;
+
+  // The numbers of the signals of panel q.
+  static Panel_numbers of_panel(const Vector& v, Index q)
+  {
+    const Index begin = q * panel_width, width = (std::min)(Index(panel_width), v.size() - begin);
+    Panel_numbers result = Panel_numbers::Zero();
+    result.head(width) = v.segment(begin, width).transpose().array();
+    return result;
+  }
+
+  // Ranges of rows whose sums are formed apart, however many threads there are.
+  Index number_of_ranges() const { return (std::min)(Index(8), 1 + m_row_mass.size() / 512); }
+
+  // Calls f(range, first row, number of rows, scratch, scratch) for blocks of rows, those of a range in order.
+  template <class Function>
+  void for_each_block(const Function& f)
+  {
+    const Index N = m_row_mass.size(), ranges = number_of_ranges();
+    m_pool.for_each(std::size_t(ranges), 1, [&](std::size_t r, Nothing&) {
+      const Index range = static_cast<Index>(r), end = N * (range + 1) / ranges;
+      Tall_matrix first_scratch(rows_of_block, m_lambda.size()), second_scratch = first_scratch;
+      for(Index first = N * range / ranges; first < end; first += rows_of_block)
+        f(range, first, (std::min)(rows_of_block, end - first), first_scratch, second_scratch);
+    });
   }
 
   // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta + 1/10) H + tie + barrier +
@@ -379,9 +451,10 @@ private:
   // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left out, a block of more unknowns
   // of the preconditioner is diagonal.
   static constexpr Index largest_star = 64, largest_block = 256;
+  static constexpr Index rows_of_block = 128;
   static constexpr double penalty = 1e4; // of the totals of the mass; the other terms are about 1 or less
   const Operator_fit_options& m_options;
-  const Rows m_G;
+  Tall_matrix m_G;
   const Vector m_lambda;
   const double m_area;
   const Vector m_row_mass;
@@ -393,6 +466,9 @@ private:
   Vector m_solved_total;                // its solution for m_total
   Vector m_rank_one;
   int m_steps = 1000; // of conjugate gradients, the last time
+  struct Nothing
+  {};
+  Thread_pool<Nothing> m_pool;
 };
 
 inline void require_of_operator_fit(bool condition, const std::string& sentence)
@@ -413,6 +489,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit
           "smallest_weight and smallest_mass must lie in ]0, 1].");
   require(o.tolerance > 0. && o.tolerance < 1., "tolerance must lie between 0 and 1.");
   require(o.maximum_iterations >= 0, "maximum_iterations must not be negative.");
+  require(o.threads >= 1, "threads must be at least 1.");
 }
 
 inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,

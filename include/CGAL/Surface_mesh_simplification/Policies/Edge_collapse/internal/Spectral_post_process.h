@@ -113,6 +113,7 @@ private:
         pairs = std::make_shared<Eigenpairs>(eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
       }
       Operator_fit_options options = m_options.operator_fit;
+      options.threads = (std::max)(options.threads, m_options.threads);
       options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
       const Mesh_matrices coarse = mesh_matrices(mesh, np);
       result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, theta), P, fine, *pairs, options);
