@@ -117,13 +117,16 @@ inline cholmod_sparse cholmod_view(const Sparse_matrix& lower)
 class Cholmod_factor
 {
 public:
-  Cholmod_factor(const Sparse_matrix& A, bool positive_definite)
+  // With `many` factorisations to come, two orderings are tried for a large matrix.
+  Cholmod_factor(const Sparse_matrix& A, bool positive_definite, bool many = false)
   {
     const Sparse_matrix lower = A.triangularView<Eigen::Lower>();
     cholmod_sparse view = cholmod_view(lower);
     cholmod_common* c = m_context.common();
     c->supernodal = positive_definite ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL;
     c->final_ll = positive_definite;
+    if(many && A.rows() > 30000)
+      c->nmethods = 3; // given (there is none), minimum degree and nested dissection: that of fewer entries
     m_factor = cholmod_analyze(&view, c);
     factorise(view);
   }
@@ -177,10 +180,11 @@ private:
 class Cholesky
 {
 public:
-  explicit Cholesky(const Sparse_matrix& A)
+  // `many`: others are to be factorised in the same places, so that CHOLMOD may look longer for an ordering.
+  explicit Cholesky(const Sparse_matrix& A, [[maybe_unused]] bool many = false)
     : m_n(A.rows())
 #ifdef CGAL_SPECTRAL_WITH_CHOLMOD
-    , m_factor(A, true)
+    , m_factor(A, true, many)
 #endif
   {
 #ifndef CGAL_SPECTRAL_WITH_CHOLMOD

@@ -414,7 +414,7 @@ private:
       if(m_cholesky)
         m_cholesky->refactorise(M);
       else
-        m_cholesky = std::make_unique<Cholesky>(M);
+        m_cholesky = std::make_unique<Cholesky>(M, true);
       m_solved_total.resize(r.size());
       m_cholesky->solve(m_total, m_solved_total);
       // one term for each component, and none in common
