@@ -452,8 +452,10 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   options.orthonormality = -1.;
   refused("orthonormality", options);
   options = {};
-  options.low_modes = nan;
-  refused("low_modes", options);
+  for(const double e : {nan, -1., 21.}) {
+    options.low_modes = e;
+    refused("low_modes", options);
+  }
   options = {};
   options.smallest_mass = nan;
   refused("smallest_mass", options);

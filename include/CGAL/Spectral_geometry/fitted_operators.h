@@ -35,7 +35,7 @@ struct Operator_fit_options
   int rings = 1;
   /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More is for distances and signatures, which
   /// live on the lowest modes, less for the functional map: with 1 in place of 2.5 \f$ \|C\|_L \f$ is 0.85 times as large, and
-  /// errors of biharmonic distances are 1.8 times as large. From 0.
+  /// errors of biharmonic distances are 1.8 times as large. From 0 to 20.
   double low_modes = 2.5;
   /// mu: weight of the orthonormality of the restricted eigenvectors beside commutativity. More lowers \f$ \|C\|_D \f$ and
   /// raises \f$ \|C\|_L \f$ and the errors of the eigenvalues; from 0.

@@ -52,7 +52,7 @@ public:
     , m_pool(options.threads)
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
-    m_weight *= mean > 0. ? 1. / mean : 0.;
+    m_weight *= mean > 0. ? 1. / mean : 0.; // 0 where all eigenvalues are
     collect_terms(own);
     const Index nL = m_stiffness.size(), n = nL + m_mass.size();
     m_start.resize(n);
@@ -483,7 +483,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit
   require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
   require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
           "orthonormality and plain must be numbers from 0.");
-  require(o.low_modes >= 0. && std::isfinite(o.low_modes), "low_modes must be a number from 0.");
+  require(o.low_modes >= 0. && o.low_modes <= 20., "low_modes must be a number from 0 to 20.");
   require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
   require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
           "smallest_weight and smallest_mass must lie in ]0, 1].");
