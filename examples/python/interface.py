@@ -195,7 +195,7 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
 def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
           mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
           operators: str = 'fitted', initial: int = 20,
-          filter_iterations: int = 5, fine_iterations: int = 60, local_weight: float = 4, threads: int | None = None,
+          filter_iterations: int = 5, fine_iterations: int = 18, local_weight: float = 4, threads: int | None = None,
           progress: Progress | None = None) -> 'Match':
     """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
     simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter.
@@ -212,7 +212,7 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
     filter_iterations
                of the Product Manifold Filter; 0: none
     fine_iterations
-               at most, from vertices of the fine meshes to the functional map and back
+               of bending X onto Y in space, at the end; 0: none
     local_weight
                of curvature in these, from 0 to 100
     threads    all cores by default; the result does not depend on it

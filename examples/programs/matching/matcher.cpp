@@ -5,7 +5,7 @@
 #include "matcher.h"
 
 #include "linear_assignment.h"
-#include "local_shape.h"
+#include "registration.h"
 #include "starts.h"
 
 #include <CGAL/Real_timer.h>
@@ -86,8 +86,12 @@ Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const 
 void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options,
             const Keep_going& keep_going)
 {
-  match.map = Local_refinement(X, Y, options.local_weight, options.threads)
+  match.map = Registration(X, Y, options.local_weight, options.threads)
                   .refine(match.C, options.fine_iterations, keep_going);
+  if(options.fine_iterations > 0)
+    match.C = SG::functional_map_of_vertex_map(Y.spectral.pairs.vectors.leftCols(match.C.cols()),
+                                               X.spectral.pairs.vectors.leftCols(match.C.rows()),
+                                               X.spectral.op.B, match.map);
 }
 
 } // namespace

@@ -19,8 +19,8 @@ struct Matching_options
   Eigen::Index modes = 100;        // of the maps after up-sampling
   Eigen::Index zoom_step = 4;
   int filter_iterations = 5; // of the Product Manifold Filter; 0: none
-  int fine_iterations = 60;  // from vertices of the fine meshes to the functional map and back, at most
-  double local_weight = 4;   // of a band of curvature there, at most; 0: modes alone
+  int fine_iterations = 18;  // of the registration in space; 0: none
+  double local_weight = 4;   // of a band of curvature there, at most; 0: positions alone
   int threads = 1;
   CGAL::Spectral_geometry::Functional_map_weights weights;
 };

@@ -26,7 +26,7 @@ struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
   std::string proxies = "spectral", mass = "averaged", operators = "fitted";
-  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 60;
+  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
   long samples = 300;
   double local_weight = 4;
   int threads = all_threads();
@@ -91,10 +91,9 @@ inline boost::program_options::options_description described(Matching_arguments&
   add("filter-iterations", number(a.filter_iterations, "I"),
       "of the Product Manifold Filter; 0 leaves it out");
   add("fine-iterations", number(a.fine_iterations, "I"),
-      "from vertices of the fine meshes to the functional map and back, at the end, until nothing moves or "
-      "this many");
+      "of bending X onto Y in space, at the end; 0 leaves it out");
   add("local-weight", po::value(&a.local_weight)->value_name("w")->default_value(a.local_weight),
-      "of curvature in these, at most; 0: the modes alone");
+      "of curvature in these, at most; 0: positions alone");
   add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
   add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
       "all cores by default; the result does not depend on it");
