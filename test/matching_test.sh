@@ -40,15 +40,21 @@ for proxy in spectral garland_heckbert none; do
   # The last columns: mean error and part below 0.05 with its sign.
   error=$(awk -v proxy=$proxy '$1 == proxy { print $(NF - 2) }' said)
   [ -n "$error" ] || fail "there is no error for $proxy in: $(cat said)"
-  awk -v e="$error" 'BEGIN { exit !(e > 0 && e < 0.05) }' || fail "the mean error over $proxy is $error"
+  awk -v e="$error" 'BEGIN { exit !(e ~ /^[0-9]/ && e < 0.005) }' || fail "the mean error over $proxy is $error"
 done
 
-# Curvature finds what the modes cannot tell: without it the errors are larger.
+# Curvature finds what positions cannot tell: without it the errors are larger.
 with=$(awk '$1 == "none" { print $(NF - 2) }' said)
 "$program" X.off Y.off --vertices 300 --eigenvectors 50 --proxy none --local-weight 0 --ground-truth truth.txt \
-  --output map.txt >said 2>complained || fail "modes alone: $(cat complained)"
+  --output map.txt >said 2>complained || fail "positions alone: $(cat complained)"
 without=$(awk '$1 == "none" { print $(NF - 2) }' said)
 awk -v a="$with" -v b="$without" 'BEGIN { exit !(a < b) }' || fail "mean error $with with curvature, $without without"
+
+# Body and limbs stretched and compressed by up to a third: a map by the modes is off by 0.011 in the mean, as they spread what is local.
+awk 'NF == 3 && NR > 2 { $1 += 0.1 * sin(3 * $1); $3 += 0.05 * sin(4 * $3) } { print }' Y.off >stretched.off
+"$program" X.off stretched.off --vertices 300 --eigenvectors 50 --ground-truth truth.txt --output map.txt >said 2>complained ||
+  fail "a stretched shape: $(cat complained)"
+awk '$1 == "spectral" { exit !($(NF - 2) < 0.005) } END { if(!NR) exit 1 }' said || fail "a stretched shape: $(cat said)"
 
 # The proxies of both kinds of operators match, by other maps.
 for operators in fitted mesh; do
