@@ -168,6 +168,10 @@ n=$(sed -n 2p shape.off | cut -d ' ' -f 1)
 runs "pre-simplification" shape.off first.off --vertices 200 --eigenvectors 20 --pre-simplify 1000 --restriction first.mtx
 grep -q "^200 $n " first.mtx || fail "P of a pre-simplified run is not 200 x $n"
 grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)"
+"$program" shape.off fast.off --vertices 100 --eigenvectors 20 --preset fast --pre-simplify 500 --no-evaluation --quiet --json fast.json &&
+  "$program" shape.off best.off --vertices 100 --eigenvectors 20 --pre-simplify 500 --no-evaluation --quiet && cmp -s fast.off best.off ||
+  fail "--preset fast --pre-simplify 500 is not best with --pre-simplify 500"
+grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
 refuses "pre-simplification below N" "--pre-simplify is 150" shape.off out.off --vertices 200 --eigenvectors 20 --pre-simplify 150
 refuses "pre-simplification below zero" "--pre-simplify is -1" shape.off out.off --vertices 200 --pre-simplify -1
 

@@ -7,13 +7,15 @@
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 // The words in which the command line and Python speak of options; who reads them has checked that they are among these.
 struct Option_words
 {
-  std::string preset; // best, paper
+  std::string preset;       // best, fast, paper
+  std::size_t vertices = 0; // the target, for fast
   // Empty: as the preset has it.
   std::string placement;          // on_edge, midpoint, free
   std::string mass;               // lumped, averaged
@@ -30,7 +32,9 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
   namespace SG = CGAL::Spectral_geometry;
   using Options = SMS::Spectral_edge_collapse_options;
   using Signals = SG::Relocation_options::Signals;
-  Options options = words.preset == "paper" ? Options::paper() : Options::best();
+  Options options = words.preset == "paper"  ? Options::paper()
+                    : words.preset == "fast" ? Options::fast(words.vertices)
+                                             : Options::best();
   if(!words.placement.empty())
     options.placement = words.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
                         : words.placement == "free"   ? SMS::Spectral_placement_strategy::free

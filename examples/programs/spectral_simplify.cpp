@@ -131,17 +131,19 @@ struct Both_meshes
   SG::Eigenpairs coarse_pairs;
 };
 
-SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const Vertex_numbering& numbering,
+SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std::size_t target,
+                                                   const Vertex_numbering& numbering,
                                                    const std::optional<Texture_seams>& seams,
                                                    Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options =
-      options_of({a.preset, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.flips});
+      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.flips});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
   options.threads = a.threads;
-  options.pre_simplify = static_cast<std::size_t>(a.pre_simplify);
+  if(a.pre_simplify)
+    options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
     bar.show(phase_name(progress.phase), progress.fraction);
     return true;
@@ -181,7 +183,8 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
                              " eigenvectors takes about " + formatted_memory(needed) +
                              " of memory, but this machine has " + formatted_memory(available) +
                              " left: add --pre-simplify 100000, or lower --eigenvectors.");
-  const bool pairs_are_known = options.signals.size() == 0 && options.pre_simplify == 0;
+  const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
+  const bool pairs_are_known = options.signals.size() == 0 && !reduced;
   const double judging =
       a.no_evaluation ? 0. : SMS::estimated_evaluation_memory(n, target, K, {}, pairs_are_known);
   if(available > 0 && judging > available && !a.quiet)
@@ -506,7 +509,7 @@ int run(Arguments a)
   report.seconds_reading = timer.time();
   const std::size_t target =
       checked_target(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
-  const SMS::Spectral_edge_collapse_options options = options_of_run(a, input.numbering, seams, bar);
+  const SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
   Output_files files({a.input, a.keep, a.signals});
   announce(files, a);
   check_memory(a, input.mesh, target, options);

@@ -32,7 +32,7 @@ struct Arguments
   std::optional<double> max_error;
   std::vector<std::size_t> levels; // descending
   long eigenvectors = 100;
-  long pre_simplify = 0; // never
+  std::optional<long> pre_simplify; // as the preset has it; 0: never
   std::string preset = "best", flips = "none";
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
@@ -99,11 +99,12 @@ inline boost::program_options::options_description described(Arguments& a)
       "INPUT");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep, the constant one included; N should be at least 3 K");
-  add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
-      "first reduce a larger INPUT to this number by quadrics alone; 100000 for large meshes");
-  add("preset", text(a.preset, "best|paper")->default_value(a.preset),
-      "best: what keeps the spectrum best; paper: what the paper describes. Each of the next five overrides "
-      "it");
+  add("pre-simplify", po::value<long>()->value_name("N0"),
+      "first reduce a larger INPUT to this number by quadrics alone; 0: never");
+  add("preset", text(a.preset, "best|fast|paper")->default_value(a.preset),
+      "best: what keeps the spectrum best; fast: the same with --pre-simplify at 30 N, at least 10000; "
+      "paper: what the "
+      "paper describes. Each of the next five, and --pre-simplify, overrides it");
   add("mass", text(a.mass, "lumped|averaged"),
       "the mass matrix of the eigenproblem: lumped (paper), or the mean of lumped and consistent (best), "
       "which keeps the eigenvalues of coarse meshes much closer");
@@ -230,9 +231,9 @@ inline void check(const Arguments& a)
     refuse("--max-error is " + shown(*a.max_error) + ", it must be greater than 0.");
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
-  if(a.pre_simplify < 0)
-    refuse("--pre-simplify is " + std::to_string(a.pre_simplify) + ", it must not be negative.");
-  check_choice("--preset", a.preset, {"best", "paper"});
+  if(a.pre_simplify && *a.pre_simplify < 0)
+    refuse("--pre-simplify is " + std::to_string(*a.pre_simplify) + ", it must not be negative.");
+  check_choice("--preset", a.preset, {"best", "fast", "paper"});
   check_choice("--placement", a.placement, {"on_edge", "midpoint", "free"});
   check_choice("--mass", a.mass, {"lumped", "averaged"});
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
@@ -242,7 +243,7 @@ inline void check(const Arguments& a)
   check_choice("--flips", a.flips, {"none", "spectral", "delaunay"});
   if(a.shape && !(*a.shape >= 0 && std::isfinite(*a.shape)))
     refuse("--shape is " + shown(*a.shape) + ", it must be a number from 0.");
-  if(a.binary && (a.relocate == "sampled" || (a.relocate.empty() && a.preset == "best")))
+  if(a.binary && (a.relocate == "sampled" || (a.relocate.empty() && a.preset != "paper")))
     refuse("--binary asks for a restriction of ones and zeros, and relocation by the closest points makes "
            "another one: add --relocate none or --relocate carried.");
   if(a.threads < 1)
@@ -294,6 +295,7 @@ inline Arguments parse_arguments(int argc, char* argv[])
     return a;
   a.vertices = arguments_internal::optional_value<long>(values, "vertices");
   a.ratio = arguments_internal::optional_value<double>(values, "ratio");
+  a.pre_simplify = arguments_internal::optional_value<long>(values, "pre-simplify");
   a.shape = arguments_internal::optional_value<double>(values, "shape");
   a.max_error = arguments_internal::optional_value<double>(values, "max-error");
   a.fit_rings = arguments_internal::optional_value<int>(values, "fit-rings");
@@ -336,11 +338,10 @@ inline std::size_t checked_target(const Arguments& a, const std::size_t n, const
                              std::to_string(a.eigenvectors) +
                              " eigenvectors could be judged: ask for fewer with --eigenvectors, or add "
                              "--no-evaluation to simplify all the same.");
-  if(a.pre_simplify > 0 && (a.pre_simplify < target || a.pre_simplify <= a.eigenvectors))
-    throw std::runtime_error("--pre-simplify is " + std::to_string(a.pre_simplify) +
-                             ", it must not be below the " + std::to_string(target) +
-                             " vertices of OUTPUT, and above the " + std::to_string(a.eigenvectors) +
-                             " eigenvectors.");
+  if(const long first = a.pre_simplify.value_or(0); first > 0 && (first < target || first <= a.eigenvectors))
+    throw std::runtime_error("--pre-simplify is " + std::to_string(first) + ", it must not be below the " +
+                             std::to_string(target) + " vertices of OUTPUT, and above the " +
+                             std::to_string(a.eigenvectors) + " eigenvectors.");
   return static_cast<std::size_t>(target);
 }
 

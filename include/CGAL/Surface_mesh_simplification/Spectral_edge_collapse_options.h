@@ -13,6 +13,7 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -34,6 +35,16 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// the run, and with the P that it brings |C|_L is less than half; that P no longer follows the vertex map, and levels that are
   /// replayed from the log end before it.
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
+
+  /// `best()` with `pre_simplify` at 30 times the target, and at least at 10,000 vertices. The larger the mesh the more time that saves:
+  /// half of it at 80 times the target, four fifths at 220 times. The norms are on the average those of best(), but
+  /// `Spectral_edge_collapse_result::eigenpairs` are those of the reduced mesh, and signals or eigenpairs cannot be given.
+  static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
+  {
+    Spectral_edge_collapse_options options;
+    options.pre_simplify = (std::max)(30 * number_of_vertices, std::size_t(10000));
+    return options;
+  }
 
   /// `Spectral_options::paper()`, and nothing after the collapses.
   static Spectral_edge_collapse_options paper()
