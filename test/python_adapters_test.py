@@ -133,8 +133,16 @@ class Adapters(unittest.TestCase):
         from pyFM.mesh import TriMesh
         import pyfm_mesh
         fine = TriMesh(V, F)
-        coarse, _ = pyfm_mesh.simplified(fine, 150, 3, signals=V)
+        coarse, _ = pyfm_mesh.simplified(fine, 150, signals=V)
         self.assertEqual((fine.eigenvectors.shape, coarse.eigenvectors.shape), ((642, 3), (150, 3)))
+
+    def test_geomfum_with_signals(self):
+        import geomfum_hierarchy  # registers
+        from geomfum.shape.hierarchical import HierarchicalMesh
+        from geomfum.shape.mesh import TriangleMesh
+        both = HierarchicalMesh.from_registry(TriangleMesh(V, F), which="spectral_simplification", min_n_samples=150,
+                                              signals=V)
+        self.assertEqual(both.low.basis.full_vecs.shape, (150, 3))
 
     def test_geomfum(self):
         import geomfum_hierarchy

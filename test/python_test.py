@@ -244,6 +244,14 @@ class Results(Shapes):
         self.close(e.C_D, np.linalg.norm(e.C.T @ e.C - np.eye(50)))
         self.close(e.eigenvalue_error, np.mean(abs(e.coarse_values[1:50] / e.values[1:] - 1)))
 
+    def test_signals_say_how_many_they_are(self):
+        V, F = sheet(8)
+        for k in None, 3:
+            run = ss.simplify(V, F, 30, k, signals=V)
+            self.assertEqual((len(run.V), run.report["eigenvectors"], run.report["signals"]), (30, 3, 3))
+        with self.assertRaisesRegex(ValueError, "k is 100, it must be an integer from 1 to 63"):
+            ss.simplify(V, F, 30)
+
     def test_levels_and_collapses(self):
         run = self.run_
         self.assertEqual(len(run.collapses), len(self.V) - 200)
@@ -490,7 +498,9 @@ class Wrong_input(Shapes):
                 (ValueError, r"keep has the shape \(1, 2\), it must be \(n,\)", dict(keep=[[1, 2]])),
                 (ValueError, "signals has 9 rows, but V has 2562 vertices", dict(signals=V[:9])),
                 (ValueError, r"signals\[9, 1\] is not a finite number", dict(signals=signals)),
-                (ValueError, "signals has 3 columns, which replace the k = 50", dict(signals=V, k=50)),
+                (ValueError, "k is 50, but signals, which replace the eigenvectors, has 3 columns", dict(signals=V, k=50)),
+                (ValueError, "k is 100, but signals.* has 1 column: leave out k", dict(signals=V[:, :1], k=100)),
+                (ValueError, "signals has no columns", dict(signals=V[:, :0])),
                 (ValueError, "only one can be given", dict(signals=V, eigenpairs=pairs)),
                 (ValueError, "eigenpairs are 20, but k is 50: pass k=20", dict(eigenpairs=pairs, k=50)),
                 (ValueError, "eigenpairs are of the averaged mass, but this run is of the lumped one",

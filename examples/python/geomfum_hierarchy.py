@@ -29,10 +29,10 @@ class SpectralHierarchicalMesh(HierarchicalShape):
     """The mesh and its simplification to min_n_samples vertices, which keeps spectrum_size eigenpairs; `run` is what simplify()
     returned. Options as of spectral_simplification.simplify()."""
 
-    def __init__(self, mesh, min_n_samples, spectrum_size=100, **options):
+    def __init__(self, mesh, min_n_samples, spectrum_size=None, **options):
         V, F = gs.to_numpy(mesh.vertices), gs.to_numpy(mesh.faces)
         self.run = run = ss.simplify(V, F, min_n_samples, spectrum_size, **options)
-        pairs = ss.eigenpairs(run.V, run.F, spectrum_size, run.report["mass"])
+        pairs = ss.eigenpairs(run.V, run.F, run.report["eigenvectors"], run.report["mass"])
         low = TriangleMesh(gs.array(run.V), gs.array(run.F))
         low.laplacian = Laplacian(low, *(xgs.sparse.from_scipy_csc(m.tocsc()) for m in (pairs.L, pairs.M)))
         low.set_basis(LaplaceEigenBasis(low, gs.array(pairs.values), gs.array(pairs.vectors)))

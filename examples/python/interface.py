@@ -55,7 +55,7 @@ Level.interpolate, Level.transfer_labels = interpolate, transfer_labels
 del interpolate, transfer_labels
 
 
-def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: str = 'best', *,
+def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, preset: str = 'best', *,
              mass: str | None = None, placement: str | None = None, shape: float | None = None,
              self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
@@ -68,7 +68,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
     F          (f, 3) integers, the corners of the triangles, counted from 0: an oriented manifold, with or
                without border, in which each vertex has a face
     n          how many vertices are left; 3 k or more, a warning says so
-    k          how many eigenvectors are kept, the constant one included; below v
+    k          how many eigenvectors are kept, the constant one included; below v. 100, or as many as signals has
+               columns
     preset     'best': what keeps the spectrum best; 'paper': what the paper describes (Lescoat et al.,
                Spectral Mesh Simplification, 2020). Each of the next five overrides it
     mass       'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
@@ -84,7 +85,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
     binary     P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
     preserve_border
                no edge is drawn away from the border
-    signals    (v, s) real numbers, functions to keep instead of eigenvectors; leave out k then
+    signals    (v, s) real numbers, functions to keep instead of eigenvectors
     eigenpairs what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
     pre_simplify
                first reduce a larger mesh to this number of vertices with plane quadrics; 0: do not
@@ -100,6 +101,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int = 100, preset: s
 
     Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first thing that is
     wrong. What is done but not advised is a UserWarning, and so is a run that ends above n."""
+    if k is None and signals is None:
+        k = 100
     return _simplify(locals())
 
 

@@ -25,12 +25,12 @@ def trimesh(V, F, pairs):
     return mesh
 
 
-def simplified(mesh, n, k=100, **options):
+def simplified(mesh, n, k=None, **options):
     """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P carries functions of `mesh` to it,
     run.Q back, run.vertex_map says which vertex became which. `mesh` gets W, A and the k eigenpairs of the run as well. Options as
     of spectral_simplification.simplify()."""
     run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
-    mass = run.report["mass"]
+    k, mass = run.report["eigenvectors"], run.report["mass"]
     pairs = run.eigenpairs or ss.eigenpairs(mesh.vertlist, mesh.facelist, k, mass)
     mesh.W, mesh.A = pairs.L.tocsc(), pairs.M.tocsc()
     mesh.eigenvalues, mesh.eigenvectors = pairs.values[:k].copy(), pairs.vectors[:, :k].copy()

@@ -302,21 +302,26 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a)
 void set_signals(const Arguments& a, const Index n, const Index target,
                  SMS::Spectral_edge_collapse_options& options)
 {
-  options.number_of_eigenvectors = a.integer("k", 1, n - 1, ", one less than V has vertices");
+  const bool own = a.has("signals");
+  if(own) {
+    options.signals = a.matrix("signals", n, "V");
+    const Index columns = options.signals.cols();
+    if(columns == 0)
+      refuse("signals has no columns: give one at least.");
+    if(a.has("k") && a.integer("k", 1) != columns)
+      refuse("k is " + shown(a["k"]) + ", but signals, which replace the eigenvectors, has " +
+             to_string(columns) + (columns == 1 ? " column" : " columns") + ": leave out k.");
+  }
+  options.number_of_eigenvectors =
+      own ? options.signals.cols() : a.integer("k", 1, n - 1, ", one less than V has vertices");
   const Index k = options.number_of_eigenvectors;
   options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
   const Index first = Index(options.pre_simplify);
   if(first > 0 && (first < target || first <= k))
     refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " + to_string(target) +
            ", and above k, which is " + to_string(k) + ".");
-  if(a.has("signals") + a.has("eigenpairs") + (first > 0) > 1)
+  if(own + a.has("eigenpairs") + (first > 0) > 1)
     refuse("of signals, eigenpairs and pre_simplify only one can be given.");
-  if(a.has("signals")) {
-    options.signals = a.matrix("signals", n, "V");
-    if(options.signals.cols() == 0 || (k != 100 && k != options.signals.cols()))
-      refuse("signals has " + to_string(options.signals.cols()) + " columns, which replace the k = " +
-             to_string(k) + " eigenvectors: leave out k and give one column at least.");
-  }
   if(!a.has("eigenpairs"))
     return;
   const Pairs& given = pairs_of(a, "eigenpairs");
@@ -410,8 +415,7 @@ Simplification simplify(const Arguments& a)
                                 (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
     return run;
   });
-  const auto k =
-      std::size_t(options.signals.size() != 0 ? options.signals.cols() : options.number_of_eigenvectors);
+  const auto k = std::size_t(options.number_of_eigenvectors);
   for(const std::string& warning : diagnosis.warnings(k, std::size_t(n)))
     run.result.warnings.push_back(warning);
   Simplification result(std::move(fine), std::move(run.coarse), run.result.restriction,
