@@ -503,7 +503,7 @@ class Wrong_input(Shapes):
                 (ValueError, "signals has no columns", dict(signals=V[:, :0])),
                 (ValueError, "only one can be given", dict(signals=V, eigenpairs=pairs)),
                 (ValueError, "eigenpairs are 20, but k is 50: pass k=20", dict(eigenpairs=pairs, k=50)),
-                (ValueError, "eigenpairs are of the averaged mass, but this run is of the lumped one",
+                (ValueError, "eigenpairs are of the averaged mass, but the lumped one is wanted: pass mass='averaged'",
                  dict(eigenpairs=pairs, k=20, mass="lumped")),
                 (TypeError, "eigenpairs is of the type ndarray, it must be Eigenpairs", dict(eigenpairs=V)),
                 (ValueError, "eigenpairs are of 200 vertices, but V has 2562",
@@ -532,6 +532,8 @@ class Wrong_input(Shapes):
         self.refused(ValueError, r"P\[0, \d+\] is not a finite number", ss.evaluate, V, F, run.V, run.F, bad)
         self.refused(ValueError, "eigenpairs are those of another mesh", ss.evaluate, V, F, run.V, run.F, P, 20,
                      eigenpairs=ss.eigenpairs(V * [1, 1, 2], F, 20))
+        self.refused(ValueError, "eigenpairs are of the averaged mass, but the lumped one is wanted", ss.evaluate, V, F,
+                     run.V, run.F, P, 20, "lumped", eigenpairs=pairs)
         self.refused(TypeError, "operators must be Fitted_operators", ss.evaluate, V, F, run.V, run.F, P, operators=pairs)
         self.refused(ValueError, "rings is 3, it must be an integer from 1 to 2", ss.fit_operators, run.V, run.F, P,
                      pairs, rings=3)

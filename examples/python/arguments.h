@@ -131,9 +131,9 @@ public:
     return word;
   }
 
-  SG::Mass mass(const char* name = "mass") const
+  SG::Mass mass() const
   {
-    return word(name, {"lumped", "averaged"}) == "lumped" ? SG::Mass::lumped : SG::Mass::averaged;
+    return word("mass", {"lumped", "averaged"}) == "lumped" ? SG::Mass::lumped : SG::Mass::averaged;
   }
 
   // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is 0 for one dimension, -1 for any

@@ -123,6 +123,20 @@ void check_rows(const Pairs& pairs, const char* name, const Index n, const char*
            to_string(n) + ": pass the eigenpairs of that mesh.");
 }
 
+// Eigenpairs of the mesh of n vertices in the mass, k at least.
+const Pairs& given_pairs(const Arguments& a, const Index n, const SG::Mass mass, const Index k)
+{
+  const Pairs& given = pairs_of(a, "eigenpairs");
+  check_rows(given, "eigenpairs", n, "V");
+  if(given.mass != SG::mass_name(mass))
+    refuse("eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) +
+           " one is wanted: pass mass='" + given.mass + "'.");
+  if(given.pairs->size() < k)
+    refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
+           ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
+  return given;
+}
+
 SG::Eigenpairs first_pairs(const SG::Eigenpairs& all, const Index k)
 {
   SG::Eigenpairs result;
@@ -184,28 +198,29 @@ struct Level
   }
 };
 
+std::vector<std::vector<std::size_t>> triangles_of(const SG::Mesh_matrices& matrices)
+{
+  std::vector<std::vector<std::size_t>> result;
+  for(Index f = 0; f < matrices.T.rows(); ++f)
+    result.push_back(
+        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
+  return result;
+}
+
 Mesh surface_mesh(const SG::Mesh_matrices& matrices)
 {
   std::vector<Kernel::Point_3> points;
-  std::vector<std::vector<std::size_t>> polygons;
   for(Index v = 0; v < matrices.V.rows(); ++v)
     points.emplace_back(matrices.V(v, 0), matrices.V(v, 1), matrices.V(v, 2));
-  for(Index f = 0; f < matrices.T.rows(); ++f)
-    polygons.push_back(
-        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
   Mesh mesh;
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, polygons, mesh);
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points, triangles_of(matrices), mesh);
   return mesh;
 }
 
 SG::Mesh_diagnosis checked(const SG::Mesh_matrices& matrices, const std::string& names)
 {
   const py::gil_scoped_release no_gil;
-  std::vector<std::vector<std::size_t>> polygons;
-  for(Index f = 0; f < matrices.T.rows(); ++f)
-    polygons.push_back(
-        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
-  SG::Mesh_diagnosis diagnosis = SG::diagnose_polygon_soup(matrices.V, polygons);
+  SG::Mesh_diagnosis diagnosis = SG::diagnose_polygon_soup(matrices.V, triangles_of(matrices));
   const std::vector<std::string> obstacles = diagnosis.obstacles();
   if(!obstacles.empty())
     refuse(names + " cannot be used as they are: " + obstacles.front() + ".");
@@ -225,7 +240,6 @@ struct Simplification : Level
   // One record for each collapse.
   py::array collapses() const
   {
-    py::list columns;
     const auto& merges = log.forest().merges();
     std::vector<Index> removed, kept;
     py::array_t<double> alpha(py::ssize_t(merges.size())),
@@ -324,14 +338,7 @@ void set_signals(const Arguments& a, const Index n, const Index target,
     refuse("of signals, eigenpairs and pre_simplify only one can be given.");
   if(!a.has("eigenpairs"))
     return;
-  const Pairs& given = pairs_of(a, "eigenpairs");
-  check_rows(given, "eigenpairs", n, "V");
-  if(given.mass != SG::mass_name(options.mass))
-    refuse("eigenpairs are of the " + given.mass + " mass, but this run is of the " +
-           SG::mass_name(options.mass) + " one: pass mass='" + given.mass + "'.");
-  if(given.pairs->size() < k)
-    refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
-           ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
+  const Pairs& given = given_pairs(a, n, options.mass, k);
   options.eigenpairs =
       given.pairs->size() == k ? given.pairs : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
 }
@@ -443,16 +450,8 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
   const SG::Mass mass = a.mass();
   std::optional<Pairs> given, fitted;
-  if(a.has("eigenpairs")) {
-    given = pairs_of(a, "eigenpairs");
-    check_rows(*given, "eigenpairs", n, "V");
-    if(given->mass != SG::mass_name(mass))
-      refuse("eigenpairs are of the " + given->mass + " mass, but mass is '" + SG::mass_name(mass) +
-             "': pass mass='" + given->mass + "'.");
-    if(given->pairs->size() < k)
-      refuse("eigenpairs are " + to_string(given->pairs->size()) + ", but k is " + to_string(k) +
-             ": pass k=" + to_string(given->pairs->size()) + ", or compute more.");
-  }
+  if(a.has("eigenpairs"))
+    given = given_pairs(a, n, mass, k);
   if(a.has("operators")) {
     if(!py::isinstance<Fitted_pairs>(a["operators"]))
       throw py::type_error("operators must be Fitted_operators: pass what fit_operators() returns.");
@@ -513,15 +512,15 @@ Eigen::MatrixXd functional_map(const Arguments& a)
   return SG::functional_map(coarse.pairs->vectors, coarse.op->B, P, fine.pairs->vectors);
 }
 
-// One source or several.
-std::vector<Index> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
+// One source, and true, or a sequence of them.
+std::pair<std::vector<Index>, bool> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
 {
   const auto n = std::size_t(pairs.vectors.rows());
   if(PyIndex_Check(a["sources"].ptr()) &&
      py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0)
-    return {a.integer("sources", 0, Index(n) - 1, ", a vertex")};
+    return {{a.integer("sources", 0, Index(n) - 1, ", a vertex")}, true};
   const std::vector<std::size_t> sources = a.indices("sources", n, "the mesh");
-  return std::vector<Index>(sources.begin(), sources.end());
+  return {{sources.begin(), sources.end()}, false};
 }
 
 SG::Wave_kernel_energies energies_of(const Arguments& a, const SG::Eigenpairs& pairs)
@@ -542,7 +541,7 @@ py::object distances(const Arguments& a)
 {
   const Pairs given = pairs_of(a, "eigenpairs");
   const SG::Eigenpairs& pairs = *given.pairs;
-  const std::vector<Index> sources = sources_of(a, pairs);
+  const auto [sources, one] = sources_of(a, pairs);
   const std::string kind = a.word("kind", {"diffusion", "biharmonic", "commute_time", "wave_kernel"});
   for(const auto& [name, of] :
       {std::make_pair("time", "diffusion"), std::make_pair("energies", "wave_kernel")})
@@ -562,8 +561,6 @@ py::object distances(const Arguments& a)
              : kind == "commute_time" ? SG::squared_commute_time_distance(pairs, sources)
                                       : SG::wave_kernel_distance(pairs, sources, energies);
   }
-  const bool one = PyIndex_Check(a["sources"].ptr()) && sources.size() == 1 &&
-                   py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0;
   return one ? py::cast(Eigen::VectorXd(result.col(0))) : py::cast(std::move(result));
 }
 
