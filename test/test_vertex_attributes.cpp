@@ -195,6 +195,49 @@ TEST_CASE("OFF files have what their first word announces")
   CHECK(less.unknown.size() == 1);
 }
 
+TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which OFF and OBJ do not hold")
+{
+  const auto with = [](const std::string& alpha, const std::string& numbers) {
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+           "property float red\nproperty float green\nproperty double blue\n" +
+           alpha +
+           "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+           "0 0 0 0.53 0 1 " +
+           numbers + "\n1 0 0 1 0.2 0 0\n0 1 0 0 0 0 1\n3 0 1 2\n";
+  };
+  const File file(".ply", with("property float alpha\n", "0.5"));
+  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  CHECK(input.attributes.names() == "red, green, blue, alpha");
+  CHECK(values(input.attributes, "red") == Values{135, 255, 0});
+  CHECK(values(input.attributes, "alpha") == Values{128, 0, 255});
+  CHECK(type(input.attributes, "blue") == "uchar");
+  for(const std::string extension : {".ply", ".off", ".obj"}) {
+    const File copy(extension);
+    write_mesh(copy.path, input.mesh, copy.path, input.attributes);
+    const Vertex_attributes again = read_polygon_soup(copy.path).attributes;
+    for(const std::string name : {"red", "green", "blue"})
+      CHECK(values(again, name) == values(input.attributes, name));
+  }
+
+  const Vertex_attributes opacity = attributes_of(".ply", with("property float alpha\n", "7"));
+  CHECK(opacity.find("red")->kind() == Kind::colour);
+  CHECK(opacity.find("alpha")->kind() == Kind::function);
+  for(const std::string number : {"1.5", "-0.1", "nan"}) {
+    const Vertex_attributes bright = attributes_of(
+        ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float red\n"
+                "property float green\nproperty float blue\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n0 0 1 " +
+                    number + "\n3 0 0 0\n");
+    CHECK(bright.find("red")->kind() == Kind::function);
+    CHECK(values(bright, "green") == Values{1});
+    CHECK(writable(bright, "a.ply").known.size() == 3);
+    CHECK(writable(bright, "a.off").known.empty());
+    CHECK(writable(bright, "a.obj").known.empty());
+  }
+  const std::string off = "COFF\n3 1 0\n0 0 0 nan 0 0\n1 0 0 300 -5 9\n0 1 0 0 0 0\n3 0 1 2\n";
+  CHECK(values(attributes_of(".off", off), "red") == Values{0, 255, 0});
+}
+
 TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")
 {
   const Vertex_attributes fine = attributes_of(".ply", ply);

@@ -128,17 +128,20 @@ inline Vertex_attributes writable(const Vertex_attributes& attributes, const std
   if(format == ".ply")
     return attributes;
   Vertex_attributes result;
-  const auto take = [&](const auto& names) {
-    for(const Vertex_attribute* const a : attributes.find(names))
-      if(a != nullptr)
+  using Kind = Vertex_attribute::Kind;
+  const auto take = [&](const Kind kind, const auto& names) {
+    const auto found = attributes.find(names);
+    if(std::all_of(found.begin(), found.end(),
+                   [&](const Vertex_attribute* const a) { return a != nullptr && a->kind() == kind; }))
+      for(const Vertex_attribute* const a : found)
         result.known.push_back(*a);
   };
   if(format != ".stl") {
-    take(std::array<const char*, 3>{"nx", "ny", "nz"});
-    take(std::array<const char*, 3>{"red", "green", "blue"});
+    take(Kind::normal, std::array<const char*, 3>{"nx", "ny", "nz"});
+    take(Kind::colour, std::array<const char*, 3>{"red", "green", "blue"});
   }
   if(format == ".obj")
-    take(std::array<const char*, 2>{"s", "t"});
+    take(Kind::function, std::array<const char*, 2>{"s", "t"});
   return result;
 }
 

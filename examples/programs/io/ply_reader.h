@@ -42,6 +42,7 @@ public:
         attributes = {};
         break;
       }
+    find_colours(attributes);
     if(reader.m_soup.polygons.empty())
       reader.m_soup.polygons = std::move(reader.m_triangles);
     return std::move(reader.m_soup);

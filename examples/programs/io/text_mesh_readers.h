@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -64,20 +63,6 @@ struct Off_keyword
     return word.empty();
   }
 };
-
-// Colours as PLY has them, 0 to 255, whether they are so or up to 1.
-inline void add_colours(Vertex_attributes& attributes, std::vector<std::vector<double>> channels)
-{
-  bool small = true;
-  for(const auto& channel : channels)
-    small = small && std::all_of(channel.begin(), channel.end(), [](const double x) { return x <= 1; });
-  const std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
-  for(std::size_t c = 0; c < channels.size(); ++c) {
-    for(double& x : channels[c])
-      x = (std::min)((std::max)(std::round(small ? 255 * x : x), 0.), 255.);
-    attributes.add(names[c], "uchar", std::move(channels[c]));
-  }
-}
 
 // What OBJ files give to the corners of faces: of the vertices, where all corners of each have the same.
 class Corner_values

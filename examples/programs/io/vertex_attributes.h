@@ -88,6 +88,46 @@ struct Vertex_attributes
   }
 };
 
+// A number as a channel of a colour has it; 0 where it is none.
+inline double colour_channel(const double x)
+{
+  return (std::min)((std::max)(0., std::round(x)), 255.);
+}
+
+// Colours as PLY has them, 0 to 255, whether they are so or up to 1.
+inline void add_colours(Vertex_attributes& attributes, std::vector<std::vector<double>> channels)
+{
+  bool small = true;
+  for(const auto& channel : channels)
+    small = small && std::all_of(channel.begin(), channel.end(), [](const double x) { return x <= 1; });
+  const std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
+  for(std::size_t c = 0; c < channels.size(); ++c) {
+    for(double& x : channels[c])
+      x = colour_channel(small ? 255 * x : x);
+    attributes.add(names[c], "uchar", std::move(channels[c]));
+  }
+}
+
+// Makes colours of channels with floating numbers from 0 to 1. Others stay functions.
+inline void find_colours(Vertex_attributes& attributes)
+{
+  const auto is_colour = [&](const std::string& name) {
+    const Vertex_attribute* const a = attributes.find(name);
+    return a != nullptr && a->kind() == Vertex_attribute::Kind::function &&
+           std::all_of(a->values.begin(), a->values.end(), [](const double x) { return x >= 0 && x <= 1; });
+  };
+  std::vector<std::string> names = {"red", "green", "blue"};
+  if(!std::all_of(names.begin(), names.end(), is_colour))
+    return;
+  if(is_colour("alpha"))
+    names.push_back("alpha");
+  std::vector<std::vector<double>> channels;
+  for(const std::string& name : names)
+    channels.push_back(attributes.find(name)->values);
+  attributes.remove(names);
+  add_colours(attributes, std::move(channels));
+}
+
 // Carries attributes by P, coarse vertices x vertices of the file.
 inline Vertex_attributes restricted(const Vertex_attributes& fine, const Eigen::SparseMatrix<double>& P)
 {
@@ -110,7 +150,7 @@ inline Vertex_attributes restricted(const Vertex_attributes& fine, const Eigen::
           value += it.value() * x;
       }
       if(kind == Kind::colour)
-        value = (std::min)((std::max)(std::round(value), 0.), 255.);
+        value = colour_channel(value);
       std::sort(votes.begin(), votes.end());
       double most = 0;
       for(std::size_t j = 0, end = 0; j < votes.size(); j = end) {
