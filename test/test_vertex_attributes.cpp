@@ -13,6 +13,7 @@
 
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -23,6 +24,7 @@
 #include <vector>
 
 using Values = std::vector<double>;
+using Catch::Matchers::ContainsSubstring;
 using Kind = Vertex_attribute::Kind;
 
 namespace {
@@ -236,6 +238,33 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   }
   const std::string off = "COFF\n3 1 0\n0 0 0 nan 0 0\n1 0 0 300 -5 9\n0 1 0 0 0 0\n3 0 1 2\n";
   CHECK(values(attributes_of(".off", off), "red") == Values{0, 255, 0});
+}
+
+TEST_CASE("Numbers that their integer type does not hold are refused")
+{
+  const auto read = [](const std::string& property_type, const std::string& number) {
+    return attributes_of(
+        ".ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty " + property_type +
+                    " part\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                    "0 1\n0 " +
+                    number + "\n3 0 1 1\n");
+  };
+  const std::vector<std::array<std::string, 3>> limits = {{"char", "-128", "127"},
+                                                          {"uchar", "0", "255"},
+                                                          {"short", "-32768", "32767"},
+                                                          {"ushort", "0", "65535"},
+                                                          {"int", "-2147483648", "2147483647"},
+                                                          {"uint", "0", "4294967295"}};
+  for(const auto& [name, least, most] : limits) {
+    CHECK(values(read(name, least), "part") == Values{1, std::stod(least)});
+    CHECK(values(read(name, most), "part") == Values{1, std::stod(most)});
+    for(const std::string& number :
+        {std::to_string(std::stoll(least) - 1), std::to_string(std::stoll(most) + 1), std::string("nan"),
+         std::string("inf"), std::string("5e9"), std::string("0.5")})
+      CHECK_THROWS_WITH(read(name, number),
+                        ContainsSubstring("it is damaged or cut off at 'vertex' 1 of 2 (counted from 0)"));
+  }
+  CHECK(values(read("float", "5e9"), "part") == Values{1, 5e9});
 }
 
 TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -182,7 +183,7 @@ private:
   bool read_single(const Property& property, std::array<double, 3>& point)
   {
     double value = 0;
-    if(!read_value(property.type, value))
+    if(!read_value(property.type, value) || (property.attribute != no_vertex && !holds(property.type, value)))
       return false;
     if(property.coordinate < 3)
       point[property.coordinate] = value;
@@ -248,6 +249,18 @@ private:
       break;
     }
     return false;
+  }
+
+  // Whether a number, of a text for instance, is one of the type.
+  static bool holds(const Type type, const double value)
+  {
+    if(type == Type::float32 || type == Type::float64)
+      return true;
+    const int number = static_cast<int>(type) - 1; // signed and unsigned ones of 8, 16, 32 bits in turn
+    const int bits = 8 << number / 2;
+    const bool is_signed = number % 2 == 0;
+    const double end = std::ldexp(1., is_signed ? bits - 1 : bits);
+    return value >= (is_signed ? -end : 0.) && value < end && value == std::floor(value);
   }
 
   // The bytes end with a 0.
