@@ -134,7 +134,7 @@ double largest_error(const Mesh& mesh, const Corner_texture& texture)
 TEST_CASE("PLY files have any property, and what cannot be carried is named")
 {
   const Vertex_attributes a = attributes_of(".ply", ply);
-  CHECK(a.names() == "red, green, blue, label, heat, nx, ny, nz");
+  CHECK(joined(a.names()) == "red, green, blue, label, heat, nx, ny, nz");
   CHECK(values(a, "red") == Values{10, 11, 12, 250});
   CHECK(values(a, "label") == Values{7, -2, 7, 9});
   CHECK(values(a, "heat") == Values{0.5, 1.5, 2.5, 3.5});
@@ -182,7 +182,7 @@ TEST_CASE("OFF files have what their first word announces")
       ".off", "STCNOFF\n3 1 0\n0 0 0  0 0 1  10 20 30 255  0 0.5\n1 0 0  0 0 1  1 2 3 255  1 0\n"
               "0 1 0  1 0 0  0 0 0 0  0 1\n" +
                   end);
-  CHECK(all.names() == "nx, ny, nz, red, green, blue, alpha, s, t");
+  CHECK(joined(all.names()) == "nx, ny, nz, red, green, blue, alpha, s, t");
   CHECK(values(all, "nx") == Values{0, 0, 1});
   CHECK(values(all, "blue") == Values{30, 3, 0});
   CHECK(values(all, "t") == Values{0.5, 0, 1});
@@ -209,7 +209,7 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   };
   const File file(".ply", with("property float alpha\n", "0.5"));
   const Input_mesh input = read_input_mesh(file.path, Mending::none);
-  CHECK(input.attributes.names() == "red, green, blue, alpha");
+  CHECK(joined(input.attributes.names()) == "red, green, blue, alpha");
   CHECK(values(input.attributes, "red") == Values{135, 255, 0});
   CHECK(values(input.attributes, "alpha") == Values{128, 0, 255});
   CHECK(type(input.attributes, "blue") == "uchar");

@@ -86,17 +86,13 @@ void announce(Output_files& files, const Arguments& a)
 // What the input has and the output will not have; empty if there is nothing.
 std::string lost_attributes(const Vertex_attributes& attributes, const std::string& output)
 {
-  std::string list;
-  const auto add = [&list](const std::string& name) { list += (list.empty() ? "" : ", ") + printable(name); };
-  const Vertex_attributes written = writable(attributes, output);
-  for(const Vertex_attribute& a : attributes.known)
-    if(written.find(a.name) == nullptr)
-      add(a.name);
-  const bool of_format = !list.empty();
-  for(const std::string& name : attributes.unknown)
-    add(name);
-  return list.empty() ? ""
-                      : "The output is without what the input has beside: " + list +
+  Vertex_attributes others = attributes;
+  others.remove(writable(attributes, output).names());
+  std::vector<std::string> lost = others.names();
+  const bool of_format = !lost.empty();
+  lost.insert(lost.end(), others.unknown.begin(), others.unknown.end());
+  return lost.empty() ? ""
+                      : "The output is without what the input has beside: " + printable(joined(lost)) +
                             (of_format ? "; a .ply file holds more." : ".");
 }
 

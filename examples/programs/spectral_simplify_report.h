@@ -7,6 +7,7 @@
 
 #include "io/mesh_repair.h"
 #include "io/program.h"
+#include "io/vertex_attributes.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
@@ -39,7 +40,7 @@ struct Simplification_report
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset;
-  std::string attributes;                // names of those that were carried
+  std::vector<std::string> attributes;   // names of those that were carried
   std::optional<std::size_t> seam_edges; // kept ones of the texture
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
   std::vector<Repair> repairs;     // what was changed in the input, and how often
@@ -116,7 +117,7 @@ inline void print_table(const Simplification_report& r)
   if(r.seam_edges)
     std::printf("  kept edges of seams       %8zu\n\n", *r.seam_edges);
   if(!r.attributes.empty())
-    std::printf("  carried attributes        %s\n\n", printable(r.attributes).c_str());
+    std::printf("  carried attributes        %s\n\n", printable(joined(r.attributes)).c_str());
   std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
   if(r.options.pre_simplify != 0)
     std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);

@@ -78,15 +78,23 @@ struct Vertex_attributes
                 known.end());
   }
 
-  // "red, green, blue, label"
-  std::string names() const
+  std::vector<std::string> names() const
   {
-    std::string list;
+    std::vector<std::string> list;
     for(const Vertex_attribute& a : known)
-      list += (list.empty() ? "" : ", ") + a.name;
+      list.push_back(a.name);
     return list;
   }
 };
+
+// "red, green, blue, label"
+inline std::string joined(const std::vector<std::string>& names)
+{
+  std::string list;
+  for(const std::string& name : names)
+    list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
 
 // A number as a channel of a colour has it; 0 where it is none.
 inline double colour_channel(const double x)
