@@ -208,7 +208,7 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
            numbers + "\n1 0 0 1 0.2 0 0\n0 1 0 0 0 0 1\n3 0 1 2\n";
   };
   const File file(".ply", with("property float alpha\n", "0.5"));
-  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  const Input_mesh input = read_input_mesh(file.path, Mending::none, true);
   CHECK(joined(input.attributes.names()) == "red, green, blue, alpha");
   CHECK(values(input.attributes, "red") == Values{135, 255, 0});
   CHECK(values(input.attributes, "alpha") == Values{128, 0, 255});
@@ -294,7 +294,7 @@ TEST_CASE("What is written is read again, as far as the format holds it")
   Input_mesh input;
   {
     const File file(".ply", ply);
-    input = read_input_mesh(file.path, Mending::plain);
+    input = read_input_mesh(file.path, Mending::plain, true);
   }
   const std::string extension = GENERATE(".ply", ".obj", ".off", ".stl");
   const File file(extension);
@@ -352,7 +352,7 @@ TEST_CASE("Seams are the edges across which the coordinates differ")
               corner(i + 1, j + 1) + corner(i, j + 1) + "\n";
     }
   const File file(".obj", text);
-  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  const Input_mesh input = read_input_mesh(file.path, Mending::none, true);
   const Texture_seams seams(input.mesh, input.texture);
   CHECK(seams.number_of_edges() == 2);
   CHECK(seams.vertices() == std::vector<std::size_t>{11, 12, 13});
@@ -376,7 +376,7 @@ TEST_CASE("A vertex that comes closer to the other side of a seam keeps to its o
               corner(i + 1, j + 1) + corner(i, j + 1) + "\n";
     }
   const File file(".obj", text);
-  const Input_mesh input = read_input_mesh(file.path, Mending::none);
+  const Input_mesh input = read_input_mesh(file.path, Mending::none, true);
   const Texture_seams seams(input.mesh, input.texture);
   CHECK(seams.vertices() == std::vector<std::size_t>{2, 7, 12, 17, 22});
   Mesh moved = input.mesh;
@@ -403,7 +403,7 @@ TEST_CASE("Seams stay, and both sides keep their coordinates")
   Input_mesh input;
   {
     const File file(".obj", torus(n, m, copies, repaired));
-    input = read_input_mesh(file.path, repaired ? Mending::full : Mending::plain);
+    input = read_input_mesh(file.path, repaired ? Mending::full : Mending::plain, true);
   }
   // Copies are one vertex after the repair: the seams are those of corners then.
   REQUIRE(input.mesh.number_of_vertices() == std::size_t(copies && !repaired ? (n + 1) * (m + 1) : n * m));
@@ -424,7 +424,7 @@ TEST_CASE("Seams stay, and both sides keep their coordinates")
 
   const File file(".obj");
   write_mesh(file.path, coarse, file.path, {}, texture);
-  const Input_mesh again = read_input_mesh(file.path, Mending::none);
+  const Input_mesh again = read_input_mesh(file.path, Mending::none, true);
   CHECK(largest_error(again.mesh, again.texture) == largest_error(coarse, texture));
   CHECK(Texture_seams(again.mesh, again.texture).number_of_edges() == seams.number_of_edges());
 }
@@ -435,7 +435,7 @@ TEST_CASE("Why there is no texture at corners is said")
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 1e-14 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
   const auto reason = [&](const std::string& faces, const Mending mending) {
     const File file(".obj", points + faces);
-    const Input_mesh input = read_input_mesh(file.path, mending);
+    const Input_mesh input = read_input_mesh(file.path, mending, true);
     CHECK(input.texture.empty());
     return input.without_texture;
   };
@@ -444,7 +444,9 @@ TEST_CASE("Why there is no texture at corners is said")
   CHECK(reason("f 1/1 2/2 5/2\nf 1/1 5/2 3/3\nf 1/1 3/3 4/4\n", Mending::full) ==
         "the repair has made faces that are no part of one of the file");
   const File file(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  CHECK(read_input_mesh(file.path, Mending::plain).without_texture == "it has no texture coordinates");
+  CHECK(read_input_mesh(file.path, Mending::plain, true).without_texture == "it has no texture coordinates");
   const File at_vertices(".off", "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
-  CHECK(read_input_mesh(at_vertices.path, Mending::plain).texture.size() == 6);
+  CHECK(read_input_mesh(at_vertices.path, Mending::plain, true).texture.size() == 6);
+  const Input_mesh plain = read_input_mesh(at_vertices.path, Mending::plain);
+  CHECK((plain.texture.empty() && plain.attributes.known.empty()));
 }

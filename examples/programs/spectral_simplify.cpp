@@ -99,7 +99,7 @@ std::string lost_attributes(const Vertex_attributes& attributes, const std::stri
 // What becomes of seams that are not kept; empty if there are none.
 std::string lost_seams(const Arguments& a, const Input_mesh& input)
 {
-  if(a.keep_seams || a.no_attributes || input.texture.empty())
+  if(a.keep_seams || input.texture.empty())
     return "";
   const std::size_t n = Texture_seams(input.mesh, input.texture).number_of_edges();
   return n == 0 ? ""
@@ -493,9 +493,7 @@ int run(Arguments a)
   CGAL::Real_timer timer;
   timer.start();
   bar.show("reading", 0);
-  Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair));
-  if(a.no_attributes)
-    input.attributes = {};
+  Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair), !a.no_attributes);
   const std::string lost_edges = lost_seams(a, input);
   const std::optional<Texture_seams> seams = seams_of(a, input);
   if(seams) // at corners instead

@@ -123,7 +123,7 @@ std::string fault_of_soup(const Polygon_soup& soup, const std::size_t size)
 
 std::string fault_of_mesh(const std::string& path, const std::size_t points, const Mending mending)
 {
-  const Input_mesh input = read_input_mesh(path, mending);
+  const Input_mesh input = read_input_mesh(path, mending, true);
   const std::size_t n = input.mesh.number_of_vertices();
   if(n == 0 || !CGAL::is_valid_polygon_mesh(input.mesh) || !CGAL::is_triangle_mesh(input.mesh))
     return "the mesh is not a valid triangle mesh";

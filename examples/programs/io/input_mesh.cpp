@@ -286,14 +286,17 @@ std::string Input_mesh::changes_of(const std::string& path) const
   return list.empty() ? "" : "'" + path + "':" + list + ".";
 }
 
-Input_mesh read_input_mesh(const std::string& path, const Mending mending)
+Input_mesh read_input_mesh(const std::string& path, const Mending mending, const bool with_attributes)
 {
   Polygon_soup soup = read_polygon_soup(path);
   Input_mesh input;
-  const Corner_texture texture = texture_of(soup);
+  const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
   const Polygons polygons = texture.empty() ? Polygons() : soup.polygons;
-  input.without_texture = std::move(soup.without_texture);
-  input.attributes = std::move(soup.attributes);
+  if(with_attributes) {
+    input.without_texture = std::move(soup.without_texture);
+    input.attributes = std::move(soup.attributes);
+  }
+  soup = {std::move(soup.points), std::move(soup.polygons)}; // no more is needed
   Repair_log log;
   std::vector<std::size_t> vertex(soup.points.size()), origin;
   std::iota(vertex.begin(), vertex.end(), std::size_t(0));

@@ -22,6 +22,7 @@ struct Input_mesh
   Vertex_numbering numbering;
   CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
   std::vector<Repair> changes;
+  // Where they are asked for:
   Vertex_attributes attributes; // of the vertices of the file
   Corner_texture texture;       // by halfedges, at the target in the face; or empty
   std::string without_texture;  // why it is empty, the end of a sentence
@@ -43,7 +44,7 @@ inline Mending mending(const bool strict, const bool repair)
 }
 
 // Reads a triangle mesh, its vertices in the order of the file (of first appearance for STL). Throws with the first
-// obstacle that is left.
-Input_mesh read_input_mesh(const std::string& path, Mending mending);
+// obstacle that is left. `with_attributes`: keeps what vertices and corners have beside positions.
+Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false);
 
 #endif // SPECTRAL_EXAMPLES_IO_INPUT_MESH_H
