@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_PYTHON_ARGUMENTS_H
 #define SPECTRAL_PYTHON_ARGUMENTS_H
 
+#include "../programs/io/threads.h"
+
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 
 #include <Eigen/Core>
@@ -20,7 +22,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,13 @@ using std::to_string;
 [[noreturn]] inline void refuse(const std::string& sentence)
 {
   throw py::value_error(sentence);
+}
+
+inline void warn(const std::string& sentence)
+{
+  // Two frames up: past the function that called this one.
+  if(PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 2) != 0)
+    throw py::error_already_set();
 }
 
 inline std::string type_name(const py::handle& value)
@@ -85,11 +93,12 @@ public:
     return Index(result);
   }
 
-  // All cores unless told otherwise.
+  // All cores unless told otherwise; a warning says that more are wanted.
   int threads() const
   {
-    return has("threads") ? int(integer("threads", 1, 1024))
-                          : int((std::max)(1u, std::thread::hardware_concurrency()));
+    return has("threads") ? usable_threads(int(integer("threads", 1, (std::numeric_limits<int>::max)())),
+                                           "threads=", warn)
+                          : all_threads();
   }
 
   double number(const char* name, const double least, const bool itself = true,

@@ -381,13 +381,6 @@ py::dict report(const Arguments& a, const SMS::Spectral_edge_collapse_options& o
   return result;
 }
 
-void warn(const std::string& sentence)
-{
-  // Two frames up: past the function that called this one.
-  if(PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 2) != 0)
-    throw py::error_already_set();
-}
-
 Simplification simplify(const Arguments& a)
 {
   auto fine = std::make_shared<const SG::Mesh_matrices>(a.mesh("V", "F"));

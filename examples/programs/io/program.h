@@ -5,9 +5,10 @@
 #ifndef SPECTRAL_EXAMPLES_IO_PROGRAM_H
 #define SPECTRAL_EXAMPLES_IO_PROGRAM_H
 
+#include "threads.h"
+
 #include <CGAL/Spectral_geometry/Cancelled.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstddef>
@@ -15,7 +16,6 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <thread>
 
 // What the programs have in common: how they are interrupted, what they say when something is wrong, how they end.
 
@@ -75,20 +75,13 @@ inline void warn(const std::string& sentence)
   complain("warning: " + sentence);
 }
 
-// As many threads as the machine runs at once.
-inline int all_threads()
-{
-  return static_cast<int>((std::max)(1u, std::thread::hardware_concurrency()));
-}
-
-// As many as are wanted, but no more than that; says so unless `quiet`.
+// As many threads as are wanted, but no more than the machine runs at once; says so unless `quiet`.
 inline int usable_threads(const int wanted, const bool quiet)
 {
-  const int most = all_threads();
-  if(wanted > most && !quiet)
-    complain("this machine runs " + std::to_string(most) + (most == 1 ? " thread" : " threads") +
-             " at once: --threads " + std::to_string(wanted) + " is taken for that.");
-  return (std::min)(wanted, most);
+  return usable_threads(wanted, "--threads ", [quiet](const std::string& sentence) {
+    if(!quiet)
+      complain(sentence);
+  });
 }
 
 // Runs `body`, which returns the exit status, and says in one sentence why it ended early.
