@@ -8,6 +8,7 @@
 #include "io/mesh_repair.h"
 #include "io/program.h"
 #include "io/vertex_attributes.h"
+#include "report/run_json.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
@@ -16,7 +17,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
@@ -136,35 +136,6 @@ inline void print_table(const Simplification_report& r)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
 }
 
-// What the relocation did; null where there was none.
-inline nlohmann::json relocation_json(const Simplification_report& r)
-{
-  if(!r.options.relocate)
-    return nullptr;
-  const CGAL::Spectral_geometry::Relocation_result& x = r.result.relocation;
-  return {{"signals", relocation_name(r.options)},
-          {"steps", x.steps},
-          {"stop_reason", x.stop_reason_name()},
-          {"moved_vertices", x.moved_vertices},
-          {"reverted_vertices", x.reverted_vertices},
-          {"held_vertices",
-           {{"fixed", x.held.fixed},
-            {"trust", x.held.trust},
-            {"boundary", x.held.boundary},
-            {"sheet", x.held.sheet},
-            {"distance", x.held.distance},
-            {"triangles", x.held.triangles}}},
-          {"E_before", x.E_before},
-          {"E_after", x.E_after},
-          {"seconds", x.seconds}};
-}
-
-// Numbers that were not computed are null.
-inline nlohmann::json number_json(const double x)
-{
-  return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
-}
-
 // All of them null where nothing was evaluated.
 inline nlohmann::json evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
 {
@@ -187,36 +158,13 @@ inline nlohmann::json evaluation_json(const CGAL::Spectral_geometry::Spectral_ev
 
 inline nlohmann::json to_json(const Simplification_report& r)
 {
-  nlohmann::json json = {
-      {"input_vertices", r.result.input_vertices},
-      {"output_vertices", r.result.output_vertices},
-      {"preset", r.preset},
-      {"eigenvectors", r.options.number_of_eigenvectors},
-      {"mass", CGAL::Spectral_geometry::mass_name(r.options.mass)},
-      {"placement", CGAL::Surface_mesh_simplification::placement_name(r.options.placement)},
-      {"shape", r.options.shape},
-      {"keep_free_of_self_intersections", r.options.keep_free_of_self_intersections},
-      {"binary", r.options.binary},
-      {"max_error", number_json(r.options.maximum_error)},
-      {"kept_vertices", r.options.kept_vertices.size()},
-      {"signals", r.options.signals.cols()},
-      {"flips", edge_flips_name(r.options.flips)},
-      {"flipped_edges", r.result.flips.flips.size()},
-      {"relocation", relocation_json(r)},
-      {"levels", r.levels},
-      {"attributes", r.attributes},
-      {"seam_edges", r.seam_edges ? nlohmann::json(*r.seam_edges) : nlohmann::json()},
-      {"relative_error", number_json(r.result.relative_error)},
-      {"seconds_reading", r.seconds_reading},
-      {"seconds_writing", r.seconds_writing},
-      {"seconds_pre_simplification", r.result.seconds_pre_simplification},
-      {"seconds_eigenpairs", r.result.seconds_eigenpairs},
-      {"seconds_collapse", r.result.seconds_collapse},
-      {"seconds_flips", r.result.seconds_flips},
-      {"seconds_relocation", r.result.seconds_relocation},
-      {"seconds_total", r.result.seconds_total},
-      {"stop_reason", r.result.stop_reason_name()},
-      {"repairs", nlohmann::json::object()}};
+  nlohmann::json json = run_json(r.result, r.options, r.preset);
+  json.update({{"levels", r.levels},
+               {"attributes", r.attributes},
+               {"seam_edges", r.seam_edges ? nlohmann::json(*r.seam_edges) : nlohmann::json()},
+               {"seconds_reading", r.seconds_reading},
+               {"seconds_writing", r.seconds_writing},
+               {"repairs", nlohmann::json::object()}});
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count
   json.update(evaluation_json(r.evaluation ? &*r.evaluation : nullptr));

@@ -10,6 +10,7 @@
 
 #include "../programs/io/polygon_soup.h"
 #include "../programs/option_words.h"
+#include "../programs/report/run_json.h"
 #ifdef SPECTRAL_PYTHON_MATCH
 #include "../programs/matching/matcher.h"
 #endif
@@ -343,44 +344,6 @@ void set_signals(const Arguments& a, const Index n, const Index target,
       given.pairs->size() == k ? given.pairs : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
 }
 
-// With the names of spectral_simplify's --json.
-py::dict report(const Arguments& a, const SMS::Spectral_edge_collapse_options& o,
-                const SMS::Spectral_edge_collapse_result& r)
-{
-  using py::arg;
-  py::dict relocation;
-  if(o.relocate) {
-    const SG::Relocation_result& x = r.relocation;
-    relocation =
-        py::dict(arg("signals") = SG::relocation_signals_name(o.relocation.signals), arg("steps") = x.steps,
-                 arg("stop_reason") = x.stop_reason_name(), arg("moved_vertices") = x.moved_vertices,
-                 arg("reverted_vertices") = x.reverted_vertices,
-                 arg("held_vertices") =
-                     py::dict(arg("fixed") = x.held.fixed, arg("trust") = x.held.trust,
-                              arg("boundary") = x.held.boundary, arg("sheet") = x.held.sheet,
-                              arg("distance") = x.held.distance, arg("triangles") = x.held.triangles),
-                 arg("E_before") = x.E_before, arg("E_after") = x.E_after, arg("seconds") = x.seconds);
-  }
-  py::dict result(
-      arg("input_vertices") = r.input_vertices, arg("output_vertices") = r.output_vertices,
-      arg("preset") = a["preset"], arg("eigenvectors") = o.number_of_eigenvectors,
-      arg("mass") = SG::mass_name(o.mass), arg("placement") = SMS::placement_name(o.placement),
-      arg("shape") = o.shape, arg("keep_free_of_self_intersections") = o.keep_free_of_self_intersections,
-      arg("binary") = o.binary, arg("max_error") = a["max_error"],
-      arg("kept_vertices") = o.kept_vertices.size(), arg("signals") = o.signals.cols(),
-      arg("flips") = SG::edge_flips_name(o.flips), arg("flipped_edges") = r.flips.flips.size(),
-      arg("relative_error") = r.relative_error, arg("stop_reason") = r.stop_reason_name(),
-      arg("explanation") = r.explanation, arg("warnings") = r.warnings,
-      arg("refusals") = py::dict(arg("topology") = r.refusals.topology, arg("geometry") = r.refusals.geometry,
-                                 arg("filter") = r.refusals.filter, arg("placement") = r.refusals.placement),
-      arg("seconds_pre_simplification") = r.seconds_pre_simplification,
-      arg("seconds_eigenpairs") = r.seconds_eigenpairs, arg("seconds_collapse") = r.seconds_collapse,
-      arg("seconds_flips") = r.seconds_flips, arg("seconds_relocation") = r.seconds_relocation,
-      arg("seconds_operator_fit") = r.seconds_operator_fit, arg("seconds_total") = r.seconds_total);
-  result["relocation"] = o.relocate ? py::object(relocation) : py::none();
-  return result;
-}
-
 Simplification simplify(const Arguments& a)
 {
   auto fine = std::make_shared<const SG::Mesh_matrices>(a.mesh("V", "F"));
@@ -420,7 +383,8 @@ Simplification simplify(const Arguments& a)
     run.result.warnings.push_back(warning);
   Simplification result(std::move(fine), std::move(run.coarse), run.result.restriction,
                         run.result.vertex_map);
-  result.report = report(a, options, run.result);
+  result.report = py::module_::import("json").attr("loads")(
+      run_json(run.result, options, a["preset"].cast<std::string>()).dump());
   result.eigenpairs = py::none();
   if(a.has("eigenpairs"))
     result.eigenpairs = a["eigenpairs"];

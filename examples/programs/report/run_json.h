@@ -1,0 +1,82 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_EXAMPLES_REPORT_RUN_JSON_H
+#define SPECTRAL_EXAMPLES_REPORT_RUN_JSON_H
+
+#include "json_text.h"
+
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+// What a run of spectral_edge_collapse() did and with what options: of --json, and the report of a run in Python.
+
+// What the relocation did; null where there was none.
+inline nlohmann::json
+relocation_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result& result,
+                const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
+{
+  if(!options.relocate)
+    return nullptr;
+  const CGAL::Spectral_geometry::Relocation_result& x = result.relocation;
+  return {{"signals", relocation_signals_name(options.relocation.signals)},
+          {"steps", x.steps},
+          {"stop_reason", x.stop_reason_name()},
+          {"moved_vertices", x.moved_vertices},
+          {"reverted_vertices", x.reverted_vertices},
+          {"held_vertices",
+           {{"fixed", x.held.fixed},
+            {"trust", x.held.trust},
+            {"boundary", x.held.boundary},
+            {"sheet", x.held.sheet},
+            {"distance", x.held.distance},
+            {"triangles", x.held.triangles}}},
+          {"E_before", x.E_before},
+          {"E_after", x.E_after},
+          {"seconds", x.seconds}};
+}
+
+// `options`: what the preset became.
+inline nlohmann::json
+run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result& result,
+         const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
+         const std::string& preset)
+{
+  return {{"input_vertices", result.input_vertices},
+          {"output_vertices", result.output_vertices},
+          {"preset", preset},
+          {"eigenvectors", options.number_of_eigenvectors},
+          {"mass", mass_name(options.mass)},
+          {"placement", placement_name(options.placement)},
+          {"shape", options.shape},
+          {"keep_free_of_self_intersections", options.keep_free_of_self_intersections},
+          {"binary", options.binary},
+          {"max_error", number_json(options.maximum_error)},
+          {"kept_vertices", options.kept_vertices.size()},
+          {"signals", options.signals.cols()},
+          {"flips", edge_flips_name(options.flips)},
+          {"flipped_edges", result.flips.flips.size()},
+          {"relocation", relocation_json(result, options)},
+          {"relative_error", number_json(result.relative_error)},
+          {"stop_reason", result.stop_reason_name()},
+          {"explanation", result.explanation},
+          {"warnings", result.warnings},
+          {"refusals",
+           {{"topology", result.refusals.topology},
+            {"geometry", result.refusals.geometry},
+            {"filter", result.refusals.filter},
+            {"placement", result.refusals.placement}}},
+          {"seconds_pre_simplification", result.seconds_pre_simplification},
+          {"seconds_eigenpairs", result.seconds_eigenpairs},
+          {"seconds_collapse", result.seconds_collapse},
+          {"seconds_flips", result.seconds_flips},
+          {"seconds_relocation", result.seconds_relocation},
+          {"seconds_operator_fit", result.seconds_operator_fit},
+          {"seconds_total", result.seconds_total}};
+}
+
+#endif // SPECTRAL_EXAMPLES_REPORT_RUN_JSON_H
