@@ -24,6 +24,7 @@ public:
   Progress_bar& operator=(const Progress_bar&) = delete;
   ~Progress_bar() { clear(); }
 
+  // `phase` is a name, "first_costs", or words.
   void show(const std::string& phase, double fraction)
   {
     if(!m_enabled)
@@ -54,7 +55,9 @@ private:
     constexpr int width = 30;
     const int filled = static_cast<int>(width * fraction);
     const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-    std::fprintf(stderr, "\r\033[K%-12s [%s] %3.0f %%", m_phase.c_str(), bar.c_str(), 100 * fraction);
+    std::string phase = m_phase;
+    std::replace(phase.begin(), phase.end(), '_', ' ');
+    std::fprintf(stderr, "\r\033[K%-18s [%s] %3.0f %%", phase.c_str(), bar.c_str(), 100 * fraction);
     // The first moments say too little about the rest.
     if(elapsed > 0.5 && fraction > 0.01)
       std::fprintf(stderr, "  %.0f s left", elapsed * (1 - fraction) / fraction);
