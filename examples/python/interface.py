@@ -95,7 +95,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                afterwards choose a Laplacian and a mass of the simplified mesh so that they have the spectrum of V, F
                as nearly as they can: fitted of the result. Takes another solve, for a fifth more eigenpairs, unless
                eigenpairs are given
-    threads    for eigenpairs, costs and relocation, all cores by default; the result does not depend on it
+    threads    for eigenpairs, costs and relocation, all cores by default and at most; the result does not depend
+               on it
     progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
                Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
 
