@@ -63,7 +63,8 @@ relocated=$(norm_of)
 runs "the best preset" shape.off coarse.off --vertices 250 --eigenvectors 25 $all
 awk "BEGIN { exit !($(norm_of) < $relocated) }" || fail "--relocate sampled: $(norm_of) is not below $relocated"
 grep -q 'relocated vertices .*ended by' said || fail "no relocation in the table"
-for word in '"preset": "best"' '"stop_reason": "' '"held_vertices"' '"sheet"'; do
+for word in '"preset": "best"' '"stop_reason": "' '"held_vertices"' '"sheet"' '"warnings": ' \
+  '"explanation": ""' '"refusals"'; do
   grep -q "$word" out.json || fail "no $word in the JSON file"
 done
 runs "what overrides the preset" shape.off a.off --vertices 250 --eigenvectors 25 --mass lumped --placement on_edge \
