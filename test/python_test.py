@@ -163,6 +163,8 @@ class Beside_the_program(Shapes):
                  dict(mass="lumped", placement="midpoint", relocate="carried", binary=True)),
                 ("--signals F.npy --flips spectral --self-intersections allow",
                  dict(signals=signals, flips="spectral", self_intersections="allow")),
+                ("--preset fast --pre-simplify 400", dict(preset="fast", pre_simplify=400)),
+                ("--preset fast", dict(preset="fast")), # which is best on a mesh as small as this one
                 ("--pre-simplify 500 --relocate carried_and_sampled --max-error 0.05 --preserve-border",
                  dict(pre_simplify=500, relocate="carried_and_sampled", max_error=0.05, preserve_border=True))):
             if "signals" not in arguments:
@@ -494,7 +496,7 @@ class Wrong_input(Shapes):
                 (TypeError, "shape is of the type ndarray, it must be a number", dict(shape=V)),
                 (ValueError, "n is 1000000000000000000000000, it must be", dict(n=10 ** 24)),
                 (ValueError, "k is 2562, it must be an integer from 1 to 2561", dict(k=2562)),
-                (ValueError, "preset is 'good', it must be 'best' or 'paper'", dict(preset="good")),
+                (ValueError, "preset is 'good', it must be 'best', 'fast' or 'paper'", dict(preset="good")),
                 (ValueError, "mass is 'full', it must be None, 'lumped' or 'averaged'", dict(mass="full")),
                 (TypeError, "placement is 3, it must be None, 'on_edge', 'midpoint' or 'free'", dict(placement=3)),
                 (ValueError, "placement is 'edge'", dict(placement="edge")),

@@ -285,11 +285,12 @@ struct Simplification : Level
   }
 };
 
-SMS::Spectral_edge_collapse_options run_options(const Arguments& a)
+SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index target)
 {
   using Signals = SG::Relocation_options::Signals;
   Option_words words;
-  words.preset = a.word("preset", {"best", "paper"});
+  words.preset = a.word("preset", {"best", "fast", "paper"});
+  words.vertices = std::size_t(target);
   words.placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
   words.mass = a.word("mass", {"lumped", "averaged"}, true);
   if(a.has("shape"))
@@ -330,13 +331,14 @@ void set_signals(const Arguments& a, const Index n, const Index target,
   options.number_of_eigenvectors =
       own ? options.signals.cols() : a.integer("k", 1, n - 1, ", one less than V has vertices");
   const Index k = options.number_of_eigenvectors;
-  options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
+  if(a.has("pre_simplify"))
+    options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
   const Index first = Index(options.pre_simplify);
   if(first > 0 && (first < target || first <= k))
     refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " + to_string(target) +
            ", and above k, which is " + to_string(k) + ".");
-  if(own + a.has("eigenpairs") + (first > 0) > 1)
-    refuse("of signals, eigenpairs and pre_simplify only one can be given.");
+  if(own + a.has("eigenpairs") + (first > 0 && first < n) > 1)
+    refuse("of signals, eigenpairs and pre_simplify, which the preset fast sets, only one can be given.");
   if(!a.has("eigenpairs"))
     return;
   const Pairs& given = given_pairs(a, n, options.mass, k);
@@ -350,7 +352,7 @@ Simplification simplify(const Arguments& a)
   const Index vertices = fine->V.rows();
   const SG::Mesh_diagnosis diagnosis = checked(*fine, "V, F");
   const Index n = a.integer("n", 1, vertices, ", as many as V has");
-  SMS::Spectral_edge_collapse_options options = run_options(a);
+  SMS::Spectral_edge_collapse_options options = run_options(a, n);
   set_signals(a, vertices, n, options);
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
