@@ -2,10 +2,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+// Fitted operators: alone, and in the one call.
+
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include "catch.h"
+#include "collapse_helpers.h"
 #include "fitted_operator_helpers.h"
 #include "shapes.h"
 #include "spectral_test_helpers.h"
@@ -15,14 +19,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <random>
 #include <set>
 #include <string>
 #include <vector>
 
-namespace SG = CGAL::Spectral_geometry;
-
+using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -30,6 +34,10 @@ using Eigen::VectorXd;
 using SG::Eigenpairs;
 using SG::Laplace_operator;
 using SG::Operator_fit_options;
+using SMS::Spectral_edge_collapse_options;
+using SMS::Spectral_phase;
+using SMS::Spectral_progress;
+using Result = SMS::Spectral_edge_collapse_result;
 using Sparse = Eigen::SparseMatrix<double>;
 
 namespace {
@@ -87,8 +95,8 @@ double difference(const Sparse& A, const Sparse& B)
 
 void check_definite(const SG::Operator_fit_result& result, const Laplace_operator& own, Index components)
 {
-  CHECK(spectral_test::fault_of_fit(result, own) == "");
-  const std::vector<Index> roots = spectral_test::components_of_graph(own.L);
+  CHECK(fault_of_fit(result, own) == "");
+  const std::vector<Index> roots = components_of_graph(own.L);
   CHECK(std::set<Index>(roots.begin(), roots.end()).size() == std::size_t(components));
   CHECK(SG::number_of_zero_eigenvalues(result.op) == components);
 }
@@ -106,7 +114,7 @@ TEST_CASE("Operators that are right already stay as they are", "[fitted_operator
   CHECK(difference(result.op.B, op.B) < 1e-9);
 
   // A mesh with obtuse angles: the other sides of its triangles make up for the negative weights.
-  const shapes::Matrices grid = spectral_test::wavy_grid_matrices(14, 9);
+  const shapes::Matrices grid = wavy_grid_matrices(14, 9);
   const Laplace_operator obtuse = SG::laplace_operator(grid.V, grid.T, 0.5);
   const MatrixXd L = obtuse.L;
   REQUIRE((L - MatrixXd(L.diagonal().asDiagonal())).maxCoeff() > 0.);
@@ -231,7 +239,7 @@ TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]
   };
   SECTION("border")
   {
-    check(spectral_test::wavy_grid_matrices(9, 7), 20, 1);
+    check(wavy_grid_matrices(9, 7), 20, 1);
   }
   SECTION("as many signals as vertices, less one")
   {
@@ -263,7 +271,7 @@ TEST_CASE("Fitted operators are definite on hostile meshes", "[fitted_operators]
 
 TEST_CASE("Edges of next to no weight do not make up for negative ones", "[fitted_operators]")
 {
-  const shapes::Matrices grid = spectral_test::wavy_grid_matrices(9, 7);
+  const shapes::Matrices grid = wavy_grid_matrices(9, 7);
   Problem p = of_itself(SG::laplace_operator(grid.V, grid.T, 0.5), 20);
   for(Index j = 0; j < p.coarse.L.cols(); ++j)
     for(Sparse::InnerIterator it(p.coarse.L, j); it; ++it)
@@ -468,4 +476,100 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   options = {};
   options.threads = 0;
   refused("threads", options);
+}
+
+TEST_CASE("The one call fits operators to the mesh that it leaves")
+{
+  const shapes::Matrices input = wavy_grid_matrices(36, 32);
+  Spectral_edge_collapse_options options; // best, with relocation
+  options.number_of_eigenvectors = 20;
+  options.fit_operators = true;
+  options.pre_simplify = GENERATE(std::size_t(0), std::size_t(1000));
+  Mesh mesh = make_mesh(input), without = mesh;
+  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+  REQUIRE(result.fitted);
+  CHECK(result.seconds_operator_fit > 0);
+  CHECK(result.fitted->objective_after < result.fitted->objective_before);
+
+  SECTION("the mesh and P are what they are without")
+  {
+    options.fit_operators = false;
+    const Result other = SMS::spectral_edge_collapse(without, 120, options);
+    CHECK(!other.fitted);
+    CHECK(positions(mesh) == positions(without));
+    CHECK(Eigen::MatrixXd(other.restriction) == Eigen::MatrixXd(result.restriction));
+  }
+  SECTION(
+      "they are what fit_operators() gives, and keep the spectrum of the input better than the mesh's own")
+  {
+    const SG::Laplace_operator own = SG::cotangent_laplacian(mesh, options.mass);
+    const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+    const SG::Eigenpairs pairs = SG::eigenpairs(fine, 24, options.eigenpairs_options);
+    if(options.pre_simplify == 0) {
+      const SG::Operator_fit_result direct = SG::fit_operators(own, result.restriction, fine, pairs);
+      CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(result.fitted->op.L)).norm() <
+            1e-9 * own.L.norm());
+      CHECK((Eigen::MatrixXd(direct.op.B) - Eigen::MatrixXd(result.fitted->op.B)).norm() <
+            1e-9 * own.B.norm());
+    }
+    const auto judged = [&](const SG::Laplace_operator& op) {
+      return SG::evaluate_spectrum(fine, pairs, op, SG::eigenpairs(op, 24), result.restriction, 20);
+    };
+    CHECK(judged(result.fitted->op).norm_L < 0.8 * judged(own).norm_L);
+    CHECK(judged(result.fitted->op).errors.mean < 0.8 * judged(own).errors.mean);
+  }
+}
+
+TEST_CASE("Operators are fitted to the eigenpairs that are given")
+{
+  const shapes::Matrices input = wavy_grid_matrices(36, 32);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.fit_operators = true;
+  const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+  options.eigenpairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(fine, 20));
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+  REQUIRE(result.fitted);
+  const SG::Operator_fit_result direct = SG::fit_operators(SG::cotangent_laplacian(mesh, options.mass),
+                                                           result.restriction, fine, *options.eigenpairs);
+  CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(result.fitted->op.L)).norm() <
+        1e-9 * direct.op.L.norm());
+}
+
+TEST_CASE("What stops a fit of operators leaves the mesh that was made")
+{
+  const shapes::Matrices input = wavy_grid_matrices(24, 20);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  options.fit_operators = true;
+  Mesh mesh = make_mesh(input);
+  SECTION("cancelled: P is that of the mesh")
+  {
+    const double fraction = GENERATE(0., 0.5, 0.51);
+    options.progress = [&](const Spectral_progress& p) {
+      return p.phase != Spectral_phase::operator_fit || p.fraction < fraction;
+    };
+    const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+    CHECK(result.stop_reason == Result::Stop_reason::cancelled);
+    CHECK_THAT(result.explanation, ContainsSubstring("before operators were fitted"));
+    CHECK(!result.fitted);
+    CHECK(result.output_vertices == 120);
+    CHECK(result.restriction.rows() == 120);
+    CHECK(result.relocation.moved_vertices > 0);
+  }
+  SECTION("signals: refused before anything is changed")
+  {
+    options.signals = input.V;
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 120, options),
+                      ContainsSubstring("leave one of them out"));
+    CHECK(positions(mesh) == input.V);
+  }
+  SECTION("an option out of range: refused before anything is changed")
+  {
+    options.operator_fit.rings = 3;
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 120, options),
+                      ContainsSubstring("rings must be 1 or 2"));
+    CHECK(positions(mesh) == input.V);
+  }
 }
