@@ -81,7 +81,7 @@ struct Input
 
 inline Input eigen_input(const shapes::Matrices& mesh, const SG::Mass mass, const SG::Eigenpairs& pairs)
 {
-  return {mesh, basis_of_pairs(SG::laplace_operator(mesh.V, mesh.T, SG::mass_blend(mass)), pairs)};
+  return {mesh, basis_of_pairs(SG::laplace_operator(mesh.V, mesh.T, mass), pairs, mass)};
 }
 
 struct Check

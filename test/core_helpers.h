@@ -44,7 +44,7 @@ inline Core make_core(const Slow_mesh& mesh, const Basis& basis, const Z_rows z,
   const bool stored = z == Z_rows::stored;
   Core core;
   core.set_basis(basis.F, stored ? Eigen::VectorXd() : basis.lambda, stored ? basis.Z : Eigen::MatrixXd(),
-                 basis.theta, 1 / basis.area, parameters);
+                 basis.local, 1 / basis.area, parameters);
   std::vector<Eigen::Vector3d> points;
   Rings rings;
   rings.resize(std::size_t(mesh.V.rows()));

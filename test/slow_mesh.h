@@ -34,7 +34,7 @@ public:
     : V(mesh.V)
     , F(basis.F)
     , Z(basis.Z)
-    , m_theta(basis.theta)
+    , m_local(basis.local)
     , m_area(basis.area)
   {
     for(Eigen::Index f = 0; f < mesh.T.rows(); ++f)
@@ -109,6 +109,8 @@ public:
   {
     for(Eigen::MatrixXd* rows : {&F, &Z})
       rows->row(kept) = (1 - alpha) * rows->row(kept) + alpha * rows->row(removed);
+    if(SG::Operator_coefficients& c = m_local.coefficients; c.rows() != 0)
+      c.row(kept) = (1 - alpha) * c.row(kept) + alpha * c.row(removed);
     V.row(kept) = point;
     std::vector<Eigen::Vector3i> left;
     for(Eigen::Vector3i t : triangles) {
@@ -161,15 +163,19 @@ public:
     const Eigen::Index n = Eigen::Index(slots.size());
     shapes::Matrices mesh{Eigen::MatrixXd(n, 3), Eigen::MatrixXi(triangles.size(), 3)};
     Eigen::MatrixXd PF(n, F.cols()), PZ(n, Z.cols());
+    SG::Local_operator local = m_local;
+    local.coefficients.resize(m_local.coefficients.rows() == 0 ? 0 : n, 7);
     for(Eigen::Index i = 0; i < n; ++i) {
       mesh.V.row(i) = V.row(slots[i]);
       PF.row(i) = F.row(slots[i]);
       PZ.row(i) = Z.row(slots[i]);
+      if(local.coefficients.rows() != 0)
+        local.coefficients.row(i) = m_local.coefficients.row(slots[i]);
     }
     for(std::size_t f = 0; f < triangles.size(); ++f)
       for(int k = 0; k < 3; ++k)
         mesh.T(f, k) = index(triangles[f](k));
-    const Eigen::VectorXd E = energies(mesh, m_theta, m_area, PF, PZ);
+    const Eigen::VectorXd E = energies(mesh, local, m_area, PF, PZ);
     Eigen::VectorXd result = Eigen::VectorXd::Zero(V.rows());
     for(Eigen::Index i = 0; i < n; ++i)
       result(slots[i]) = E(i);
@@ -194,7 +200,8 @@ public:
   std::vector<Eigen::Vector3i> triangles;
 
 private:
-  double m_theta, m_area;
+  SG::Local_operator m_local;
+  double m_area;
 };
 
 inline Eigen::Vector3d on_edge(const Slow_mesh& mesh, const Edge& e, const double alpha)

@@ -29,15 +29,16 @@ namespace SG = CGAL::Spectral_geometry;
 struct Basis
 {
   Eigen::MatrixXd F, Z;
-  Eigen::VectorXd lambda; // empty for signals
-  double theta = 0;
-  double area = 1;
+  Eigen::VectorXd lambda;   // empty for signals
+  SG::Local_operator local; // for the vertices of the input
+  double area = 1;          // weighted by the density
 };
 
-inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs& pairs)
+inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs& pairs,
+                            const SG::Local_operator& local)
 {
   Basis basis;
-  basis.theta = op.theta;
+  basis.local = local;
   basis.area = op.mass.sum();
   basis.F = std::sqrt(basis.area) * pairs.vectors;
   basis.lambda = basis.area * pairs.values;
@@ -45,18 +46,24 @@ inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs
   return basis;
 }
 
-inline Basis eigenbasis(const shapes::Matrices& mesh, const double theta, const Eigen::Index K)
+inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs& pairs)
 {
-  const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, theta);
-  return basis_of_pairs(op, SG::eigenpairs(op, K));
+  return basis_of_pairs(op, pairs, op.theta);
+}
+
+inline Basis eigenbasis(const shapes::Matrices& mesh, const SG::Local_operator& local, const Eigen::Index K)
+{
+  const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, local);
+  return basis_of_pairs(op, SG::eigenpairs(op, K), local);
 }
 
 // Z = B^-1 L F on the mesh scaled to unit area.
-inline Basis signal_basis(const shapes::Matrices& mesh, const double theta, const Eigen::MatrixXd& signals)
+inline Basis signal_basis(const shapes::Matrices& mesh, const SG::Local_operator& local,
+                          const Eigen::MatrixXd& signals)
 {
-  const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, theta);
+  const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, local);
   Basis basis;
-  basis.theta = theta;
+  basis.local = local;
   basis.area = op.mass.sum();
   basis.F = signals;
   basis.Z = basis.area * Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(op.B).solve(op.L * signals);
@@ -76,17 +83,17 @@ inline Eigen::MatrixXd rough_signals(const shapes::Matrices& mesh, const Eigen::
 }
 
 // E_w = || (B P Z)_w - (L P F)_w ||^2 / M_w of every vertex w of a mesh, from its assembled matrices (Eq. 2).
-inline Eigen::VectorXd energies(const shapes::Matrices& mesh, const double theta, const double input_area,
-                                const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
+inline Eigen::VectorXd energies(const shapes::Matrices& mesh, const SG::Local_operator& local,
+                                const double input_area, const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
 {
-  const SG::Laplace_operator op = SG::laplace_operator(mesh.V / std::sqrt(input_area), mesh.T, theta);
+  const SG::Laplace_operator op = SG::laplace_operator(mesh.V / std::sqrt(input_area), mesh.T, local);
   const Eigen::MatrixXd R = op.B * PZ - op.L * PF;
   return R.rowwise().squaredNorm().cwiseQuotient(op.mass);
 }
 
 inline double energy(const shapes::Matrices& mesh, const Basis& basis, const Eigen::SparseMatrix<double>& P)
 {
-  return energies(mesh, basis.theta, basis.area, P * basis.F, P * basis.Z).sum();
+  return energies(mesh, basis.local.restricted(P), basis.area, P * basis.F, P * basis.Z).sum();
 }
 
 // What is wrong with a restriction and its vertex map; empty if nothing is.

@@ -77,7 +77,7 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
   std::mt19937 random(12);
   REQUIRE(simplify(core, mesh, 40, random) == 40);
   parameters.placement = Spectral_placement_strategy::on_edge;
-  const Core on_edge_core = make_core(mesh, Basis{mesh.F, mesh.Z, basis.lambda, basis.theta, basis.area},
+  const Core on_edge_core = make_core(mesh, Basis{mesh.F, mesh.Z, basis.lambda, basis.local, basis.area},
                                       Z_rows::from_lambda, parameters);
   Core_kernel kernel;
   const double before = mesh.energy();

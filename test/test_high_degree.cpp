@@ -145,7 +145,7 @@ TEST_CASE("Time and memory are linear in the degree")
   CGAL::Real_timer timer;
   timer.start();
   Core core;
-  core.set_basis(basis.F, Eigen::VectorXd(), basis.Z, basis.theta, 1 / basis.area, Parameters());
+  core.set_basis(basis.F, Eigen::VectorXd(), basis.Z, basis.local, 1 / basis.area, Parameters());
   core.set_geometry(std::move(points), std::move(rings));
   CHECK(core.evaluate_all([](double) { return true; }));
   CHECK(core.number_of_evaluations() == std::size_t(6 * d));

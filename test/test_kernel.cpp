@@ -291,7 +291,7 @@ TEST_CASE("Costs are accurate on a mesh that is fine for its signals")
   shapes::Matrices input = scaled(wavy_grid_matrices(10, 10), 0.05);
   input.V.col(2) *= steep ? 4. : 0.1;
   Basis basis;
-  basis.theta = theta;
+  basis.local = theta;
   const double pi = shapes::pi;
   basis.F.resize(input.V.rows(), 2);
   basis.F.col(0) = std::sqrt(2.) * (pi * wave * input.V.col(0).array() + 0.4).cos();

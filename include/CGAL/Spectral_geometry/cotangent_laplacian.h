@@ -12,11 +12,13 @@
 #include <CGAL/number_utils.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+#include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -27,25 +29,6 @@ namespace Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
-
-/// \brief the mass matrix of linear finite elements: lumped, or the mean of lumped and consistent.
-///
-/// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles and
-/// largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and Wajid 2010).
-enum class Mass { lumped, averaged };
-
-/// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$:
-/// 0 for `Mass::lumped`, 1/2 for `Mass::averaged`.
-inline double mass_blend(Mass mass)
-{
-  return mass == Mass::averaged ? 0.5 : 0.;
-}
-
-/// \brief `"lumped"` or `"averaged"`.
-inline const char* mass_name(Mass mass)
-{
-  return mass == Mass::averaged ? "averaged" : "lumped";
-}
 
 /// \brief a triangle mesh as two matrices.
 struct Mesh_matrices
@@ -67,6 +50,8 @@ struct Laplace_operator
   Eigen::VectorXd mass;
   /// the blend \f$\theta\f$ in [0, 1] that made B
   double theta = 0.;
+  /// whether `mass` is that of mixed Voronoi areas
+  bool voronoi = false;
 };
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which
@@ -127,6 +112,16 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V);
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n);
 
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T);
+
+/// Throws `std::invalid_argument` unless coefficients are none, or one row for each of n vertices, positive (definite) and finite.
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
+
+/// Those of the operator at a triangle, and its area weighted by the density.
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
+                                                                   const std::array<int, 3>& corners,
+                                                                   const Operator_coefficients& coefficients);
+
 } // namespace internal
 
 /// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's area at each corner.
@@ -154,17 +149,19 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
 /// weights of obtuse angles are left as they are. The boundary condition is the natural one (Neumann).
 /// \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$: \f$M_{lumped}\f$ has one third of the incident area on its
 /// diagonal; \f$M_{consistent}\f$ adds A/6 on the diagonal and A/12 off it for each face.
-/// Faces of zero area contribute nothing.
+/// Faces of zero area contribute nothing. Other masses, densities and conductivities: see `Local_operator`.
 ///
 /// \param V      n x 3 positions, in any unit of length u; B is in u^2, eigenvalues in u^-2
 /// \param T      m x 3 vertex indices, counted from 0
-/// \param theta  the blend in [0, 1]: 0 lumped (default), 1/2 averaged, 1 consistent
+/// \param op     a mass by name, the blend \f$\theta\f$ in [0, 1] (0 lumped, the default, 1/2 averaged, 1 consistent), or an operator
+///               with coefficients
 ///
 /// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an index out of
 ///         range, a face that uses a vertex twice, a needle whose cotangent is larger than 1e12, an isolated vertex, a vertex
-///         with only zero-area faces.
+///         with only zero-area faces, a coefficient that is not positive.
 CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T, double theta = 0.);
+                                                                const Eigen::MatrixXi& T,
+                                                                const Local_operator& op = {});
 
 /// \brief copies positions and faces of a triangle mesh into matrices.
 ///
@@ -216,7 +213,7 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = 
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm   the mesh; rows and columns follow `vertices(tm)`
-/// \param mass lumped (default) or averaged
+/// \param mass lumped (default), averaged or voronoi
 /// \param np   named parameters: `vertex_point_map`
 ///
 /// \throws std::invalid_argument as these two functions do
@@ -225,7 +222,7 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::l
                                      const NamedParameters& np = parameters::default_values())
 {
   const Mesh_matrices mesh = mesh_matrices(tm, np);
-  return laplace_operator(mesh.V, mesh.T, mass_blend(mass));
+  return laplace_operator(mesh.V, mesh.T, mass);
 }
 
 /// @}

@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+#include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -36,7 +37,8 @@ the place of the cost, and E is only reported.
 @param T       the triangles of the coarse mesh, an oriented manifold, changed in place
 @param P       coarse x fine, the restriction
 @param F, Z    fine x K, the signals and B^-1 L F; for eigenvectors Phi and Phi Lambda
-@param theta   weight of the consistent mass in B, in [0, 1]
+@param op      the operator, with coefficients for the coarse vertices or none; a mass by name, or the weight theta of the
+               consistent mass
 @param constrained  edges that stay, each as a pair of vertices in either order; pairs that are no edge are ignored
 @param options which edges, guards, when to stop
 
@@ -45,7 +47,7 @@ out of range, `Cancelled` when the progress callback returned false; T is then a
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result
 flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
-           const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
+           const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
            const std::vector<std::pair<int, int>>& constrained = {}, const Edge_flip_options& options = {});
 
 /// @}

@@ -131,6 +131,18 @@ inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpair
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options = {});
 
+/// \brief returns the first K eigenpairs of any pencil \f$L \phi = \lambda B \phi\f$, with or without a mesh.
+///
+/// \param L  n x n, symmetric, positive semidefinite, in any unit: the shift is taken from the pencil
+/// \param B  n x n, symmetric, positive definite, with positive row sums: a mass matrix
+/// \param K, options  as above
+///
+/// \throws what the overload above does, and std::invalid_argument that names the first row in which a matrix is not symmetric,
+///         or B has no positive sum
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
+                                                    const Eigen::SparseMatrix<double>& B, Eigen::Index K,
+                                                    const Eigenpairs_options& options = {});
+
 /// @}
 
 } // namespace Spectral_geometry

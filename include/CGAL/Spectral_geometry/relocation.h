@@ -43,7 +43,7 @@ be repaired, and a descent cancels it by distorting the shape.
 @param P      coarse x fine, the restriction
 @param fine   the fine mesh
 @param F, Z   fine x K, the signals and B^-1 L F; for eigenvectors Phi and Phi Lambda
-@param theta  weight of the consistent mass in B, of both meshes
+@param op     the operator, with coefficients for the coarse vertices or none; a mass by name, or the weight theta of the consistent mass
 @param fixed  for each coarse vertex whether it must stay; empty: none
 @param options what to minimise, guards, when to stop
 
@@ -52,7 +52,7 @@ progress callback returned false; V is then as it was.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
     Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
-    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
     const std::vector<bool>& fixed = {}, const Relocation_options& options = {});
 
 /// @}

@@ -51,13 +51,13 @@ public:
   @param T      m x 3, the triangles of the coarse mesh, an oriented manifold
   @param F      n x K, the restricted signals P F, one row for each coarse vertex
   @param Z      n x K, the restricted Laplacian of the signals, P B^-1 L F; for eigenvectors P Phi Lambda
-  @param theta  weight of the consistent mass in B, in [0, 1]
+  @param op     the operator, with coefficients for the n vertices or none; or the weight theta of the consistent mass
 
-  Throws `std::invalid_argument` if the sizes do not match, an index is out of range or theta is.
+  Throws `std::invalid_argument` if the sizes do not match, an index is out of range or the operator is.
   */
   Relocation_energy(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                    const double theta)
-    : m_geometry(T, F.rows(), theta)
+                    const Local_operator& op)
+    : m_geometry(T, F.rows(), op)
     , m_E(Eigen::VectorXd::Zero(F.rows()))
   {
     if(Z.rows() != F.rows() || Z.cols() != F.cols())

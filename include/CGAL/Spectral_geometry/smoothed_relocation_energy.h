@@ -71,7 +71,7 @@ public:
   /*!
   @param T      m x 3, the triangles of the coarse mesh, an oriented manifold
   @param F, Z   n x K, the restricted signals and their restricted Laplacians; K may be 0 if `moving` is given
-  @param theta  weight of the consistent mass in B, in [0, 1]
+  @param op     the operator, with coefficients for the n vertices or none; or the weight theta of the consistent mass
   @param tau    positive, in the inverse of the unit of eigenvalues
   @param mu     weight of E, not negative
   @param moving signals that depend on the positions, or null; not owned
@@ -79,9 +79,9 @@ public:
   Throws `std::invalid_argument` if the sizes do not match, an index or a number is out of range.
   */
   Smoothed_relocation_energy(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                             const double theta, const double tau, const double mu,
+                             const Local_operator& op, const double tau, const double mu,
                              Position_dependent_signals* moving = nullptr)
-    : m_geometry(T, F.rows(), theta)
+    : m_geometry(T, F.rows(), op)
     , m_tau(tau)
     , m_mu(mu)
     , m_moving(moving)

@@ -103,6 +103,8 @@ struct Spectral_edge_collapse_result
   /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
+  /// P times `Spectral_options::coefficients`: those of the operator of the coarse mesh, rows as in P; empty without
+  Spectral_geometry::Operator_coefficients coefficients;
   /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
   Collapse_log log;
   /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input without
@@ -381,6 +383,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
   using parameters::get_parameter;
   // The vertices to keep may go on under other handles now: they are known by index, no longer by the user's map.
   options.kept_vertices = first.kept_vertices;
+  if(options.coefficients.rows() != 0)
+    options.coefficients = first.log.forest().restriction(first.slots) * options.coefficients;
   const auto policies_np =
       parameters::vertex_point_map(choose_parameter(get_parameter(np, internal_np::vertex_point),
                                                     get_property_map(vertex_point, mesh)))
@@ -477,6 +481,8 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);
   else
     internal::run_spectral_stage(mesh, number_of_vertices, options, np, np, first, result);
+  if(options.coefficients.rows() != 0)
+    result.coefficients = result.restriction * options.coefficients;
   result.seconds_total = timer.time();
   return result;
 }

@@ -69,7 +69,7 @@ template <class TriangleMesh, class NamedParameters>
 Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                                                    const Spectral_geometry::Mesh_matrices& fine,
                                                    const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                                                   const double theta,
+                                                   const Spectral_geometry::Local_operator& op,
                                                    const Spectral_geometry::Relocation_options& options,
                                                    const std::vector<bool>& kept, const NamedParameters& np)
 {
@@ -84,7 +84,7 @@ Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eig
   for(std::size_t v = 0; v < kept.size(); ++v)
     fixed[v] = fixed[v] || kept[v];
   Spectral_geometry::Relocation_result result =
-      Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, theta, fixed, options);
+      Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   const auto points =
       choose_parameter(get_parameter(np, internal_np::vertex_point), get_property_map(vertex_point, mesh));
   Eigen::Index i = 0;
@@ -128,7 +128,7 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const NamedParameters& np = parameters::default_values())
 {
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(),
-                                 Spectral_geometry::mass_blend(mass), options, {}, np);
+                                 mass, options, {}, np);
 }
 
 /// @}

@@ -37,11 +37,11 @@ public:
 
   /// F and Z: the restricted signals.
   Edge_flipper(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Flip_energy::Rows& F,
-               const Flip_energy::Rows& Z, const double theta,
+               const Flip_energy::Rows& Z, const Local_operator& op,
                const std::vector<std::pair<int, int>>& constrained, const Edge_flip_options& options)
     : m_options(options)
     , m_mesh(T, V.rows())
-    , m_energy(V, m_mesh, F, Z, theta)
+    , m_energy(V, m_mesh, F, Z, op)
     , m_guards(V, m_mesh, options)
     , m_smallest_gain(1e-10 * m_energy.value())
     , m_version(std::size_t(m_mesh.number_of_edges()), 0)

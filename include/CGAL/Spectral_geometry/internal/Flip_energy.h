@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Flip_connectivity.h>
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 
 #include <Eigen/Core>
 
@@ -34,13 +35,14 @@ public:
     Triangle_cotangents shape;
   };
 
-  /// F and Z: the restricted signals, one row for each vertex.
-  Flip_energy(const Eigen::MatrixXd& V, const Flip_connectivity& mesh, Rows F, Rows Z, const double theta)
+  /// F and Z: the restricted signals, one row for each vertex; `op` has coefficients for the vertices, or none.
+  Flip_energy(const Eigen::MatrixXd& V, const Flip_connectivity& mesh, Rows F, Rows Z,
+              const Local_operator& op)
     : m_mesh(mesh)
     , m_V(V)
     , m_F(std::move(F))
     , m_Z(std::move(Z))
-    , m_theta(theta)
+    , m_op(op)
     , m_E(V.rows())
     , m_R(m_F.cols())
   {
@@ -83,7 +85,7 @@ public:
 private:
   Triangle triangle(const std::array<int, 3>& corners) const
   {
-    return {corners, triangle_cotangents(m_V.row(corners[0]), m_V.row(corners[1]), m_V.row(corners[2]))};
+    return {corners, local_cotangents(m_V, corners, m_op.coefficients)};
   }
 
   // E_w as it is, or with two triangles in the place of those of a quad.
@@ -108,18 +110,21 @@ private:
         continue;
       const int x = (k + 1) % 3, y = (k + 2) % 3;
       const int a = t.corners[std::size_t(x)], b = t.corners[std::size_t(y)];
-      const double area = t.shape.area, on = (2 - m_theta) / 6 * area, off = m_theta / 12 * area;
+      const double area = t.shape.area, theta = m_op.theta,
+                   share = m_op.voronoi ? mixed_voronoi_share(t.shape.cot(k), t.shape.cot(x), t.shape.cot(y))
+                                        : 1. / 3,
+                   on = ((1 - theta) * share + theta / 6) * area, off = theta / 12 * area;
       m_R += on * m_Z.row(w) + off * (m_Z.row(a) + m_Z.row(b)) +
              0.5 * t.shape.cot(y) * (m_F.row(a) - m_F.row(w)) +
              0.5 * t.shape.cot(x) * (m_F.row(b) - m_F.row(w));
-      mass += area / 3;
+      mass += ((1 - theta) * share + theta / 3) * area;
     }
   }
 
   const Flip_connectivity& m_mesh;
   const Eigen::MatrixXd& m_V;
   Rows m_F, m_Z;
-  double m_theta;
+  Local_operator m_op;
   std::vector<Triangle> m_triangles; // by face
   Eigen::VectorXd m_E;
   Eigen::RowVectorXd m_R;

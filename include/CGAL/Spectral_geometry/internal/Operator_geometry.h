@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -50,8 +51,9 @@ public:
     }
   };
 
-  Operator_geometry(const Eigen::MatrixXi& T, const Index n, const double theta)
-    : m_theta(theta)
+  /// `op` has coefficients for the n vertices, or none.
+  Operator_geometry(const Eigen::MatrixXi& T, const Index n, const Local_operator& op)
+    : m_op(op)
   {
     check(T, n);
     m_rows.assign(std::size_t(n), {});
@@ -69,7 +71,7 @@ public:
   Index number_of_vertices() const { return Index(m_rows.size()); }
   const std::vector<Edge>& edges() const { return m_edges; }
   const std::vector<Entry>& row(const Index w) const { return m_rows[std::size_t(w)]; }
-  double theta() const { return m_theta; }
+  const Local_operator& local_operator() const { return m_op; }
 
   Entries zero_entries() const
   {
@@ -85,15 +87,16 @@ public:
     for(const Triangle& t : m_triangles) {
       Eigen::Vector3d edge[3];
       edges_of(t, V, edge);
-      const Triangle_element element = triangle_element(edge);
+      const Triangle_element element = element_of(t, edge);
       if(element.is_degenerate())
         return false;
-      const double area = element.twice_area / 2;
+      const double area = density_of(t) * element.twice_area / 2;
       for(int k = 0; k < 3; ++k) {
+        const double lumped = (1 - m_op.theta) * share(element, k);
         entries.L(t.e[k]) -= 0.5 * element.dot[k] / element.twice_area;
-        entries.B(t.e[k]) += m_theta * area / 12;
-        entries.B_diagonal(t.v[k]) += area * ((1 - m_theta) / 3 + m_theta / 6);
-        entries.mass(t.v[k]) += area / 3;
+        entries.B(t.e[k]) += m_op.theta * area / 12;
+        entries.B_diagonal(t.v[k]) += area * (lumped + m_op.theta / 6);
+        entries.mass(t.v[k]) += area * (lumped + m_op.theta / 3);
       }
     }
     return true;
@@ -117,8 +120,13 @@ private:
   void check(const Eigen::MatrixXi& T, const Index n) const
   {
     const std::string who = "relocation: ";
-    if(!(m_theta >= 0 && m_theta <= 1))
-      throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(m_theta) + ".");
+    if(!(m_op.theta >= 0 && m_op.theta <= 1))
+      throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(m_op.theta) +
+                                  ".");
+    if(m_op.coefficients.rows() != 0 && m_op.coefficients.rows() != n)
+      throw std::invalid_argument(who + "there are coefficients for " +
+                                  std::to_string(m_op.coefficients.rows()) + " vertices, but the mesh has " +
+                                  std::to_string(n) + "; give one row for each.");
     if(T.cols() != 3)
       throw std::invalid_argument(who + "T has " + std::to_string(T.cols()) +
                                   " columns; pass a matrix of three.");
@@ -148,20 +156,75 @@ private:
       edge[k] = V.row(t.v[(k + 2) % 3]) - V.row(t.v[(k + 1) % 3]);
   }
 
-  // With l_k the lengths, A the area: cot_k = (l_{k+1}^2 + l_{k+2}^2 - l_k^2) / (4 A).
+  Point_coefficients mean_coefficients(const Triangle& t) const
+  {
+    return (m_op.coefficients.row(t.v[0]) + m_op.coefficients.row(t.v[1]) + m_op.coefficients.row(t.v[2]))
+               .transpose() /
+           3;
+  }
+
+  bool has_coefficients() const { return m_op.coefficients.rows() != 0; }
+
+  double density_of(const Triangle& t) const { return has_coefficients() ? mean_coefficients(t)[0] : 1.; }
+
+  Triangle_element element_of(const Triangle& t, const Eigen::Vector3d (&edge)[3]) const
+  {
+    return has_coefficients() ? triangle_element(edge, mean_coefficients(t)) : triangle_element(edge);
+  }
+
+  double share(const Triangle_element& t, const int k) const
+  {
+    return m_op.voronoi ? mixed_voronoi_share(t.dot[k], t.dot[(k + 1) % 3], t.dot[(k + 2) % 3]) : 1. / 3;
+  }
+
+  // Derivatives with respect to the cotangents, of which half are in L, and to the weighted area.
   void add_gradient(const Triangle& t, const Entries& d, const Positions& V, Positions& gradient) const
   {
     Eigen::Vector3d edge[3];
     edges_of(t, V, edge);
+    const Triangle_element element = element_of(t, edge);
+    double by_area = 0, by_cotangent[3], by_share[3];
+    for(int k = 0; k < 3; ++k) {
+      const double lumped = (1 - m_op.theta) * share(element, k);
+      by_area += d.mass(t.v[k]) * (lumped + m_op.theta / 3) +
+                 d.B_diagonal(t.v[k]) * (lumped + m_op.theta / 6) + d.B(t.e[k]) * m_op.theta / 12;
+      by_cotangent[k] = -0.5 * d.L(t.e[k]);
+      by_share[k] = d.mass(t.v[k]) + d.B_diagonal(t.v[k]);
+    }
+    const double density = density_of(t);
+    if(m_op.voronoi)
+      add_gradient_of_shares(element, by_share, density * element.twice_area / 2, by_cotangent);
+    if(has_coefficients())
+      add_gradient_of_conductivity(t, edge, element, by_cotangent, density * by_area, gradient);
+    else
+      add_gradient_of_cotangents(t, edge, by_cotangent, by_area, gradient);
+  }
+
+  // share_k = (1 + c_i c_j / Q) / 4 with Q the sum of the three products, in a triangle that is not obtuse.
+  static void add_gradient_of_shares(const Triangle_element& element, const double (&by_share)[3],
+                                     const double area, double (&by_cotangent)[3])
+  {
+    double c[3];
+    for(int k = 0; k < 3; ++k)
+      c[k] = element.dot[k] / element.twice_area;
+    const double Q = c[0] * c[1] + c[1] * c[2] + c[2] * c[0];
+    if(c[0] < 0 || c[1] < 0 || c[2] < 0 || !(Q > 0))
+      return;
+    for(int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double factor = by_share[k] * area / (4 * Q), ratio = c[i] * c[j] / Q;
+      by_cotangent[i] += factor * (c[j] - ratio * (c[j] + c[k]));
+      by_cotangent[j] += factor * (c[i] - ratio * (c[k] + c[i]));
+      by_cotangent[k] -= factor * ratio * (c[i] + c[j]);
+    }
+  }
+
+  // With l_k the lengths, A the area: cot_k = (l_{k+1}^2 + l_{k+2}^2 - l_k^2) / (4 A).
+  static void add_gradient_of_cotangents(const Triangle& t, const Eigen::Vector3d (&edge)[3],
+                                         const double (&by_cotangent)[3], double by_area, Positions& gradient)
+  {
     const Eigen::Vector3d normal = edge[0].cross(edge[1]);
     const double double_area = normal.norm(), area = double_area / 2;
-
-    double by_area = 0, by_cotangent[3];
-    for(int k = 0; k < 3; ++k) {
-      by_area += d.mass(t.v[k]) / 3 + d.B_diagonal(t.v[k]) * ((1 - m_theta) / 3 + m_theta / 6) +
-                 d.B(t.e[k]) * m_theta / 12;
-      by_cotangent[k] = -0.5 * d.L(t.e[k]);
-    }
     double quadratic = 0, by_squared_length[3];
     for(int k = 0; k < 3; ++k) {
       by_squared_length[k] = by_cotangent[(k + 1) % 3] + by_cotangent[(k + 2) % 3] - by_cotangent[k];
@@ -177,7 +240,42 @@ private:
     }
   }
 
-  double m_theta;
+  // cot_k = -r_{k+1} . D r_{k+2} / |m| with m = e_0 x e_1 and r_k = m / |m| x e_k, backwards.
+  void add_gradient_of_conductivity(const Triangle& t, const Eigen::Vector3d (&edge)[3],
+                                    const Triangle_element& element, const double (&by_cotangent)[3],
+                                    const double by_area, Positions& gradient) const
+  {
+    const Eigen::Matrix3d D = conductivity(mean_coefficients(t));
+    const double length = element.twice_area;
+    const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
+    Eigen::Vector3d by_turned[3], turned[3], by_edge[3];
+    for(int k = 0; k < 3; ++k) {
+      turned[k] = normal.cross(edge[k]);
+      by_turned[k].setZero();
+    }
+    double by_length = by_area / 2;
+    for(int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      by_turned[i] -= by_cotangent[k] / length * (D * turned[j]);
+      by_turned[j] -= by_cotangent[k] / length * (D * turned[i]);
+      by_length -= by_cotangent[k] * element.dot[k] / (length * length);
+    }
+    Eigen::Vector3d by_normal = Eigen::Vector3d::Zero();
+    for(int k = 0; k < 3; ++k) {
+      by_edge[k] = by_turned[k].cross(normal);
+      by_normal += edge[k].cross(by_turned[k]);
+    }
+    const Eigen::Vector3d by_cross =
+        (by_normal - normal.dot(by_normal) * normal) / length + by_length * normal;
+    by_edge[0] += edge[1].cross(by_cross);
+    by_edge[1] += by_cross.cross(edge[0]);
+    for(int k = 0; k < 3; ++k) {
+      gradient.row(t.v[(k + 2) % 3]) += by_edge[k].transpose();
+      gradient.row(t.v[(k + 1) % 3]) -= by_edge[k].transpose();
+    }
+  }
+
+  Local_operator m_op;
   std::vector<Triangle> m_triangles;
   std::vector<Edge> m_edges;
   std::vector<std::vector<Entry>> m_rows;

@@ -122,7 +122,7 @@ public:
 
   Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
              const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-             const double theta, const std::vector<bool>& fixed, const Relocation_options& options)
+             const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
     : m_options(options)
     , m_start(V)
     , m_T(T)
@@ -133,7 +133,7 @@ public:
     m_timer.start();
     set_parts(P);
     set_guards(fixed);
-    set_objective(P, F, Z, theta);
+    set_objective(P, F, Z, op);
     m_has_reverted.assign(std::size_t(m_start.rows()), 0);
     if(m_options.keep_free_of_self_intersections)
       m_crossing = self_intersecting_faces(m_start, m_T);
@@ -253,7 +253,7 @@ private:
   }
 
   void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                     const double theta)
+                     const Local_operator& op)
   {
     const Eigen::MatrixXd carried_F = P * F, carried_Z = P * Z;
     const double largest =
@@ -266,7 +266,7 @@ private:
       m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z);
     }
     m_objective = std::make_unique<Relocation_objective>(
-        m_T, carried_F, carried_Z, theta, m_size, m_start, m_sampled.get(),
+        m_T, carried_F, carried_Z, op, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
         largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
     m_objective->set_threads(m_options.threads);

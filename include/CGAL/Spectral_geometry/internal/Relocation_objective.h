@@ -146,19 +146,19 @@ public:
   using Positions = Operator_geometry::Positions;
 
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                       const double theta, const Size_bounds& size, const Positions& start,
+                       const Local_operator& op, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,
                        const double plain, const double beyond)
-    : m_E(T, F, Z, theta)
+    : m_E(T, F, Z, op)
     , m_size(size)
-    , m_spectrum(T, start, theta, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
+    , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
   {
     // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
     if(tau > 0 || sampled) {
       const double smallest = 1e-6 * size.area() / double(F.rows());
       const Eigen::Index columns = carried ? F.cols() : 0;
-      m_smoothed = std::make_unique<Smoothed_relocation_energy>(
-          T, F.leftCols(columns), Z.leftCols(columns), theta, (std::max)(tau, smallest), 0., sampled);
+      m_smoothed = std::make_unique<Smoothed_relocation_energy>(T, F.leftCols(columns), Z.leftCols(columns),
+                                                                op, (std::max)(tau, smallest), 0., sampled);
       m_smoothed->value(start);
       if(m_smoothed->plain_part() > 0)
         m_smoothed->set_mu(plain * m_smoothed->smoothed_part() / m_smoothed->plain_part());

@@ -42,10 +42,10 @@ public:
   using Index = Eigen::Index;
 
   /// Without modes, or where a vertex has no face, it does nothing.
-  Spectrum_guard(const Eigen::MatrixXi& T, const Positions& V, const double theta, const Index first,
+  Spectrum_guard(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op, const Index first,
                  const Index last)
     : m_T(T)
-    , m_geometry(T, V.rows(), theta)
+    , m_geometry(T, V.rows(), op)
     , m_first(first)
     , m_last((std::min)(last, V.rows() - 1))
   {
@@ -62,7 +62,7 @@ public:
   {
     if(!is_active())
       return;
-    const Laplace_operator op = laplace_operator(V, m_T, m_geometry.theta());
+    const Laplace_operator op = laplace_operator(V, m_T, m_geometry.local_operator());
     if(m_vectors.size() == 0)
       find(op);
     else

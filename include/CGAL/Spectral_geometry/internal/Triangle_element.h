@@ -52,6 +52,46 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
   return t;
 }
 
+/// Density, then the conductivity as xx, xy, xz, yy, yz, zz: a row of `Operator_coefficients`.
+using Point_coefficients = Eigen::Matrix<double, 7, 1>;
+
+inline Eigen::Matrix3d conductivity(const Point_coefficients& c)
+{
+  Eigen::Matrix3d D;
+  D << c[1], c[2], c[3], c[2], c[4], c[5], c[3], c[5], c[6];
+  return D;
+}
+
+/// The same for an operator with coefficients, see `Local_operator`: edges are turned by a right angle within the triangle, and
+/// products are those of the conductivity. The area is that of the triangle, without the density.
+inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3], const Point_coefficients& mean)
+{
+  Triangle_element t = triangle_element(edge);
+  if(t.is_degenerate())
+    return t;
+  const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
+  const Eigen::Matrix3d D = conductivity(mean);
+  Eigen::Vector3d turned[3];
+  for(int k = 0; k < 3; ++k)
+    turned[k] = normal.cross(edge[k]);
+  for(int k = 0; k < 3; ++k)
+    t.dot[k] = -turned[(k + 1) % 3].dot(D * turned[(k + 2) % 3]);
+  return t;
+}
+
+/// The part of a triangle's area that goes to its corner of cotangent c, a and b being those of the others: its Voronoi region, or in
+/// an obtuse triangle half or a quarter (Meyer et al. 2003, section 3.3). A common factor of the three does not matter: for
+/// an operator with a conductivity these are regions in its metric.
+inline double mixed_voronoi_share(const double c, const double a, const double b)
+{
+  if(c < 0)
+    return 0.5;
+  if(a < 0 || b < 0)
+    return 0.25;
+  const double all = a * b + c * (a + b);
+  return all > 0 ? 0.25 * (1 + a * b / all) : 1. / 3;
+}
+
 } // namespace internal
 } // namespace Spectral_geometry
 } // namespace CGAL

@@ -10,6 +10,7 @@
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -43,9 +44,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
   return Eigen::Index(std::count(kernel.begin(), kernel.end(), true));
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
-                                                                      const Eigen::Vector3d& q,
-                                                                      const Eigen::Vector3d& r)
+namespace internal {
+
+// With coefficients the area is weighted by the density.
+inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                         const Eigen::Vector3d& r, const Point_coefficients* mean)
 {
   Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
   const double extent = (std::max)(
@@ -60,16 +63,24 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eige
     for(int c = 0; c < 3; ++c)
       e(c) = std::scalbn(e(c), -exponent);
 
-  const internal::Triangle_element t = internal::triangle_element(edge);
+  const Triangle_element t = mean ? triangle_element(edge, *mean) : triangle_element(edge);
   if(t.is_degenerate())
     return result;
   for(int k = 0; k < 3; ++k)
     result.cot(k) = t.dot[k] / t.twice_area;
-  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent);
+  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent) * (mean ? (*mean)[0] : 1.);
   return result;
 }
 
-namespace internal {
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
+                                                                   const std::array<int, 3>& t,
+                                                                   const Operator_coefficients& c)
+{
+  if(c.rows() == 0)
+    return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), nullptr);
+  const Point_coefficients mean = (c.row(t[0]) + c.row(t[1]) + c.row(t[2])).transpose() / 3;
+  return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), &mean);
+}
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
 {
@@ -98,10 +109,37 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eig
   }
 }
 
-inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                              Eigen::Index f)
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, const Eigen::Index n)
 {
-  const Triangle_cotangents t = triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
+  const std::string who = "Local operator: ";
+  if(!(op.theta >= 0. && op.theta <= 1.))
+    throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(op.theta) + ".");
+  if(op.voronoi && op.theta != 0.)
+    throw std::invalid_argument(who + "Voronoi shares are those of a lumped mass, but theta is " +
+                                std::to_string(op.theta) + "; set one of the two to 0.");
+  const Operator_coefficients& c = op.coefficients;
+  if(c.rows() != 0 && c.rows() != n)
+    throw std::invalid_argument(who + "there are coefficients for " + std::to_string(c.rows()) +
+                                " vertices, but the mesh has " + std::to_string(n) +
+                                "; give one row for each.");
+  for(Eigen::Index v = 0; v < c.rows(); ++v) {
+    if(!(c(v, 0) > 0. && std::isfinite(c(v, 0))))
+      throw std::invalid_argument(who + "the density of " + vertex_name(v) + " is " +
+                                  std::to_string(c(v, 0)) + "; use positive numbers.");
+    const Eigen::Matrix3d D = conductivity(c.row(v).transpose());
+    // Sylvester's criterion, each minor beside what it is a difference of.
+    const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
+    if(!(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
+         xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz && D.determinant() > 0.))
+      throw std::invalid_argument(who + "the conductivity of " + vertex_name(v) +
+                                  " is not positive definite; correct it.");
+  }
+}
+
+inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                              Eigen::Index f, const Operator_coefficients& c = {})
+{
+  const Triangle_cotangents t = local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, c);
   if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(t.area))
     throw std::invalid_argument(
         "Laplace operator: " + face_name(f) +
@@ -110,7 +148,7 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
   return t;
 }
 
-inline void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
 {
   for(Eigen::Index v = 0; v < mass.size(); ++v) {
     if(mass(v) > 0. && std::isfinite(mass(v)))
@@ -139,22 +177,22 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Ei
   return corner_masses;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T,
-                                                                const Eigen::MatrixXd& corner_masses,
-                                                                double theta)
-{
-  if(!(theta >= 0. && theta <= 1.))
-    throw std::invalid_argument("Laplace operator: theta must lie in [0, 1], but is " +
-                                std::to_string(theta) + ".");
-  internal::check_positions(V);
-  internal::check_triangles(T, V.rows());
-  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
-    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
+namespace internal {
 
+// `element(f)` is what face f adds: cotangents, area, and the lumped mass of its corners.
+struct Face_element
+{
+  Triangle_cotangents t;
+  Eigen::RowVector3d corner_masses;
+};
+
+template <class Element>
+Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const double theta,
+                          const Element& element)
+{
   // Upper triangles only, mirrored afterwards: both matrices are symmetric to the last bit.
   using Triplet = Eigen::Triplet<double>;
-  const Eigen::Index n = V.rows(), m = T.rows();
+  const Eigen::Index m = T.rows();
   std::vector<Triplet> stiffness, consistent;
   stiffness.reserve(3 * m + n);
   consistent.reserve(theta > 0. ? 3 * m + n : n);
@@ -165,7 +203,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   result.mass = Eigen::VectorXd::Zero(n);
   Eigen::VectorXd mass_diagonal = Eigen::VectorXd::Zero(n);
   for(Eigen::Index f = 0; f < m; ++f) {
-    const Triangle_cotangents t = internal::checked_cotangents(V, T, f);
+    const auto [t, corner_masses] = element(f);
     for(int k = 0; k < 3; ++k) {
       const int c = T(f, k);
       const int i = (std::min)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
@@ -173,12 +211,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
       stiffness.emplace_back(i, j, -0.5 * t.cot(k));
       if(theta > 0.)
         consistent.emplace_back(i, j, theta * t.area / 12.);
-      const double lumped = (1. - theta) * corner_masses(f, k);
+      const double lumped = (1. - theta) * corner_masses(k);
       mass_diagonal(c) += lumped + theta * t.area / 6.;
       result.mass(c) += lumped + theta * t.area / 3.;
     }
   }
-  internal::check_mass(result.mass, T);
+  check_mass(result.mass, T);
 
   Eigen::SparseMatrix<double> upper(n, n);
   upper.setFromTriplets(stiffness.begin(), stiffness.end());
@@ -198,10 +236,47 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T, double theta)
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
+                                                                      const Eigen::Vector3d& q,
+                                                                      const Eigen::Vector3d& r)
 {
-  return laplace_operator(V, T, barycentric_corner_masses(V, T), theta);
+  return internal::cotangents_of(p, q, r, nullptr);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T,
+                                                                const Eigen::MatrixXd& corner_masses,
+                                                                double theta)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  internal::check_local_operator(theta, V.rows());
+  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
+    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
+  return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
+    return internal::Face_element{internal::checked_cotangents(V, T, f), corner_masses.row(f)};
+  });
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T,
+                                                                const Local_operator& op)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  internal::check_local_operator(op, V.rows());
+  Laplace_operator result = internal::assemble(T, V.rows(), op.theta, [&](const Eigen::Index f) {
+    const Triangle_cotangents t = internal::checked_cotangents(V, T, f, op.coefficients);
+    internal::Face_element element{t, Eigen::RowVector3d::Constant(t.area / 3.)};
+    for(int k = 0; k < 3 && op.voronoi; ++k)
+      element.corner_masses(k) =
+          t.area * internal::mixed_voronoi_share(t.cot(k), t.cot((k + 1) % 3), t.cot((k + 2) % 3));
+    return element;
+  });
+  result.voronoi = op.voronoi;
+  return result;
 }
 
 } // namespace Spectral_geometry

@@ -22,7 +22,7 @@ namespace internal {
 
 inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                              const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
-                             const Eigen::MatrixXd& Z, const double theta)
+                             const Eigen::MatrixXd& Z, const Local_operator& op)
 {
   const auto require = [](const bool fine_so_far, const std::string& sentence) {
     if(!fine_so_far)
@@ -39,7 +39,7 @@ inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& 
           "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
               "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
               " fine vertices and one column for each signal.");
-  require(theta >= 0 && theta <= 1, "theta must lie in [0, 1], but is " + std::to_string(theta) + ".");
+  check_local_operator(op, V.rows());
   check_edge_flip_options(o);
 }
 
@@ -48,13 +48,13 @@ inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& 
 CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T,
                                                           const Eigen::SparseMatrix<double>& P,
                                                           const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                                                          const double theta,
+                                                          const Local_operator& op,
                                                           const std::vector<std::pair<int, int>>& constrained,
                                                           const Edge_flip_options& options)
 {
-  internal::check_edge_flips(options, V, T, P, F, Z, theta);
+  internal::check_edge_flips(options, V, T, P, F, Z, op);
   Edge_flip_result result;
-  internal::Edge_flipper flipper(V, T, P * F, P * Z, theta, constrained, options);
+  internal::Edge_flipper flipper(V, T, P * F, P * Z, op, constrained, options);
   if(options.criterion != Edge_flips::none)
     T = flipper.run(result);
   return result;

@@ -25,12 +25,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_dimension(const char* what, Eigen::Inde
                                 " is needed, pass matrices that belong together.");
 }
 
-inline std::string theta_name(double theta)
+inline std::string name_of_mass(const Laplace_operator& op)
 {
+  if(op.voronoi)
+    return mass_name(Mass::voronoi);
   for(const Mass mass : {Mass::lumped, Mass::averaged})
-    if(theta == mass_blend(mass))
+    if(op.theta == mass_blend(mass))
       return mass_name(mass);
-  return "theta = " + std::to_string(theta);
+  return "theta = " + std::to_string(op.theta);
 }
 
 inline void check_pairs(const char* which, const Laplace_operator& op, const Eigenpairs& pairs,
@@ -157,9 +159,9 @@ evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, co
   e.extended_modes = (std::min)(judged + (judged + 9) / 10, coarse_pairs.size());
   e.fine_theta = fine.theta;
   e.theta = coarse.theta;
-  e.mass = internal::theta_name(e.theta);
-  if(e.theta != e.fine_theta)
-    e.mass += " (fine mesh: " + internal::theta_name(e.fine_theta) + ")";
+  e.mass = internal::name_of_mass(coarse);
+  if(const std::string of_fine = internal::name_of_mass(fine); of_fine != e.mass)
+    e.mass += " (fine mesh: " + of_fine + ")";
 
   e.fine_area = fine.mass.sum();
   e.coarse_area = coarse.mass.sum();

@@ -16,14 +16,14 @@
 namespace CGAL {
 namespace Spectral_geometry {
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
-relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
-                   const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                   const double theta, const std::vector<bool>& fixed, const Relocation_options& options)
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
+    Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
+    const std::vector<bool>& fixed, const Relocation_options& options)
 {
   internal::check_relocation(options, V, P, fine, F, Z, fixed);
   Relocation_result result;
-  internal::Relocation relocation(V, T, P, fine, F, Z, theta, fixed, options);
+  internal::Relocation relocation(V, T, P, fine, F, Z, op, fixed, options);
   V = relocation.run(result);
   result.resampled = options.signals == Relocation_options::Signals::sampled;
   result.restriction = result.resampled ? relocation.sampled_restriction(V) : P;

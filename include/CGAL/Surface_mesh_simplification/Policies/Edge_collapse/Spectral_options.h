@@ -128,8 +128,13 @@ struct Spectral_options
   bool exact_costs = false;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
-  /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %.
+  /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %; `voronoi` is Meyer et al.'s.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
+
+  /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of `vertices(mesh)`: a density and a
+  /// conductivity, which may depend on the direction; see `Spectral_geometry::Operator_coefficients`. They are merged as signals
+  /// are: the coarse mesh has P times them. Empty: the Laplace-Beltrami operator.
+  Spectral_geometry::Operator_coefficients coefficients;
 
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.

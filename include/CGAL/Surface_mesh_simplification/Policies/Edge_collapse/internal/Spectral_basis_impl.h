@@ -65,6 +65,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
   if(options.metric_eigenvectors < 0)
     throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
                                 to_string(options.metric_eigenvectors) + ", use a number from 0.");
+  Spectral_geometry::internal::check_local_operator({options.mass, options.coefficients}, n);
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
@@ -224,8 +225,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
 {
   check_spectral_options(options, V.rows());
   check_extent(V);
-  const double theta = Spectral_geometry::mass_blend(options.mass);
-  const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, theta);
+  Spectral_geometry::Local_operator local(options.mass, options.coefficients);
+  const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, local);
   const double area = op.mass.sum();
   Spectral_basis basis;
   if(options.signals.size() != 0)
@@ -251,7 +252,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   const double rounding = 1e-14 * double(V.rows());
   if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
     basis.sum_of_squares = 0;
-  basis.theta = theta;
+  basis.op = std::move(local);
   basis.area = area;
   return basis;
 }

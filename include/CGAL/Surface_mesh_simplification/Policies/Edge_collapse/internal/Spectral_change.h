@@ -71,6 +71,8 @@ public:
   }
 
 private:
+  using Coefficients = Spectral_geometry::internal::Point_coefficients;
+
   void set_collapse(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
                     const double weight, const Eigen::Vector3d& point)
   {
@@ -79,6 +81,8 @@ private:
     m_v = v;
     m_weight = weight;
     m_point = point;
+    if(!fields.coefficients.empty())
+      m_coefficients = (1 - weight) * fields.coefficients[u] + weight * fields.coefficients[v];
     m_R.resize(fields.F.cols());
     m_invalid = false;
   }
@@ -87,6 +91,18 @@ private:
   const Eigen::Vector3d& position(const Spectral_slot s) const
   {
     return is_merged(s) ? m_point : m_fields->points[s];
+  }
+  const Coefficients& coefficients(const Spectral_slot s) const
+  {
+    return is_merged(s) ? m_coefficients : m_fields->coefficients[s];
+  }
+
+  Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
+  {
+    if(m_fields->coefficients.empty())
+      return spectral_triangle(position(c), position(a), position(b));
+    const Coefficients mean = (coefficients(c) + coefficients(a) + coefficients(b)) / 3;
+    return spectral_triangle(position(c), position(a), position(b), &mean);
   }
 
   // E_x of the merged vertex.
@@ -129,20 +145,20 @@ private:
   void add_triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b,
                     const Spectral_triangle& old)
   {
-    const Spectral_triangle t = spectral_triangle(position(c), position(a), position(b));
+    const Spectral_triangle t = triangle(c, a, b);
     if(is_merged(a) || is_merged(b) || is_merged(c))
       m_invalid = m_invalid || (is_degenerate(t) && !is_degenerate(old));
     const double area = t.area * m_fields->area_scale, of_z = area * m_fields->off_diagonal_share();
     add_entry(a, t.cot_second / 2, of_z);
     add_entry(b, t.cot_first / 2, of_z);
     m_to_self -= (t.cot_first + t.cot_second) / 2;
-    m_area += area;
+    m_area += m_fields->area_of_center(t) * m_fields->area_scale;
   }
 
-  static bool is_degenerate(const Spectral_triangle& t)
+  bool is_degenerate(const Spectral_triangle& t) const
   {
-    return !(t.area > 0) ||
-           !(t.cot_center + t.cot_first + t.cot_second < Spectral_triangle::degenerate_cotangent);
+    return !(t.area > 0) || !(t.cot_center + t.cot_first + t.cot_second <
+                              Spectral_triangle::degenerate_cotangent * m_fields->conductivity);
   }
 
   // E_w of the row that has been gathered.
@@ -183,7 +199,7 @@ private:
       m_row.push_back(Spectral_row_entry{a, -t.cot_second / 2, -of_z});
       m_row.push_back(Spectral_row_entry{b, -t.cot_first / 2, -of_z});
       old_to_self += (t.cot_first + t.cot_second) / 2;
-      m_area -= area;
+      m_area -= m_fields->area_of_center(t) * m_fields->area_scale;
       if(w == o && !(is_merged(a) && is_merged(b)))
         add_triangle(w, a, b, t);
     }
@@ -221,6 +237,7 @@ private:
   double m_weight = 0, m_to_self = 0, m_area = 0;
   bool m_invalid = false; // a triangle or a vertex would lose its area
   Eigen::Vector3d m_point = Eigen::Vector3d::Zero();
+  Coefficients m_coefficients = Coefficients::Zero(); // of the merged vertex
   Eigen::VectorXd m_R;
   std::vector<Spectral_row_entry> m_row;
   std::vector<std::size_t> m_changed;

@@ -16,6 +16,7 @@
 #include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+#include <CGAL/Spectral_geometry/local_operator.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <Eigen/Core>
@@ -52,9 +53,10 @@ public:
   Spectral_collapse_core(Spectral_collapse_core&&);
   ~Spectral_collapse_core();
 
-  /// `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.
+  /// `op` has n coefficients or none. `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.
   void set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& Z,
-                 const double theta, const double area_scale, const Spectral_cost_parameters& parameters);
+                 const Spectral_geometry::Local_operator& op, const double area_scale,
+                 const Spectral_cost_parameters& parameters);
 
   /// Replaces Z = F Lambda by rows of its own. set_geometry() must follow.
   void set_Z(const Eigen::MatrixXd& Z) { m_fields.Z.assign(Z); }
@@ -175,6 +177,9 @@ private:
   // term, a squared distance times an area, is compared with 1 / n, the area that a vertex stands for.
   Spectral_weighted_shape weighted_shape() const;
 
+  // Of the mesh as it is, whatever the density.
+  double surface_area() const;
+
   // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
   void update_row(const Spectral_slot w, std::vector<Spectral_row_entry>& row);
 
@@ -202,6 +207,7 @@ private:
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
   Spectral_shape_term m_shape;
+  double m_surface_scale = 0; // 1 / area of the input
   Spectral_crossing_guard m_crossing;
   std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;

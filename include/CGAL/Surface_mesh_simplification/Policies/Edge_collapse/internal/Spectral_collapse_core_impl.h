@@ -36,9 +36,11 @@ struct alignas(cache_line) Spectral_collapse_core::Workspace
   std::vector<Spectral_row_entry> row;
 };
 
-inline auto position_in(const std::vector<Eigen::Vector3d>& points)
+inline auto triangle_in(const Spectral_fields& fields)
 {
-  return [&points](const Spectral_slot s) -> const Eigen::Vector3d& { return points[s]; };
+  return [&fields](const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) {
+    return fields.triangle(c, a, b);
+  };
 }
 
 inline void set_candidate(Spectral_candidate& c, const Spectral_sample& sample)
@@ -64,8 +66,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() 
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda,
-                                  const Eigen::MatrixXd& Z, const double theta, const double area_scale,
-                                  const Spectral_cost_parameters& parameters)
+                                  const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
+                                  const double area_scale, const Spectral_cost_parameters& parameters)
 {
   m_number_of_signals = F.cols();
   m_fields.F.assign(F);
@@ -76,10 +78,17 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
     m_fields.lambda.assign(lambda.transpose());
   else
     set_Z(Z);
-  m_fields.theta = theta;
+  m_fields.theta = op.theta;
+  m_fields.voronoi = op.voronoi;
+  const Spectral_geometry::Operator_coefficients& c = op.coefficients;
+  m_fields.coefficients.clear();
+  for(Eigen::Index v = 0; v < c.rows(); ++v)
+    m_fields.coefficients.push_back(c.row(v).transpose());
+  m_fields.conductivity = c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
   m_fields.area_scale = area_scale;
   m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
   m_parameters = parameters;
+  m_surface_scale = 0;
   m_shape = Spectral_shape_term();
   m_pool = std::make_unique<Pool>(parameters.threads);
   m_forest = Spectral_geometry::Merge_forest(F.rows());
@@ -99,7 +108,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
   m_products.resize(std::size_t(n));
   m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
     m_fields.rings.find_back(Spectral_slot(w));
-    m_fields.rings.update_triangles(Spectral_slot(w), position_in(m_fields.points));
+    m_fields.rings.update_triangles(Spectral_slot(w), triangle_in(m_fields));
     update_row(Spectral_slot(w), workspace.row);
     if(m_fields.has_products(Spectral_slot(w)))
       workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
@@ -112,14 +121,30 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_number_of_vertices += degree == 0 ? 0 : 1;
     m_fields.largest_degree = (std::max)(m_fields.largest_degree, degree);
   }
+  if(m_surface_scale == 0)
+    m_surface_scale = m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area();
   if(m_parameters.shape > 0)
-    m_shape.set_geometry(m_fields.points, m_fields.rings, m_fields.area_scale);
+    m_shape.set_geometry(m_fields.points, m_fields.rings, m_surface_scale);
   if(m_parameters.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
   m_total.add(m_fields.E.sum());
   m_recent_cost = 0;
   m_candidates.clear();
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
+{
+  double sum = 0;
+  for(std::size_t w = 0; w < m_fields.points.size(); ++w) {
+    const Spectral_ring& ring = m_fields.rings[Spectral_slot(w)];
+    for(std::size_t i = 0; i < ring.size(); ++i)
+      if(ring[i].face)
+        sum += spectral_triangle(m_fields.points[w], m_fields.points[ring[i].vertex],
+                                 m_fields.points[ring[Spectral_rings::next(ring, i)].vertex])
+                   .area;
+  }
+  return sum / 3; // each triangle from its three corners
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE bool
@@ -262,12 +287,15 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   merge_rows(m_fields.F, removed, kept, weight);
   if(m_fields.has_z_rows())
     merge_rows(m_fields.Z, removed, kept, weight);
+  if(!m_fields.coefficients.empty())
+    m_fields.coefficients[kept] =
+        (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
   m_fields.largest_degree = (std::max)(m_fields.largest_degree, ring.size());
   m_fields.rings.merge(removed, kept, std::move(ring));
-  m_fields.rings.update_triangles(kept, position_in(m_fields.points));
+  m_fields.rings.update_triangles(kept, triangle_in(m_fields));
   m_candidates.merge(removed);
   follow_around(removed, kept);
   if(m_crossing.is_active())
@@ -330,7 +358,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
         Spectral_row_entry{ring[i].vertex, cot,
                            (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()});
     to_self -= cot;
-    area += after.area * m_fields.area_scale;
+    area += m_fields.area_of_center(after) * m_fields.area_scale;
   }
   row.push_back(Spectral_row_entry{w, to_self, area * m_fields.diagonal_share()});
   const double square = spectral_combine_rows(m_fields, row, m_fields.R[w]);

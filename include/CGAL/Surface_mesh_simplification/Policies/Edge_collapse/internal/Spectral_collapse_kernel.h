@@ -115,6 +115,7 @@ private:
     columns
   };
   static constexpr int lumped_columns = z_near;
+  static constexpr int number_of_coefficients = 7;
 
   // The matrix of the quadratic form of one vertex of the link: inner products of its columns, upper triangle.
   struct Gram
@@ -294,10 +295,15 @@ private:
         point[c][s] = sample.point[c];
     }
     Lanes total_area = {};
-    if(m_fields->theta != 0)
-      add_link_terms<true>(point, weight, total_area, cost, invalid);
+    const bool full = m_fields->theta != 0, cotangent = m_fields->coefficients.empty() && !m_fields->voronoi;
+    if(full && cotangent)
+      add_link_terms<true, true>(point, weight, total_area, cost, invalid);
+    else if(full)
+      add_link_terms<true, false>(point, weight, total_area, cost, invalid);
+    else if(cotangent)
+      add_link_terms<false, true>(point, weight, total_area, cost, invalid);
     else
-      add_link_terms<false>(point, weight, total_area, cost, invalid);
+      add_link_terms<false, false>(point, weight, total_area, cost, invalid);
     m_merged.add_term(m_new.data(), total_area, weight, m_fields->diagonal_share() * m_fields->area_scale,
                       m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
     for(int s = 0; s < count; ++s)
@@ -305,12 +311,14 @@ private:
           invalid[s] == 0 && std::isfinite(cost[s]) ? cost[s] : std::numeric_limits<double>::infinity();
   }
 
-  // `Full`: with a mass that has off-diagonal entries.
-  template <bool Full>
+  // `Full`: with a mass that has off-diagonal entries. `Cotangent`: without coefficients and Voronoi areas.
+  template <bool Full, bool Cotangent>
   CGAL_SPECTRAL_INLINE void add_link_terms(const Lanes* x, const Lanes& weight, Lanes& total_area,
                                            Lanes& cost, Lanes& invalid)
   {
-    add_new_triangles<Full>(x, total_area, invalid);
+    if constexpr(!Cotangent)
+      set_merged_coefficients(weight);
+    add_new_triangles<Full, Cotangent>(x, total_area, invalid);
     // f_x = (1 - weight) f_u + weight f_v where w is next to both, f_near + far (f_o - f_c) where next to one end c.
     const Lanes one = {1, 1, 1, 1}, rest = 1. - weight;
     const Lanes near[number_of_link_ends] = {rest, one, one},
@@ -320,7 +328,7 @@ private:
                           invalid);
   }
 
-  template <bool Full>
+  template <bool Full, bool Cotangent>
   CGAL_SPECTRAL_INLINE void add_new_triangles(const Lanes* x, Lanes& total_area, Lanes& invalid)
   {
     const Lanes zero = {};
@@ -349,11 +357,76 @@ private:
       half *= Lanes{0.5, 0.5, 0.5, 0.5};
       if(!o.degenerate)
         invalid += failed;
-      const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
-      add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
-      add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
-      total_area += area;
+      if constexpr(Cotangent) {
+        const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
+        add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
+        add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
+        total_area += area;
+      } else {
+        Corner_products products{a_b, a_ab, b_ab};
+        Lanes area = square * half;
+        if(!m_fields->coefficients.empty())
+          apply_coefficients(o, a, b, n, 2. * half, products, area);
+        const Lanes cot_x = products.a_b * half, cot_a = -products.a_ab * half, cot_b = products.b_ab * half;
+        Lanes area_x = area, area_a = area, area_b = area;
+        if(m_fields->voronoi)
+          for(int s = 0; s < max_samples; ++s) {
+            using Spectral_geometry::internal::mixed_voronoi_share;
+            area_x[s] *= 3 * mixed_voronoi_share(cot_x[s], cot_a[s], cot_b[s]);
+            area_a[s] *= 3 * mixed_voronoi_share(cot_a[s], cot_b[s], cot_x[s]);
+            area_b[s] *= 3 * mixed_voronoi_share(cot_b[s], cot_x[s], cot_a[s]);
+          }
+        add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area_a);
+        add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area_b);
+        total_area += area_x;
+      }
     }
+  }
+
+  // Of the edges a, b from x and ab of a new triangle.
+  struct Corner_products
+  {
+    Lanes a_b, a_ab, b_ab;
+  };
+
+  CGAL_SPECTRAL_INLINE void set_merged_coefficients(const Lanes& weight)
+  {
+    if(m_fields->coefficients.empty())
+      return;
+    const auto &of_u = m_fields->coefficients[m_link.u()], &of_v = m_fields->coefficients[m_link.v()];
+    for(int i = 0; i < number_of_coefficients; ++i)
+      m_coefficients[i] = (1. - weight) * of_u[i] + weight * of_v[i];
+  }
+
+  // `triangle_element()` with coefficients: products of a and b, turned within the triangle, by the conductivity.
+  CGAL_SPECTRAL_INLINE void apply_coefficients(const Spectral_outer_triangle& o, const Lanes* a,
+                                               const Lanes* b, const Lanes* n, const Lanes& inverse_length,
+                                               Corner_products& products, Lanes& area) const
+  {
+    const auto &of_a = m_fields->coefficients[m_link[o.a].slot],
+               &of_b = m_fields->coefficients[m_link[o.b].slot];
+    Lanes c[number_of_coefficients];
+    for(int i = 0; i < number_of_coefficients; ++i)
+      c[i] = (m_coefficients[i] + (of_a[i] + of_b[i])) * (1. / 3);
+    Lanes turned_a[3], turned_b[3], image[3];
+    for(int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      turned_a[i] = (n[j] * a[k] - n[k] * a[j]) * inverse_length;
+      turned_b[i] = (n[j] * b[k] - n[k] * b[j]) * inverse_length;
+    }
+    const auto apply = [&](const Lanes* x) {
+      image[0] = c[1] * x[0] + c[2] * x[1] + c[3] * x[2];
+      image[1] = c[2] * x[0] + c[4] * x[1] + c[5] * x[2];
+      image[2] = c[3] * x[0] + c[5] * x[1] + c[6] * x[2];
+    };
+    apply(turned_a);
+    const Lanes aa = turned_a[0] * image[0] + turned_a[1] * image[1] + turned_a[2] * image[2];
+    products.a_b = turned_b[0] * image[0] + turned_b[1] * image[1] + turned_b[2] * image[2];
+    apply(turned_b);
+    const Lanes bb = turned_b[0] * image[0] + turned_b[1] * image[1] + turned_b[2] * image[2];
+    products.a_ab = products.a_b - aa;
+    products.b_ab = bb - products.a_b;
+    area *= c[0];
   }
 
   template <bool Full>
@@ -415,6 +488,7 @@ private:
   Aligned_buffer m_scratch;
   Spectral_merged_row m_merged;
   Spectral_change m_change;
+  Lanes m_coefficients[number_of_coefficients] = {}; // of the merged vertex, for each sample
 };
 
 } // namespace internal

@@ -11,6 +11,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rows.h>
 
+#include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -30,12 +32,16 @@ struct Spectral_fields
   Spectral_rows Z;      ///< the same, or empty where Z = F Lambda
   Spectral_rows lambda; ///< 1 x padded K, read where Z is empty
   Spectral_rows R;      ///< n x padded K
-  Eigen::VectorXd mass; ///< lumped barycentric M_w
+  Eigen::VectorXd mass; ///< lumped M_w
   Eigen::VectorXd E;    ///< E_w
   std::vector<Eigen::Vector3d> points;
   Spectral_rings rings;
-  double theta = 0;      ///< B = (1 - theta) M_lumped + theta M_consistent
-  double area_scale = 1; ///< 1 / area of the input
+  double theta = 0;     ///< B = (1 - theta) M_lumped + theta M_consistent
+  bool voronoi = false; ///< M_lumped has mixed Voronoi areas
+  /// of the operator, merged as f_w is; empty for the cotangent Laplacian
+  std::vector<Spectral_geometry::internal::Point_coefficients> coefficients;
+  double conductivity = 1; ///< their mean on the input: the unit of cotangents
+  double area_scale = 1;   ///< 1 / area of the input, weighted by the density
   /// The largest degree of a vertex whose ring keeps its inner products, which are quadratic in it. An edge that has a
   /// larger one at an end or in its link is costed by whole rows (`Spectral_change`): on fans of 200 to 500 faces both ways
   /// take the same time.
@@ -44,6 +50,25 @@ struct Spectral_fields
   std::size_t largest_degree = 0; ///< no ring is larger
 
   bool has_products(const Spectral_slot s) const { return rings[s].size() <= largest_degree_with_products; }
+
+  /// The triangle (c; a, b), weighted by the coefficients.
+  Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
+  {
+    if(coefficients.empty())
+      return spectral_triangle(points[c], points[a], points[b]);
+    const Spectral_geometry::internal::Point_coefficients mean =
+        (coefficients[c] + coefficients[a] + coefficients[b]) / 3;
+    return spectral_triangle(points[c], points[a], points[b], &mean);
+  }
+
+  /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is divided equally.
+  double area_of_center(const Spectral_triangle& t) const
+  {
+    return voronoi
+               ? 3 * t.area *
+                     Spectral_geometry::internal::mixed_voronoi_share(t.cot_center, t.cot_first, t.cot_second)
+               : t.area;
+  }
 
   // Shares of a triangle's area: row sums of B stay A / 3 per corner.
   double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }

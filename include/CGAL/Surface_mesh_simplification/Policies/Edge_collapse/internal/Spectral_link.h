@@ -129,11 +129,14 @@ public:
     const Spectral_ring &ring_u = fields.rings[m_u], &ring_v = fields.rings[m_v];
     reserve(ring_u.size() + ring_v.size());
     m_roughness = 0;
+    m_unit = fields.conductivity;
     m_before = fields.E[m_u] + fields.E[m_v];
     m_number_of_triangles = 0;
     m_size = 0;
     collect_ring_of_u(fields, products, ring_u.data(), ring_u.size());
     collect_ring_of_v(fields, products, ring_v.data(), ring_v.size());
+    if(fields.voronoi)
+      collect_own_areas(fields);
   }
 
   Spectral_slot u() const { return m_u; }
@@ -148,7 +151,7 @@ public:
   const Triangle* triangles_end() const { return m_triangles.data() + m_number_of_triangles; }
   /// The sum of E over u, v and the link.
   double error() const { return m_before; }
-  /// The largest sum of cotangents among the triangles around u and v.
+  /// The largest sum of cotangents among the triangles around u and v, in units of the conductivity.
   double roughness() const { return m_roughness; }
 
 private:
@@ -202,7 +205,7 @@ private:
   CGAL_SPECTRAL_INLINE void add_triangle(const Spectral_triangle& t, const std::size_t a, const std::size_t b,
                                          const int column_of_b, const int column_of_a)
   {
-    const double sum = sum_of_cotangents(t);
+    const double sum = sum_of_cotangents(t) / m_unit;
     m_roughness = (std::max)(m_roughness, sum);
     m_triangles[m_number_of_triangles++] =
         Triangle{std::uint32_t(a), std::uint32_t(b), column_of_b, column_of_a,
@@ -294,12 +297,12 @@ private:
         start_both_ends(w);
         if(shares_next) {
           add_shared_triangle(w, to_next.cot_second, to_next);
-          m_roughness = (std::max)(m_roughness, sum_of_cotangents(to_next));
+          m_roughness = (std::max)(m_roughness, sum_of_cotangents(to_next) / m_unit);
         } else if(ring[i].face)
           add_outer_triangle(w, 0, to_next.cot_second, to_next, before(u_in, degree));
         if(shares_previous) {
           add_shared_triangle(w, to_previous.cot_first, to_previous);
-          m_roughness = (std::max)(m_roughness, sum_of_cotangents(to_previous));
+          m_roughness = (std::max)(m_roughness, sum_of_cotangents(to_previous) / m_unit);
         } else if(ring[previous].face)
           add_outer_triangle(w, 0, to_previous.cot_first, to_previous, after(u_in, degree));
       }
@@ -365,9 +368,24 @@ private:
     }
   }
 
+  // Where a triangle's area is not divided equally: what those with u or v give to each vertex of the link.
+  void collect_own_areas(const Spectral_fields& fields)
+  {
+    for(std::size_t k = 0; k < m_size; ++k) {
+      Vertex& w = m_vertices[k];
+      const Spectral_ring& ring = fields.rings[w.slot];
+      w.old_area = 0;
+      for(std::size_t i = 0; i < ring.size(); ++i) {
+        const Spectral_slot a = ring[i].vertex, b = ring[Spectral_rings::next(ring, i)].vertex;
+        if(a == m_u || a == m_v || b == m_u || b == m_v)
+          w.old_area += fields.area_of_center(ring[i].triangle);
+      }
+    }
+  }
+
   Spectral_slot m_u = null_spectral_slot, m_v = null_spectral_slot;
   std::size_t m_v_in_u = 0, m_u_in_v = 0;
-  double m_before = 0, m_roughness = 0;
+  double m_before = 0, m_roughness = 0, m_unit = 1;
   std::size_t m_size = 0, m_number_of_triangles = 0;
   std::vector<Vertex> m_vertices;
   std::vector<Triangle> m_triangles;

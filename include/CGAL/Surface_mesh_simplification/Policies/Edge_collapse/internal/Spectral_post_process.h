@@ -69,17 +69,17 @@ private:
               const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
-    const double theta = mass_blend(m_options.mass);
+    const Local_operator coarse_op = fine_operator().restricted(P);
     Eigen::MatrixXd F, Z;
-    signals(theta, result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
+    signals(result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
     const char* where = "as the collapses left them";
     try {
       if(m_options.flips != Edge_flips::none && allows(mesh, "No edge was flipped: ", false, np, result)) {
-        flip(mesh, policies, P, F, Z, theta, np, result);
+        flip(mesh, policies, P, F, Z, coarse_op, np, result);
         where = "as collapses and flips left them";
       }
       if(m_options.relocate && allows(mesh, "The vertices were not relocated: ", true, np, result))
-        relocate(mesh, policies, P, F, Z, theta, kept, np, result);
+        relocate(mesh, policies, P, F, Z, coarse_op, kept, np, result);
     } catch(const Cancelled&) {
       result.stop_reason = Result::Stop_reason::cancelled;
       result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
@@ -98,12 +98,11 @@ private:
     const auto progress = [&](const double fraction) {
       return policies.state().report(Spectral_phase::operator_fit, fraction);
     };
-    const double theta = mass_blend(m_options.mass);
     const char* consequence = "The operators were not fitted: ";
     try {
       if(!allows(mesh, consequence, false, np, result))
         return;
-      const Laplace_operator fine = laplace_operator(m_fine.V, m_fine.T, theta);
+      const Laplace_operator fine = laplace_operator(m_fine.V, m_fine.T, fine_operator());
       std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
       if(!pairs) {
         Eigenpairs_options solver = m_options.eigenpairs_options;
@@ -116,7 +115,8 @@ private:
       options.threads = (std::max)(options.threads, m_options.threads);
       options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
       const Mesh_matrices coarse = mesh_matrices(mesh, np);
-      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, theta), P, fine, *pairs, options);
+      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, fine_operator().restricted(P)), P,
+                                    fine, *pairs, options);
     } catch(const Cancelled&) {
       result.stop_reason = Result::Stop_reason::cancelled;
       result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
@@ -126,6 +126,8 @@ private:
     }
     result.seconds_operator_fit = timer.time();
   }
+
+  Spectral_geometry::Local_operator fine_operator() const { return {m_options.mass, m_options.coefficients}; }
 
   bool changes_mesh() const
   {
@@ -159,8 +161,8 @@ private:
 
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void flip(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-            const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta, const NamedParameters& np,
-            Result& result) const
+            const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
+            const NamedParameters& np, Result& result) const
   {
     Spectral_geometry::Edge_flip_options flipping = m_options.flipping;
     flipping.criterion = m_options.flips;
@@ -168,18 +170,19 @@ private:
       return policies.state().report(Spectral_phase::flips, fraction);
     };
     const Eigen::Index seen = policies.state().core().number_of_signals();
-    result.flips = flip_mesh_edges(mesh, P, F.leftCols(seen), Z.leftCols(seen), theta, flipping, np);
-    set_error(mesh, policies.state().area(), P, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
+    result.flips = flip_mesh_edges(mesh, P, F.leftCols(seen), Z.leftCols(seen), op, flipping, np);
+    set_error(mesh, policies.state().area(), P, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   template <class TriangleMesh, class Policies, class NamedParameters, class Result>
   void relocate(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-                const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const double theta,
-                const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
+                const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                const Spectral_geometry::Local_operator& op, const Eigen::SparseMatrix<double>& kept,
+                const NamedParameters& np, Result& result) const
   {
-    if(m_options.mass == Spectral_geometry::Mass::lumped)
+    if(m_options.mass != Spectral_geometry::Mass::averaged)
       result.warnings.push_back(
-          "Relocation is made for the averaged mass: in the lumped mass it bends the shape "
+          "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
     relocation.progress = [&](const double fraction) {
@@ -191,24 +194,24 @@ private:
       const Eigen::VectorXd ones = kept * Eigen::VectorXd::Ones(kept.cols());
       stays.assign(ones.data(), ones.data() + ones.size());
     }
-    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, theta, relocation, stays, np);
+    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, op, relocation, stays, np);
     Eigen::SparseMatrix<double>& own = result.relocation.restriction;
     if(result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
       own += kept;
     }
     const Eigen::Index seen = policies.state().core().number_of_signals();
-    set_error(mesh, policies.state().area(), own, theta, F.leftCols(seen), Z.leftCols(seen), np, result);
+    set_error(mesh, policies.state().area(), own, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
-  void signals(const double theta, const Spectral_geometry::Eigenpairs* pairs, const bool own_rows,
-               Eigen::MatrixXd& F, Eigen::MatrixXd& Z) const
+  void signals(const Spectral_geometry::Eigenpairs* pairs, const bool own_rows, Eigen::MatrixXd& F,
+               Eigen::MatrixXd& Z) const
   {
     const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
     F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
     if(own_rows)
-      Z = spectral_z(Spectral_geometry::laplace_operator(m_fine.V, m_fine.T, theta), F);
+      Z = spectral_z(Spectral_geometry::laplace_operator(m_fine.V, m_fine.T, fine_operator()), F);
     else
       Z = F * pairs->values.asDiagonal();
   }
@@ -217,16 +220,16 @@ private:
   // signals are as they were given, and Z is multiplied by the area.
   template <class TriangleMesh, class NamedParameters, class Result>
   void set_error(const TriangleMesh& mesh, const double area, const Eigen::SparseMatrix<double>& P,
-                 const double theta, const Eigen::Ref<const Eigen::MatrixXd>& F,
-                 const Eigen::Ref<const Eigen::MatrixXd>& Z, const NamedParameters& np, Result& result) const
+                 const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Z,
+                 const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
     const Mesh_matrices coarse = mesh_matrices(mesh, np);
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
     const double before = result.E;
     // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.
-    result.E =
-        area * scale * scale * restriction_energy(laplace_operator(coarse.V, coarse.T, theta), P, F, Z);
+    const Laplace_operator op = laplace_operator(coarse.V, coarse.T, fine_operator().restricted(P));
+    result.E = area * scale * scale * restriction_energy(op, P, F, Z);
     if(before > 0)
       result.relative_error *= std::sqrt(result.E / before);
   }

@@ -42,11 +42,15 @@ struct Spectral_triangle
 
 /// That of `Spectral_geometry::internal::Triangle_element`, with one division and one square root. The rule for what is degenerate is that of
 /// the assembly, so that E is 0 on the input.
-inline Spectral_triangle spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a,
-                                           const Eigen::Vector3d& b)
+/// With `mean`, the coefficients of an operator, cotangents are those of its conductivity and the area is weighted by its density.
+inline Spectral_triangle
+spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  const Spectral_geometry::internal::Point_coefficients* mean = nullptr)
 {
+  using Spectral_geometry::internal::triangle_element;
+  const Eigen::Vector3d edges[3] = {b - a, c - b, a - c};
   const Spectral_geometry::internal::Triangle_element element =
-      Spectral_geometry::internal::triangle_element({b - a, c - b, a - c});
+      mean == nullptr ? triangle_element(edges) : triangle_element(edges, *mean);
   Spectral_triangle t;
   if(element.is_degenerate())
     return t;
@@ -54,7 +58,7 @@ inline Spectral_triangle spectral_triangle(const Eigen::Vector3d& c, const Eigen
   t.cot_center = element.dot[0] * inverse;
   t.cot_first = element.dot[1] * inverse;
   t.cot_second = element.dot[2] * inverse;
-  t.area = element.twice_area / 2;
+  t.area = (mean == nullptr ? 1. : (*mean)[0]) * element.twice_area / 2;
   return t;
 }
 
@@ -129,12 +133,12 @@ public:
     return i == 0 ? ring.size() - 1 : i - 1;
   }
 
-  /// Fills the triangles of the ring of `c` from `position(slot)`.
-  template <class Position>
-  void update_triangles(const Spectral_slot c, const Position& position)
+  /// Fills the triangles of the ring of `c` from `triangle(c, a, b)`.
+  template <class Triangle>
+  void update_triangles(const Spectral_slot c, const Triangle& triangle)
   {
     for(std::size_t i = 0; i < m_rings[c].size(); ++i)
-      update_triangle(c, i, position);
+      update_triangle(c, i, triangle);
   }
 
   /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it, as the mesh has it.
@@ -203,13 +207,12 @@ public:
   }
 
 private:
-  template <class Position>
-  void update_triangle(const Spectral_slot c, const std::size_t i, const Position& position)
+  template <class Triangle>
+  void update_triangle(const Spectral_slot c, const std::size_t i, const Triangle& triangle)
   {
     Spectral_ring& ring = m_rings[c];
-    ring[i].triangle = ring[i].face ? spectral_triangle(position(c), position(ring[i].vertex),
-                                                        position(ring[next(ring, i)].vertex))
-                                    : Spectral_triangle();
+    ring[i].triangle =
+        ring[i].face ? triangle(c, ring[i].vertex, ring[next(ring, i)].vertex) : Spectral_triangle();
   }
 
   // Where removed and kept were consecutive, the triangle between them vanished and the later of the

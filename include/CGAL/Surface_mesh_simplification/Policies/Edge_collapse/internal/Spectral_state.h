@@ -122,7 +122,7 @@ public:
     parameters.exact_costs = m_options.exact_costs;
     parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
-    m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.theta,
+    m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.op,
                      1 / basis.area, parameters);
     m_options.signals.resize(0, 0); // n x K numbers that are in F now
     m_seconds_basis = timer.time();
@@ -359,7 +359,7 @@ public:
   std::size_t number_of_vertices() const { return m_number_of_vertices; }
   /// Runs that were started so far.
   std::size_t number_of_runs() const { return m_number_of_runs; }
-  /// Of the input, in its own unit.
+  /// Of the input, in its own unit, weighted by the density of the operator.
   double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
   double error() const { return (std::max)(0., m_core.total()); }
