@@ -103,7 +103,8 @@ struct Spectral_edge_collapse_result
   /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
-  /// P times `Spectral_options::coefficients`: those of the operator of the coarse mesh, rows as in P; empty without
+  /// those of the operator of the coarse mesh, `Spectral_options::coefficients` merged by the collapses: means of what went into
+  /// a vertex, wherever relocation moves it, and the P that this brings reads functions off. Rows as in P; empty without
   Spectral_geometry::Operator_coefficients coefficients;
   /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
   Collapse_log log;
@@ -369,6 +370,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();
   set_restriction(result, first, policies.log(), state.current_slots());
+  if(options.coefficients.rows() != 0)
+    result.coefficients = policies.restriction() * options.coefficients;
   run_post_process(mesh, post_process, options, policies, kept, np, first, result);
 }
 
@@ -400,6 +403,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
     std::vector<Eigen::Index> slots(first.slots.size());
     std::iota(slots.begin(), slots.end(), 0);
     set_restriction(result, first, Collapse_log(Eigen::Index(slots.size())), slots);
+    result.coefficients = options.coefficients;
   }
 }
 
@@ -481,8 +485,6 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);
   else
     internal::run_spectral_stage(mesh, number_of_vertices, options, np, np, first, result);
-  if(options.coefficients.rows() != 0)
-    result.coefficients = result.restriction * options.coefficients;
   result.seconds_total = timer.time();
   return result;
 }

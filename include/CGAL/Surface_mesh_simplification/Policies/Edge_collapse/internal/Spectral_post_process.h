@@ -69,7 +69,7 @@ private:
               const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
-    const Local_operator coarse_op = fine_operator().restricted(P);
+    const Local_operator coarse_op = coarse_operator(result);
     Eigen::MatrixXd F, Z;
     signals(result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
     const char* where = "as the collapses left them";
@@ -115,8 +115,8 @@ private:
       options.threads = (std::max)(options.threads, m_options.threads);
       options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
       const Mesh_matrices coarse = mesh_matrices(mesh, np);
-      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, fine_operator().restricted(P)), P,
-                                    fine, *pairs, options);
+      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, coarse_operator(result)), P, fine,
+                                    *pairs, options);
     } catch(const Cancelled&) {
       result.stop_reason = Result::Stop_reason::cancelled;
       result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
@@ -128,6 +128,13 @@ private:
   }
 
   Spectral_geometry::Local_operator fine_operator() const { return {m_options.mass, m_options.coefficients}; }
+
+  // With the coefficients that the collapses have merged.
+  template <class Result>
+  Spectral_geometry::Local_operator coarse_operator(const Result& result) const
+  {
+    return {m_options.mass, result.coefficients};
+  }
 
   bool changes_mesh() const
   {
@@ -228,7 +235,7 @@ private:
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
     const double before = result.E;
     // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.
-    const Laplace_operator op = laplace_operator(coarse.V, coarse.T, fine_operator().restricted(P));
+    const Laplace_operator op = laplace_operator(coarse.V, coarse.T, coarse_operator(result));
     result.E = area * scale * scale * restriction_energy(op, P, F, Z);
     if(before > 0)
       result.relative_error *= std::sqrt(result.E / before);
