@@ -262,6 +262,17 @@ runs "signals" shape.off signals.off --vertices 200 --eigenvectors 25 --signals 
   --json signals.json
 [ "$(field signals signals.json)" -eq 25 ] || fail "the number of signals is not in the JSON file"
 grep -q '|C|_L' said || fail "no table with --signals"
+# An operator, and the same one from a file: its coefficients at all vertices.
+runs "an operator" shape.off aniso.off --vertices 250 --eigenvectors 25 --operator anisotropic:2 --json aniso.json --eigenpairs aniso
+grep -q '"operator": "anisotropic:2"' aniso.json || fail "the operator is not in the JSON file"
+grep -q '25 eigenvectors of anisotropic:2' said || fail "the operator is not in the table"
+[ -s aniso/coarse_coefficients.npy ] || fail "no coefficients are written"
+runs "no collapse" shape.off all.off --ratio 1 --eigenvectors 25 --operator anisotropic:2 --relocate none --eigenpairs all
+runs "coefficients" shape.off weighted.off --vertices 250 --eigenvectors 25 --operator weighted:all/coarse_coefficients.npy --json weighted.json
+[ "$(field norm_L weighted.json)" = "$(field norm_L aniso.json)" ] || fail "the operator of the file is another one"
+cmp -s aniso.off weighted.off || fail "the mesh of the operator of the file is another one"
+runs "Voronoi areas" shape.off voronoi.off --vertices 250 --eigenvectors 25 --mass voronoi --relocate none --json voronoi.json
+grep -q '"mass": "voronoi"' voronoi.json || fail "the mass is not in the JSON file"
 # Two strips, the second in the same list after a -1, the first of three triangles.
 printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n%s\n%s\n%s\n' \
   'element tristrips 1' 'property list int int vertex_indices' 'end_header' >strips.ply
@@ -317,6 +328,11 @@ refuses "no landmarks" "No such file" shape.off out.off --vertices 100 --keep no
 refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 100 --signals shape.off
 refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
   --signals pairs/coarse_eigenvectors.npy
+refuses "no operator" "--operator is 'round'" shape.off out.off --vertices 100 --operator round
+refuses "an operator without its file" "weighted:FILE" shape.off out.off --vertices 100 --operator weighted:
+refuses "a negative anisotropy" "a number A from 0" shape.off out.off --vertices 100 --operator anisotropic:-1
+refuses "coefficients that are none" "not an .npy file" shape.off out.off --vertices 100 --operator weighted:shape.off
+refuses "too many coefficients" "it has 25 columns" shape.off out.off --vertices 100 --operator weighted:pairs/fine_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner
 refuses "a binary P that relocation would replace" "--relocate none" shape.off out.off --vertices 100 --binary
 refuses "an unknown preset" "--preset is 'worst'" shape.off out.off --vertices 100 --preset worst

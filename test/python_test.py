@@ -156,6 +156,8 @@ class Beside_the_program(Shapes):
         signals, keep = self.V[:, :2] ** 2, [7, 400]
         np.save(os.path.join(self.folder, "F.npy"), signals)
         np.savetxt(os.path.join(self.folder, "keep.txt"), keep, "%d")
+        weights = np.exp(self.V[:, 1:])
+        np.save(os.path.join(self.folder, "W.npy"), weights)
         outputs = "--restriction", "P.mtx", "--map", "map.txt", "--no-evaluation"
         for options, arguments in (
                 ("--preset paper --keep keep.txt --shape 1", dict(preset="paper", keep=keep, shape=1)),
@@ -163,6 +165,9 @@ class Beside_the_program(Shapes):
                  dict(mass="lumped", placement="midpoint", relocate="carried", binary=True)),
                 ("--signals F.npy --flips spectral --self-intersections allow",
                  dict(signals=signals, flips="spectral", self_intersections="allow")),
+                ("--operator anisotropic:2 --mass voronoi --relocate none",
+                 dict(coefficients=ss.curvature_coefficients(self.V, self.F, 2), mass="voronoi", relocate="none")),
+                ("--operator weighted:W.npy", dict(coefficients=ss.weighted_coefficients(*weights.T))),
                 ("--preset fast --pre-simplify 400", dict(preset="fast", pre_simplify=400)),
                 ("--preset fast", dict(preset="fast")), # which is best on a mesh as small as this one
                 ("--pre-simplify 500 --relocate carried_and_sampled --max-error 0.05 --preserve-border",
@@ -249,6 +254,41 @@ class Results(Shapes):
         self.close(e.C_L, np.linalg.norm(e.C @ np.diag(e.values) - lambda_c @ e.C) / np.linalg.norm(e.C))
         self.close(e.C_D, np.linalg.norm(e.C.T @ e.C - np.eye(50)))
         self.close(e.eigenvalue_error, np.mean(abs(e.coarse_values[1:50] / e.values[1:] - 1)))
+
+    def test_an_operator_with_coefficients(self):
+        V, F = sheet(20)
+        rho, c = np.exp(V[:, 0]), 1 + V[:, 1] ** 2
+        coefficients = ss.weighted_coefficients(rho, c)
+        self.close(ss.weighted_coefficients(None, c), ss.weighted_coefficients(np.ones(len(V)), c), 0)
+        pairs = ss.eigenpairs(V, F, 30, coefficients=coefficients)
+        self.close(pairs.L @ pairs.vectors, (pairs.M @ pairs.vectors) * pairs.values, 1e-6)
+        plain = ss.eigenpairs(V, F, 30)
+        self.close(pairs.M.sum(), plain.M.sum() * (plain.M @ rho).sum() / plain.M.sum(), 1e-9)
+        run = ss.simplify(V, F, 100, 30, coefficients=coefficients, relocate="none", fit_operators=True)
+        self.close(run.coefficients, run.P @ coefficients, 1e-12)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertIsNone(ss.simplify(V, F, 100, 30, relocate="none").coefficients)
+        arguments = dict(k=30, coefficients=coefficients, eigenpairs=run.eigenpairs)
+        e = ss.evaluate(V, F, run.V, run.F, run.P, **arguments)
+        again = ss.evaluate(V, F, run.V, run.F, run.P, coarse_coefficients=run.coefficients, **arguments)
+        self.close(e.C_L, again.C_L)
+        self.assertLess(e.C_L, 0.5 * ss.evaluate(V, F, run.V, run.F, run.P, coarse_coefficients=ss.weighted_coefficients(
+            np.ones(100)), **arguments).C_L)
+        fitted = ss.fit_operators(run.V, run.F, run.P, pairs, 30, coefficients=run.coefficients)
+        self.assertLess(ss.evaluate(V, F, run.V, run.F, run.P, operators=fitted, **arguments).C_L, e.C_L)
+        for call, sentence in (
+                (lambda: ss.simplify(V, F, 100, 30, coefficients=rho[:, None]), "coefficients has 1 columns, it must have 7"),
+                (lambda: ss.simplify(V, F, 100, 30, coefficients=coefficients[:9]), "coefficients has 9 rows, but V has 400"),
+                (lambda: ss.eigenpairs(V, F, 30, coefficients=-coefficients), "the density of vertex 0 .* is -"),
+                (lambda: ss.weighted_coefficients(), "give one of them"),
+                (lambda: ss.weighted_coefficients(rho, c[:3]), r"both must be \(v,\)"),
+                (lambda: ss.curvature_coefficients(V, F, -1), "anisotropy is -1, it must be a finite number from 0"),
+                (lambda: ss.evaluate(V, F, run.V, run.F, run.P, 30, eigenpairs=pairs), "another mesh or operator"),
+                (lambda: ss.evaluate(V, F, run.V, run.F, run.P, coarse_coefficients=coefficients, **arguments),
+                 "coarse_coefficients has 400 rows, but Vc has 100")):
+            with self.assertRaisesRegex(ValueError, sentence):
+                call()
 
     def test_signals_say_how_many_they_are(self):
         V, F = sheet(8)
@@ -497,7 +537,7 @@ class Wrong_input(Shapes):
                 (ValueError, "n is 1000000000000000000000000, it must be", dict(n=10 ** 24)),
                 (ValueError, "k is 2562, it must be an integer from 1 to 2561", dict(k=2562)),
                 (ValueError, "preset is 'good', it must be 'best', 'fast' or 'paper'", dict(preset="good")),
-                (ValueError, "mass is 'full', it must be None, 'lumped' or 'averaged'", dict(mass="full")),
+                (ValueError, "mass is 'full', it must be None, 'lumped', 'averaged' or 'voronoi'", dict(mass="full")),
                 (TypeError, "placement is 3, it must be None, 'on_edge', 'midpoint' or 'free'", dict(placement=3)),
                 (ValueError, "placement is 'edge'", dict(placement="edge")),
                 (ValueError, "shape is -1, it must be a finite number from 0", dict(shape=-1)),
@@ -588,9 +628,9 @@ class Documentation(unittest.TestCase):
 
     def test_help_says_what_each_argument_is(self):
         functions = [f for name, f in vars(ss).items() if inspect.isfunction(f)]
-        self.assertEqual(len(functions), 10)
+        self.assertEqual(len(functions), 12)
         self.assertLess({f.__name__ for f in functions}, set(ss.__all__))
-        self.assertEqual(len(ss.__all__), 10 + 6 + hasattr(ss, "Match"))
+        self.assertEqual(len(ss.__all__), 12 + 6 + hasattr(ss, "Match"))
         for function in functions:
             for name, parameter in inspect.signature(function).parameters.items():
                 self.assertIsNot(parameter.annotation, parameter.empty)

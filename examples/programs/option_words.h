@@ -18,7 +18,7 @@ struct Option_words
   std::size_t vertices = 0; // the target, for fast
   // Empty: as the preset has it.
   std::string placement;          // on_edge, midpoint, free
-  std::string mass;               // lumped, averaged
+  std::string mass;               // lumped, averaged, voronoi
   std::string self_intersections; // allow, refuse
   std::string relocate;           // none, sampled, carried, carried_and_sampled
   std::optional<double> shape;
@@ -40,7 +40,9 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
                         : words.placement == "free"   ? SMS::Spectral_placement_strategy::free
                                                       : SMS::Spectral_placement_strategy::on_edge;
   if(!words.mass.empty())
-    options.mass = words.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+    options.mass = words.mass == "averaged"  ? SG::Mass::averaged
+                   : words.mass == "voronoi" ? SG::Mass::voronoi
+                                             : SG::Mass::lumped;
   options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
   if(words.shape)
     options.shape = *words.shape;

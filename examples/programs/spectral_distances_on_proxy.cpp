@@ -150,7 +150,7 @@ Pair simplify(const Distance_arguments& a)
   options.cancel = &interrupted;
   const auto shape = [&](const std::optional<SG::Operator_fit_result>& fitted) {
     SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
-    SG::Laplace_operator own = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(options.mass));
+    SG::Laplace_operator own = SG::laplace_operator(matrices.V, matrices.T, options.mass);
     return Unit_shape(std::move(matrices), fitted ? fitted->op : std::move(own), a.eigenvectors,
                       options.threads);
   };

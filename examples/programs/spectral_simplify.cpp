@@ -11,6 +11,7 @@
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/npy_reader.h"
+#include "io/operator_reader.h"
 #include "io/output_files.h"
 #include "io/program.h"
 #include "io/texture_seams.h"
@@ -50,6 +51,14 @@ constexpr const char* eigenpairs_files[] = {
     "fine_mass.mtx",        "coarse_eigenvalues.npy", "coarse_eigenvectors.npy",
     "coarse_L.mtx",         "coarse_mass.mtx",        "C.npy"};
 
+// One more of them, where --operator has coefficients.
+constexpr const char* coefficients_file = "/coarse_coefficients.npy";
+
+bool has_coefficients(const Arguments& a)
+{
+  return a.operator_word != "cotangent";
+}
+
 // Those of --fit-operators.
 constexpr const char* fitted_files[] = {"L.mtx", "mass.mtx", "eigenvalues.npy", "eigenvectors.npy"};
 
@@ -80,6 +89,8 @@ void announce(Output_files& files, const Arguments& a)
       files.add(folder + "/" + name);
   };
   add_folder(a.eigenpairs, eigenpairs_files);
+  if(has_coefficients(a) && !a.eigenpairs.empty())
+    files.add(a.eigenpairs + coefficients_file);
   add_folder(a.fit_operators, fitted_files);
 }
 
@@ -195,13 +206,13 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
 }
 
 // Compares the spectra, with tight pairs of the whole input; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
-SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
-                                 const Eigen::Index number_of_eigenvectors,
+SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_collapse_options& run,
                                  const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
 {
   const Eigen::Index N = meshes.coarse.V.rows();
-  meshes.fine_operator = SG::laplace_operator(meshes.fine.V, meshes.fine.T, SG::mass_blend(mass));
-  meshes.coarse_operator = SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, SG::mass_blend(mass));
+  meshes.fine_operator = SG::laplace_operator(meshes.fine.V, meshes.fine.T, {run.mass, run.coefficients});
+  meshes.coarse_operator =
+      SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, {run.mass, result.coefficients});
   SG::Eigenpairs_options options;
   options.progress = [&bar](double fraction) {
     bar.show("evaluation", fraction);
@@ -211,7 +222,7 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, SG::Mass mass,
   meshes.fine_pairs = result.eigenpairs;
   if(!meshes.fine_pairs || meshes.fine_pairs->vectors.rows() != meshes.fine.V.rows())
     meshes.fine_pairs = std::make_shared<SG::Eigenpairs>(
-        SG::eigenpairs(meshes.fine_operator, number_of_eigenvectors, options));
+        SG::eigenpairs(meshes.fine_operator, run.number_of_eigenvectors, options));
   const Eigen::Index K = meshes.fine_pairs->size();
   meshes.coarse_pairs = SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
   return SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, meshes.coarse_operator,
@@ -259,6 +270,9 @@ void write_eigenpairs(const Output_files& files, const std::string& folder, cons
   mtx("fine_mass", numbering.operator_of_file(meshes.fine_operator.B));
   mtx("coarse_L", meshes.coarse_operator.L);
   mtx("coarse_mass", meshes.coarse_operator.B);
+  if(result.coefficients.rows() != 0)
+    write_npy(files.temporary(folder + coefficients_file), Eigen::MatrixXd(result.coefficients),
+              folder + coefficients_file);
 }
 
 // The page of this run.
@@ -270,6 +284,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   run.simplifier = report.options.shape > 0 ? "spectral with shape term" : "spectral";
   if(!a.signals.empty())
     run.simplifier += ", own signals";
+  if(has_coefficients(a))
+    run.simplifier += ", " + a.operator_word;
   if(a.binary)
     run.simplifier += ", binary";
   if(a.flips != "none")
@@ -373,12 +389,13 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
 }
 
 // How well the spectrum was kept.
-void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, SG::Mass mass,
-              Progress_bar& bar)
+void evaluate(Simplification_report& report, Both_meshes& meshes, Progress_bar& bar)
 {
   CGAL::Real_timer timer;
   timer.start();
-  report.evaluation = evaluate(meshes, mass, a.eigenvectors, report.result, bar);
+  report.evaluation = evaluate(meshes, report.options, report.result, bar);
+  if(report.operator_word != "cotangent") // the estimates are those of isotropic elements
+    report.evaluation->floor_norm_L = report.evaluation->floor_norm_D = 0;
   report.seconds_evaluation = timer.time();
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
@@ -448,19 +465,21 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
 
 // Evaluates and writes what is said about the result; returns the exit status. Whatever fails here leaves the result where it is.
 int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh& input, const Mesh& mesh,
-                       Both_meshes& meshes, SG::Mass mass, Progress_bar& bar, Simplification_report& report)
+                       Both_meshes& meshes, Progress_bar& bar, Simplification_report& report)
 {
   std::string failure;
   std::vector<std::string> written = {a.json};
   try {
     if(!a.no_evaluation && !interrupted) {
-      evaluate(report, a, meshes, mass, bar);
+      evaluate(report, meshes, bar);
       if(report.result.fitted)
         add_fit(report, meshes, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);
       written.push_back(a.report);
       for(const std::string name : eigenpairs_files)
         written.push_back(a.eigenpairs + "/" + name);
+      if(has_coefficients(a))
+        written.push_back(a.eigenpairs + coefficients_file);
       for(const std::string name : fitted_files)
         written.push_back(a.fit_operators + "/" + name);
     }
@@ -503,8 +522,9 @@ int run(Arguments a)
   report.seconds_reading = timer.time();
   const std::size_t target =
       checked_target(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
-  const SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
-  Output_files files({a.input, a.keep, a.signals});
+  SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
+  options.coefficients = operator_coefficients(parsed_operator(a.operator_word), input.mesh, input.numbering);
+  Output_files files({a.input, a.keep, a.signals, parsed_operator(a.operator_word).file});
   announce(files, a);
   check_memory(a, input.mesh, target, options);
   if(!a.quiet && !input.changes.empty())
@@ -528,6 +548,7 @@ int run(Arguments a)
   report.input = a.input;
   report.output = a.output;
   report.preset = a.preset;
+  report.operator_word = a.operator_word;
   report.options = options;
   report.attributes = writable(input.attributes, a.output).names();
   const std::string lost = lost_attributes(input.attributes, a.output);
@@ -539,7 +560,7 @@ int run(Arguments a)
   meshes.coarse = SG::mesh_matrices(mesh);
   bar.show("writing", 0);
   write_result(files, a, input, seams, mesh, copy, meshes, report);
-  const int status = evaluate_and_write(files, a, input, mesh, meshes, options.mass, bar, report);
+  const int status = evaluate_and_write(files, a, input, mesh, meshes, bar, report);
   bar.clear();
   say(a, report);
   if(status == 130)

@@ -8,6 +8,7 @@
 #include "io/command_line.h"
 #include "io/program.h"
 #include "io/mesh_io.h"
+#include "io/operator_reader.h"
 
 #include <boost/program_options.hpp>
 
@@ -34,6 +35,7 @@ struct Arguments
   long eigenvectors = 100;
   std::optional<long> pre_simplify; // as the preset has it; 0: never
   std::string preset = "best", flips = "none";
+  std::string operator_word = "cotangent";                   // see `parsed_operator()`
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
   int threads = all_threads();
@@ -105,9 +107,14 @@ inline boost::program_options::options_description described(Arguments& a)
       "best: what keeps the spectrum best; fast: the same with --pre-simplify at 30 N, at least 10000; "
       "paper: what the "
       "paper describes. Each of the next five, and --pre-simplify, overrides it");
-  add("mass", text(a.mass, "lumped|averaged"),
+  add("mass", text(a.mass, "lumped|averaged|voronoi"),
       "the mass matrix of the eigenproblem: lumped (paper), or the mean of lumped and consistent (best), "
-      "which keeps the eigenvalues of coarse meshes much closer");
+      "which keeps the eigenvalues of coarse meshes much closer, or lumped by mixed Voronoi areas");
+  add("operator", text(a.operator_word, "OPERATOR")->default_value(a.operator_word),
+      "whose spectrum is kept and judged: cotangent; weighted:W.npy, -div(c grad f) = lambda rho f, a NumPy "
+      "array with a row for each vertex of INPUT: c, or rho and c, or rho and a tensor xx, xy, xz, yy, yz, "
+      "zz; anisotropic:A, along and across the bends of the surface conducts 1 / (1 + A |curvature|), "
+      "curvature in radii of the sphere of the same area");
   add("placement", text(a.placement, "on_edge|midpoint|free"),
       "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   add("shape", po::value<double>()->value_name("G"),
@@ -235,7 +242,8 @@ inline void check(const Arguments& a)
     refuse("--pre-simplify is " + std::to_string(*a.pre_simplify) + ", it must not be negative.");
   check_choice("--preset", a.preset, {"best", "fast", "paper"});
   check_choice("--placement", a.placement, {"on_edge", "midpoint", "free"});
-  check_choice("--mass", a.mass, {"lumped", "averaged"});
+  check_choice("--mass", a.mass, {"lumped", "averaged", "voronoi"});
+  parsed_operator(a.operator_word);
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
   check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});
   check_choice("--on-interrupt", a.on_interrupt, {"discard", "write"});

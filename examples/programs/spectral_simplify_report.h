@@ -39,7 +39,7 @@ struct Simplification_report
   std::optional<Fitted_operators> fitted;
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
-  std::string input, output, preset;
+  std::string input, output, preset, operator_word;
   std::vector<std::string> attributes;   // names of those that were carried
   std::optional<std::size_t> seam_edges; // kept ones of the texture
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
@@ -89,7 +89,9 @@ inline void print_table(const Simplification_report& r)
               r.result.stop_reason_name());
   if(r.evaluation) {
     const auto& e = *r.evaluation;
-    std::printf("  %d eigenvectors, %s mass, unit area\n", static_cast<int>(e.judged_modes), e.mass.c_str());
+    const std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
+    std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes), of.c_str(),
+                e.mass.c_str());
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
     print_norm("|C|_D", e.norm_D, e.floor_norm_D);
     print_errors(e);
@@ -159,7 +161,8 @@ inline nlohmann::json evaluation_json(const CGAL::Spectral_geometry::Spectral_ev
 inline nlohmann::json to_json(const Simplification_report& r)
 {
   nlohmann::json json = run_json(r.result, r.options, r.preset);
-  json.update({{"levels", r.levels},
+  json.update({{"operator", r.operator_word},
+               {"levels", r.levels},
                {"attributes", r.attributes},
                {"seam_edges", r.seam_edges ? nlohmann::json(*r.seam_edges) : nlohmann::json()},
                {"seconds_reading", r.seconds_reading},

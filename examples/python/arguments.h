@@ -8,6 +8,7 @@
 #include "../programs/io/threads.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -142,7 +143,21 @@ public:
 
   SG::Mass mass() const
   {
-    return word("mass", {"lumped", "averaged"}) == "lumped" ? SG::Mass::lumped : SG::Mass::averaged;
+    const std::string name = word("mass", {"lumped", "averaged", "voronoi"});
+    return name == "lumped" ? SG::Mass::lumped : name == "voronoi" ? SG::Mass::voronoi : SG::Mass::averaged;
+  }
+
+  // Of an operator on the n vertices of V or Vc; none where the argument is None.
+  SG::Operator_coefficients coefficients(const Index n, const char* name = "coefficients",
+                                         const char* of = "V") const
+  {
+    if(!has(name))
+      return {};
+    const Eigen::MatrixXd values = matrix(name, n, of);
+    if(values.cols() != 7)
+      refuse(std::string(name) + " has " + to_string(values.cols()) +
+             " columns, it must have 7: density, xx, xy, xz, yy, yz, zz; see weighted_coefficients().");
+    return SG::anisotropic_coefficients(values.rightCols(6), values.col(0));
   }
 
   // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is 0 for one dimension, -1 for any

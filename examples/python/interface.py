@@ -61,7 +61,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
              signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
              pre_simplify: int | None = None, max_error: float | None = None, fit_operators: bool = False,
-             threads: int | None = None, progress: Progress | None = None) -> Simplification:
+             coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
 
     V          (v, 3) real numbers, positions in any unit of length
@@ -74,7 +74,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification, 2020). Each of the
                next five, and pre_simplify, overrides it
     mass       'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
-               eigenvalues of coarse meshes much closer
+               eigenvalues of coarse meshes much closer, or 'voronoi', lumped by mixed Voronoi areas
     placement  'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
     shape      weight of the shape beside the spectrum (best: 3, paper: 0)
     self_intersections
@@ -96,6 +96,10 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                afterwards choose a Laplacian and a mass of the simplified mesh so that they have the spectrum of V, F
                as nearly as they can: fitted of the result. Takes another solve, for a fifth more eigenpairs, unless
                eigenpairs are given
+    coefficients
+               (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place of the
+               Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
+               curvature_coefficients(). The simplified mesh has those of the result
     threads    for eigenpairs, costs and relocation, all cores by default and at most; the result does not depend
                on it
     progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
@@ -109,23 +113,23 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
 
 
 def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               threads: int | None = None, progress: Progress | None = None) -> Eigenpairs:
+               coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Eigenpairs:
     """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
     an inverse area.
 
     V, F       as of simplify(), but faces need not form a manifold
     k          from 1 to v
-    mass       'lumped' or 'averaged'
+    mass       'lumped', 'averaged' or 'voronoi'
     tolerance  relative accuracy of the solver; a run of simplify() has pairs of 1e-8
-    threads, progress
+    coefficients, threads, progress
                as of simplify()"""
     return _eigenpairs(locals())
 
 
 def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
              k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
-             operators: Fitted_operators | None = None, threads: int | None = None,
-             progress: Progress | None = None) -> Evaluation:
+             operators: Fitted_operators | None = None, coefficients: numpy.ndarray | None = None,
+             coarse_coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
     meshes at unit area; compare figures of one mass only.
 
@@ -133,9 +137,13 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
     Vc, Fc     the coarse mesh
     P          (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1
     k          modes to judge
-    mass       'lumped' or 'averaged', of both operators
+    mass       'lumped', 'averaged' or 'voronoi', of both operators
     eigenpairs of the fine mesh in that mass, k or more, to save the solve
     operators  what fit_operators() returned, in the place of the coarse mesh's own operators
+    coefficients
+               of the operator, (v, 7), as of simplify()
+    coarse_coefficients
+               those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients where None
     threads, progress
                as of simplify()"""
     return _evaluate(locals())
@@ -144,7 +152,7 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
 def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: Eigenpairs,
                   k: int | None = None, mass: str | None = None, rings: int | None = None, *,
                   low_modes: float = 2.5, orthonormality: float = 0.01, plain: float = 0.2,
-                  progress: Progress | None = None) -> Fitted_operators:
+                  coefficients: numpy.ndarray | None = None, progress: Progress | None = None) -> Fitted_operators:
     """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of the fine
     one as nearly as they can: for functional maps and spectral distances, not for geometry.
 
@@ -158,8 +166,34 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
     orthonormality
                weight of orthonormality; more lowers C_D and raises C_L
     plain      weight of the whole residual; more keeps the modes beyond k
+    coefficients
+               (vc, 7), of the coarse mesh: coefficients of a Simplification; where eigenpairs have such
     progress   as of simplify()"""
     return _fit_operators(locals())
+
+
+def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: numpy.ndarray | None = None) -> numpy.ndarray:
+    """(v, 7), the coefficients of -div(c grad phi) = lambda rho phi: rho and c at each vertex, positive; 1 where None.
+    simplify() and others take them."""
+    if density is None and conductivity is None:
+        raise ValueError("density and conductivity are None: give one of them.")
+    rho, c = (None if x is None else numpy.asarray(x, float) for x in (density, conductivity))
+    rho, c = numpy.ones_like(c) if rho is None else rho, numpy.ones_like(rho) if c is None else c
+    if rho.ndim != 1 or rho.shape != c.shape:
+        raise ValueError(f"density and conductivity have the shapes {rho.shape} and {c.shape}, both must be (v,).")
+    result = numpy.zeros((len(rho), 7))
+    result[:, 0], result[:, [1, 4, 6]] = rho, c[:, None]
+    return result
+
+
+def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float) -> numpy.ndarray:
+    """(v, 7), the coefficients of an anisotropic Laplacian (Andreux et al. 2014): in the direction of a principal
+    curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|), with kappa in units of the sphere of the same area.
+    simplify() and others take them.
+
+    V, F       as of simplify(), but faces need not form a manifold
+    anisotropy from 0, the Laplacian itself"""
+    return _curvature_coefficients(locals())
 
 
 def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
@@ -209,7 +243,7 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
                two meshes, nearly isometric, as of simplify()
     n          vertices of the simplified meshes, 3 k or more
     k          eigenvectors of all meshes, from 10 to n
-    mass       'lumped' or 'averaged'
+    mass       'lumped', 'averaged' or 'voronoi'
     landmarks  (l, 2) integers, pairs of vertices of X and Y that are known to correspond
     proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
     operators  'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own

@@ -17,6 +17,7 @@
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -51,10 +52,11 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace {
 
 // The library speaks of a mesh; here there may be two.
-SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const double theta, const char* names)
+SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const SG::Local_operator& op,
+                                 const char* names)
 {
   try {
-    return SG::laplace_operator(mesh.V, mesh.T, theta);
+    return SG::laplace_operator(mesh.V, mesh.T, op);
   } catch(const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(names) + ": " + error.what());
   }
@@ -155,13 +157,14 @@ Pairs eigenpairs(const Arguments& a)
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const Index k = a.integer("k", 1, mesh.V.rows());
   const SG::Mass mass = a.mass();
+  const SG::Local_operator local(mass, a.coefficients(mesh.V.rows()));
   Watch watch(a);
   SG::Eigenpairs_options options;
   options.tolerance = a.number("tolerance", 0, false, 0.5);
   options.threads = a.threads();
   options.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
-    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, SG::mass_blend(mass), "V, F"));
+    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, local, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
     return Pairs{std::move(pairs), std::move(op), SG::mass_name(mass)};
   });
@@ -235,7 +238,7 @@ struct Simplification : Level
   using Level::Level;
 
   SMS::Collapse_log log;
-  py::object eigenpairs, fitted;
+  py::object eigenpairs, fitted, coefficients;
   py::dict report;
 
   // One record for each collapse.
@@ -292,7 +295,7 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   words.preset = a.word("preset", {"best", "fast", "paper"});
   words.vertices = std::size_t(target);
   words.placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
-  words.mass = a.word("mass", {"lumped", "averaged"}, true);
+  words.mass = a.word("mass", {"lumped", "averaged", "voronoi"}, true);
   if(a.has("shape"))
     words.shape = a.number("shape", 0);
   words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
@@ -354,6 +357,7 @@ Simplification simplify(const Arguments& a)
   const Index n = a.integer("n", 1, vertices, ", as many as V has");
   SMS::Spectral_edge_collapse_options options = run_options(a, n);
   set_signals(a, vertices, n, options);
+  options.coefficients = a.coefficients(vertices);
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
   Watch watch(a);
@@ -373,8 +377,8 @@ Simplification simplify(const Arguments& a)
     run.result = SMS::spectral_edge_collapse(mesh, std::size_t(n), options);
     run.coarse = SG::mesh_matrices(mesh);
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
-      run.op =
-          std::make_shared<SG::Laplace_operator>(operator_of(*fine, SG::mass_blend(options.mass), "V, F"));
+      run.op = std::make_shared<SG::Laplace_operator>(
+          operator_of(*fine, {options.mass, options.coefficients}, "V, F"));
     if(run.result.fitted)
       run.fitted = fitted_pairs(std::move(*run.result.fitted), options.operator_fit,
                                 (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
@@ -392,6 +396,9 @@ Simplification simplify(const Arguments& a)
     result.eigenpairs = a["eigenpairs"];
   else if(run.op)
     result.eigenpairs = py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)});
+  result.coefficients = run.result.coefficients.rows() != 0
+                            ? py::cast(Eigen::MatrixXd(run.result.coefficients))
+                            : py::object(py::none());
   result.fitted = run.fitted ? py::cast(std::move(*run.fitted)) : py::none();
   result.log = std::move(run.result.log);
   for(const std::string& warning : run.result.warnings)
@@ -408,6 +415,10 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
   const SG::Mass mass = a.mass();
+  const SG::Local_operator local(mass, a.coefficients(n));
+  const SG::Local_operator of_coarse =
+      a.has("coarse_coefficients") ? SG::Local_operator(mass, a.coefficients(N, "coarse_coefficients", "Vc"))
+                                   : local.restricted(P);
   std::optional<Pairs> given, fitted;
   if(a.has("eigenpairs"))
     given = given_pairs(a, n, mass, k);
@@ -425,11 +436,11 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   options.threads = a.threads();
   options.progress = [&](const double fraction) { return watch("evaluation", fraction); };
   return watch.run([&] {
-    const double theta = SG::mass_blend(mass);
-    const SG::Laplace_operator fine_op = operator_of(fine, theta, "V, F");
-    if(given && (fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm())
-      throw std::invalid_argument("eigenpairs are those of another mesh: compute them of V, F.");
-    const SG::Laplace_operator coarse_op = fitted ? *fitted->op : operator_of(coarse, theta, "Vc, Fc");
+    const SG::Laplace_operator fine_op = operator_of(fine, local, "V, F");
+    if(given && ((fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm() ||
+                 (fine_op.mass - given->op->mass).norm() > 1e-12 * fine_op.mass.norm()))
+      throw std::invalid_argument("eigenpairs are those of another mesh or operator: compute them of V, F.");
+    const SG::Laplace_operator coarse_op = fitted ? *fitted->op : operator_of(coarse, of_coarse, "Vc, Fc");
     const SG::Eigenpairs fine_pairs = given ? *given->pairs : SG::eigenpairs(fine_op, k, options);
     const SG::Eigenpairs coarse_pairs =
         fitted ? *fitted->pairs : SG::eigenpairs(coarse_op, (std::min)(N, k + (k + 9) / 10), options);
@@ -453,14 +464,25 @@ Fitted_pairs fit_operators(const Arguments& a)
   options.low_modes = a.number("low_modes", 0);
   options.orthonormality = a.number("orthonormality", 0);
   options.plain = a.number("plain", 0);
+  SG::Local_operator local(fine.op->theta);
+  local.voronoi = fine.op->voronoi;
+  local.coefficients = a.coefficients(coarse.V.rows(), "coefficients", "Vc");
   Watch watch(a);
   options.progress = [&](const double fraction) { return watch("operator_fit", fraction); };
   SG::Eigenpairs_options solver;
   solver.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
-    const SG::Laplace_operator op = operator_of(coarse, fine.op->theta, "Vc, Fc");
+    const SG::Laplace_operator op = operator_of(coarse, local, "Vc, Fc");
     return fitted_pairs(SG::fit_operators(op, P, *fine.op, *fine.pairs, options), options, k, solver);
   });
+}
+
+Eigen::MatrixXd curvature_coefficients(const Arguments& a)
+{
+  const SG::Mesh_matrices mesh = a.mesh("V", "F");
+  const double anisotropy = a.number("anisotropy", 0);
+  const py::gil_scoped_release no_gil;
+  return SG::curvature_coefficients(mesh.V, mesh.T, anisotropy);
 }
 
 Eigen::MatrixXd functional_map(const Arguments& a)
@@ -676,7 +698,7 @@ PYBIND11_MODULE(spectral_simplification, m)
       .def_property_readonly(
           "M", [](const Pairs& self) { return csr(self.op->B); },
           "(v, v) mass, the manual's B; a new csr_matrix each time")
-      .def_readonly("mass", &Pairs::mass, "'lumped' or 'averaged'")
+      .def_readonly("mass", &Pairs::mass, "'lumped', 'averaged' or 'voronoi'")
       .def_property_readonly("zeros", of_pairs(&SG::Eigenpairs::zeros),
                              "how many eigenvalues are zero, one for each component")
       .def_property_readonly("complete", of_pairs(&SG::Eigenpairs::complete), "whether none can be missing")
@@ -721,6 +743,10 @@ PYBIND11_MODULE(spectral_simplification, m)
       .def_readonly(
           "eigenpairs", &Simplification::eigenpairs,
           "of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or pre_simplify")
+      .def_readonly(
+          "coefficients", &Simplification::coefficients,
+          "(n, 7), what the collapses have made of coefficients=: of the operator of this mesh; None "
+          "without")
       .def_readonly("fitted", &Simplification::fitted,
                     "with fit_operators=True operators of the mesh that were fitted to the spectrum of the "
                     "input, and k "
@@ -767,6 +793,7 @@ PYBIND11_MODULE(spectral_simplification, m)
   define(m, "_eigenpairs", eigenpairs);
   define(m, "_evaluate", evaluate);
   define(m, "_fit_operators", fit_operators);
+  define(m, "_curvature_coefficients", curvature_coefficients);
   define(m, "_functional_map", functional_map);
   define(m, "_distances", distances);
   define(m, "_heat_kernel_signature", heat_kernel_signature);

@@ -77,7 +77,7 @@ Fine_reference fine_reference(const SG::Mesh_matrices& mesh, SG::Mass mass, Eige
 {
   Fine_reference r;
   r.mass = SG::mass_name(mass);
-  r.op = SG::laplace_operator(mesh.V, mesh.T, SG::mass_blend(mass));
+  r.op = SG::laplace_operator(mesh.V, mesh.T, mass);
   r.K = K;
   r.sources = sources;
   SG::Eigenpairs_options options;

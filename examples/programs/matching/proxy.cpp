@@ -84,7 +84,7 @@ Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, 
                  const std::function<void(SG::Laplace_operator&)>& fit)
 {
   Shape shape;
-  SG::Laplace_operator op = SG::laplace_operator(matrices.V, matrices.T, SG::mass_blend(mass));
+  SG::Laplace_operator op = SG::laplace_operator(matrices.V, matrices.T, mass);
   shape.area = op.mass.sum();
   op.B /= shape.area;
   op.mass /= shape.area;
