@@ -273,6 +273,8 @@ runs "coefficients" shape.off weighted.off --vertices 250 --eigenvectors 25 --op
 cmp -s aniso.off weighted.off || fail "the mesh of the operator of the file is another one"
 runs "Voronoi areas" shape.off voronoi.off --vertices 250 --eigenvectors 25 --mass voronoi --relocate none --json voronoi.json
 grep -q '"mass": "voronoi"' voronoi.json || fail "the mass is not in the JSON file"
+runs "a closed surface has no border" shape.off dirichlet.off --vertices 250 --eigenvectors 25 --boundary dirichlet --json dirichlet.json
+grep -q '"boundary": "dirichlet"' dirichlet.json || fail "the boundary condition is not in the JSON file"
 # Two strips, the second in the same list after a -1, the first of three triangles.
 printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n%s\n%s\n%s\n' \
   'element tristrips 1' 'property list int int vertex_indices' 'end_header' >strips.ply
@@ -331,6 +333,8 @@ refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off
 refuses "no operator" "--operator is 'round'" shape.off out.off --vertices 100 --operator round
 refuses "an operator without its file" "weighted:FILE" shape.off out.off --vertices 100 --operator weighted:
 refuses "a negative anisotropy" "a number A from 0" shape.off out.off --vertices 100 --operator anisotropic:-1
+refuses "an unknown condition" "--boundary is 'robin'" shape.off out.off --vertices 100 --boundary robin
+refuses "a fit with zero on the border" "rows sum to zero" shape.off out.off --vertices 100 --boundary dirichlet --fit-operators d
 refuses "coefficients that are none" "not an .npy file" shape.off out.off --vertices 100 --operator weighted:shape.off
 refuses "too many coefficients" "it has 25 columns" shape.off out.off --vertices 100 --operator weighted:pairs/fine_eigenvectors.npy
 refuses "unknown placement" "--placement is 'corner'" shape.off out.off --vertices 100 --placement corner

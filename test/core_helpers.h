@@ -118,7 +118,9 @@ inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per
             0.3 * length * Eigen::Vector3d(std::sin(double(u)), std::cos(double(v)), std::sin(double(u + v)));
       const Eigen::Vector3d uv = on_edge(mesh, e, 1) - on_edge(mesh, e, 0);
       const double projection = (point - on_edge(mesh, e, 0)).dot(uv) / uv.squaredNorm();
-      const double weight = (std::min)(1., (std::max)(0., projection));
+      const bool zero_u = mesh.vanishes_at(e.first, faces), zero_v = mesh.vanishes_at(e.second, faces);
+      const double weight =
+          zero_u != zero_v ? (zero_u ? 0. : 1.) : (std::min)(1., (std::max)(0., projection));
       const double slow = valid ? mesh.energy_after(e, weight, point) - before : infinity;
       const double fast = core.cost_at(u, v, point);
       if(std::isfinite(slow) != std::isfinite(fast))

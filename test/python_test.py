@@ -290,6 +290,20 @@ class Results(Shapes):
             with self.assertRaisesRegex(ValueError, sentence):
                 call()
 
+    def test_functions_that_vanish_on_the_border(self):
+        V, F = sheet(20)
+        run = ss.simplify(V, F, 120, 20, boundary="dirichlet")
+        border = np.arange(len(V)).reshape(20, 20)
+        border = np.unique(np.r_[border[0], border[-1], border[:, 0], border[:, -1]])
+        self.assertEqual(abs(run.eigenpairs.vectors[border]).max(), 0)
+        self.assertGreater(run.eigenpairs.values[0], 1)
+        e = ss.evaluate(V, F, run.V, run.F, run.P, 20, boundary="dirichlet", eigenpairs=run.eigenpairs)
+        self.assertLess(e.eigenvalue_error, 0.05)
+        with self.assertRaisesRegex(ValueError, "another mesh or operator"):
+            ss.evaluate(V, F, run.V, run.F, run.P, 20, eigenpairs=run.eigenpairs)
+        with self.assertRaisesRegex(ValueError, "boundary is 'robin', it must be 'neumann' or 'dirichlet'"):
+            ss.simplify(V, F, 120, 20, boundary="robin")
+
     def test_signals_say_how_many_they_are(self):
         V, F = sheet(8)
         for k in None, 3:

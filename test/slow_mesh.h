@@ -93,6 +93,12 @@ public:
                             : interior;
   }
 
+  // Whether the Dirichlet condition takes a vertex out of the operator.
+  bool vanishes_at(const int v, const std::map<Edge, int>& edges) const
+  {
+    return m_local.boundary == SG::Boundary_condition::dirichlet && on_border(v, edges);
+  }
+
   // The vertices adjacent to both ends are those of the faces at the edge.
   bool link_condition(const Edge& e) const
   {

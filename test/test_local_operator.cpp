@@ -10,6 +10,7 @@
 
 #include <CGAL/Spectral_geometry/edge_flips.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 #include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
@@ -52,7 +53,7 @@ Eigen::MatrixXd tensors(const Eigen::MatrixXd& V)
   return D;
 }
 
-enum class Kind_of_operator { voronoi, weighted, anisotropic, anisotropic_voronoi };
+enum class Kind_of_operator { voronoi, weighted, anisotropic, anisotropic_voronoi, dirichlet };
 
 SG::Local_operator operator_on(const Eigen::MatrixXd& V, const Kind_of_operator kind, const SG::Mass mass)
 {
@@ -64,6 +65,8 @@ SG::Local_operator operator_on(const Eigen::MatrixXd& V, const Kind_of_operator 
     return {mass, SG::weighted_coefficients(density, bumps(V, 2))};
   case Kind_of_operator::anisotropic:
     return {mass, SG::anisotropic_coefficients(tensors(V), density)};
+  case Kind_of_operator::dirichlet:
+    return {mass, SG::weighted_coefficients(density, bumps(V, 2)), SG::Boundary_condition::dirichlet};
   default:
     return {SG::Mass::voronoi, SG::anisotropic_coefficients(tensors(V), density)};
   }
@@ -259,6 +262,58 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
   }
 }
 
+TEST_CASE(
+    "With the Dirichlet condition functions vanish on the border, of the input and of what is left of it")
+{
+  const SG::Boundary_condition dirichlet = SG::Boundary_condition::dirichlet;
+  const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
+  const shapes::Matrices input = shapes::grid_matrices(40, 40);
+  const SG::Local_operator local(mass, {}, dirichlet);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, local);
+  CHECK(relative_difference(op.mass.sum(), 1.) < 1e-12);
+  CHECK(SG::number_of_zero_eigenvalues(op) == 0);
+  const SG::Eigenpairs pairs = SG::eigenpairs(op, 11); // the twelfth equals the thirteenth
+  const std::vector<char> border = SG::internal::border_vertices(input.T, input.V.rows());
+  CHECK(std::count(border.begin(), border.end(), 1) == 4 * 40);
+  for(Eigen::Index v = 0; v < input.V.rows(); ++v)
+    if(border[std::size_t(v)])
+      CHECK(pairs.vectors.row(v).cwiseAbs().maxCoeff() < 1e-12);
+  std::vector<double> expected;
+  for(int k = 1; k < 6; ++k)
+    for(int m = 1; m < 6; ++m)
+      expected.push_back((k * k + m * m) * pi * pi);
+  std::sort(expected.begin(), expected.end());
+  for(int k = 0; k < 11; ++k)
+    CHECK(relative_difference(pairs.values(k), expected[std::size_t(k)]) < 0.03);
+
+  SMS::Spectral_edge_collapse_options options;
+  options.mass = mass;
+  options.boundary = dirichlet;
+  options.number_of_eigenvectors = 11;
+  options.flips = SG::Edge_flips::spectral;
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 150, options);
+  const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
+  const std::vector<char> coarse_border = SG::internal::border_vertices(coarse.T, coarse.V.rows());
+  const Eigen::MatrixXd F = result.restriction * pairs.vectors;
+  for(Eigen::Index v = 0; v < coarse.V.rows(); ++v)
+    if(coarse_border[std::size_t(v)])
+      CHECK(F.row(v).cwiseAbs().maxCoeff() < 1e-9);
+  const SG::Laplace_operator coarse_op = SG::laplace_operator(coarse.V, coarse.T, local);
+  const Eigen::VectorXd values = SG::eigenpairs(coarse_op, 11).values;
+  CHECK((values - pairs.values).cwiseQuotient(pairs.values).cwiseAbs().mean() < 0.05);
+  const Basis basis = basis_of_pairs(op, pairs, local);
+  CHECK(relative_difference(energy(coarse, basis, result.restriction), result.E) < 1e-6);
+
+  options.fit_operators = true;
+  Mesh another = make_mesh(input);
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options), ContainsSubstring("Dirichlet"));
+  options.fit_operators = false;
+  options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
+                    ContainsSubstring("do not vanish at vertex 0 "));
+}
+
 TEST_CASE("Eigenpairs of a pencil are those of the operator, in any unit")
 {
   const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(3);
@@ -282,8 +337,9 @@ TEST_CASE("Eigenpairs of a pencil are those of the operator, in any unit")
 
 TEST_CASE("With any operator the local cost of a collapse is the change of the global E")
 {
-  const auto kind = GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted,
-                             Kind_of_operator::anisotropic, Kind_of_operator::anisotropic_voronoi);
+  const auto kind =
+      GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted, Kind_of_operator::anisotropic,
+               Kind_of_operator::anisotropic_voronoi, Kind_of_operator::dirichlet);
   const bool bordered = GENERATE(false, true);
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const std::size_t largest_ring = GENERATE(256, 5); // with inner products, and by whole rows
@@ -380,15 +436,21 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
 TEST_CASE("Energies of relocation and flips with an operator are those of its matrices, gradients those of "
           "differences")
 {
-  const auto kind = GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted,
-                             Kind_of_operator::anisotropic, Kind_of_operator::anisotropic_voronoi);
+  const auto kind =
+      GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted, Kind_of_operator::anisotropic,
+               Kind_of_operator::anisotropic_voronoi, Kind_of_operator::dirichlet);
   const Simplified_mesh* s = GENERATE(&closed_example(), &open_example());
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   CAPTURE(int(kind), SG::mass_name(mass), s == &open_example());
   const SG::Local_operator local = operator_on(s->coarse.V, kind, mass);
-  const Eigen::MatrixXd F = s->P * s->F(), Z = s->P * s->Z();
+  Eigen::SparseMatrix<double> P = s->P;
+  if(kind == Kind_of_operator::dirichlet) {
+    const std::vector<char> border = SG::internal::border_vertices(s->coarse.T, s->coarse.V.rows());
+    P.prune([&](const Eigen::Index row, Eigen::Index, double) { return !border[std::size_t(row)]; });
+  }
+  const Eigen::MatrixXd F = P * s->F(), Z = P * s->Z();
   const double slow =
-      SG::restriction_energy(SG::laplace_operator(s->coarse.V, s->coarse.T, local), s->P, s->F(), s->Z());
+      SG::restriction_energy(SG::laplace_operator(s->coarse.V, s->coarse.T, local), P, s->F(), s->Z());
   SG::Relocation_energy energy(s->coarse.T, F, Z, local);
   CHECK(relative_difference(energy.value(s->coarse.V), slow) < 1e-10);
   SG::Smoothed_relocation_energy smoothed(s->coarse.T, F, Z, local, 0.01, 0.3);
@@ -411,10 +473,10 @@ TEST_CASE("Energies of relocation and flips with an operator are those of its ma
   }
 
   Eigen::MatrixXi T = s->coarse.T;
-  const SG::Edge_flip_result flips = SG::flip_edges(s->coarse.V, T, s->P, s->F(), s->Z(), local);
+  const SG::Edge_flip_result flips = SG::flip_edges(s->coarse.V, T, P, s->F(), s->Z(), local);
   CHECK(relative_difference(flips.E_before, slow) < 1e-9);
   CHECK(relative_difference(flips.E_after, SG::restriction_energy(SG::laplace_operator(s->coarse.V, T, local),
-                                                                  s->P, s->F(), s->Z())) < 1e-9);
+                                                                  P, s->F(), s->Z())) < 1e-9);
 }
 
 TEST_CASE("Coefficients of faces become those of vertices by area")

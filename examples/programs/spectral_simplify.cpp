@@ -148,6 +148,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
+  options.boundary =
+      a.boundary == "dirichlet" ? SG::Boundary_condition::dirichlet : SG::Boundary_condition::neumann;
   options.threads = a.threads;
   if(a.pre_simplify)
     options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
@@ -210,9 +212,10 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_c
                                  const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
 {
   const Eigen::Index N = meshes.coarse.V.rows();
-  meshes.fine_operator = SG::laplace_operator(meshes.fine.V, meshes.fine.T, {run.mass, run.coefficients});
+  meshes.fine_operator =
+      SG::laplace_operator(meshes.fine.V, meshes.fine.T, SMS::internal::local_operator(run));
   meshes.coarse_operator =
-      SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, {run.mass, result.coefficients});
+      SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, {run.mass, result.coefficients, run.boundary});
   SG::Eigenpairs_options options;
   options.progress = [&bar](double fraction) {
     bar.show("evaluation", fraction);
@@ -389,12 +392,12 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
 }
 
 // How well the spectrum was kept.
-void evaluate(Simplification_report& report, Both_meshes& meshes, Progress_bar& bar)
+void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, Progress_bar& bar)
 {
   CGAL::Real_timer timer;
   timer.start();
   report.evaluation = evaluate(meshes, report.options, report.result, bar);
-  if(report.operator_word != "cotangent") // the estimates are those of isotropic elements
+  if(has_coefficients(a) || a.boundary != "neumann") // the estimates are those of isotropic elements
     report.evaluation->floor_norm_L = report.evaluation->floor_norm_D = 0;
   report.seconds_evaluation = timer.time();
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
@@ -471,7 +474,7 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   std::vector<std::string> written = {a.json};
   try {
     if(!a.no_evaluation && !interrupted) {
-      evaluate(report, meshes, bar);
+      evaluate(report, a, meshes, bar);
       if(report.result.fitted)
         add_fit(report, meshes, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);

@@ -35,6 +35,7 @@ struct Arguments
   long eigenvectors = 100;
   std::optional<long> pre_simplify; // as the preset has it; 0: never
   std::string preset = "best", flips = "none";
+  std::string boundary = "neumann";
   std::string operator_word = "cotangent";                   // see `parsed_operator()`
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
@@ -115,6 +116,8 @@ inline boost::program_options::options_description described(Arguments& a)
       "array with a row for each vertex of INPUT: c, or rho and c, or rho and a tensor xx, xy, xz, yy, yz, "
       "zz; anisotropic:A, along and across the bends of the surface conducts 1 / (1 + A |curvature|), "
       "curvature in radii of the sphere of the same area");
+  add("boundary", text(a.boundary, "neumann|dirichlet")->default_value(a.boundary),
+      "what functions do on the border of INPUT: their derivative across it is zero, or they are");
   add("placement", text(a.placement, "on_edge|midpoint|free"),
       "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   add("shape", po::value<double>()->value_name("G"),
@@ -243,6 +246,9 @@ inline void check(const Arguments& a)
   check_choice("--preset", a.preset, {"best", "fast", "paper"});
   check_choice("--placement", a.placement, {"on_edge", "midpoint", "free"});
   check_choice("--mass", a.mass, {"lumped", "averaged", "voronoi"});
+  check_choice("--boundary", a.boundary, {"neumann", "dirichlet"});
+  if(a.boundary == "dirichlet" && !a.fit_operators.empty())
+    refuse("--fit-operators fits Laplacians whose rows sum to zero: leave it out with --boundary dirichlet.");
   parsed_operator(a.operator_word);
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
   check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});

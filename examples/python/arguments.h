@@ -147,6 +147,12 @@ public:
     return name == "lumped" ? SG::Mass::lumped : name == "voronoi" ? SG::Mass::voronoi : SG::Mass::averaged;
   }
 
+  SG::Boundary_condition boundary() const
+  {
+    return word("boundary", {"neumann", "dirichlet"}) == "dirichlet" ? SG::Boundary_condition::dirichlet
+                                                                     : SG::Boundary_condition::neumann;
+  }
+
   // Of an operator on the n vertices of V or Vc; none where the argument is None.
   SG::Operator_coefficients coefficients(const Index n, const char* name = "coefficients",
                                          const char* of = "V") const

@@ -61,7 +61,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
              signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
              pre_simplify: int | None = None, max_error: float | None = None, fit_operators: bool = False,
-             coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Simplification:
+             coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+             progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
 
     V          (v, 3) real numbers, positions in any unit of length
@@ -100,6 +101,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place of the
                Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
                curvature_coefficients(). The simplified mesh has those of the result
+    boundary   'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or they are
     threads    for eigenpairs, costs and relocation, all cores by default and at most; the result does not depend
                on it
     progress   is called with a phase and the fraction of it that is done, at most twenty times a second; raises
@@ -113,7 +115,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
 
 
 def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Eigenpairs:
+               coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+               progress: Progress | None = None) -> Eigenpairs:
     """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
     an inverse area.
 
@@ -121,7 +124,7 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
     k          from 1 to v
     mass       'lumped', 'averaged' or 'voronoi'
     tolerance  relative accuracy of the solver; a run of simplify() has pairs of 1e-8
-    coefficients, threads, progress
+    coefficients, boundary, threads, progress
                as of simplify()"""
     return _eigenpairs(locals())
 
@@ -129,7 +132,8 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
 def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
              k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
              operators: Fitted_operators | None = None, coefficients: numpy.ndarray | None = None,
-             coarse_coefficients: numpy.ndarray | None = None, threads: int | None = None, progress: Progress | None = None) -> Evaluation:
+             coarse_coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+             progress: Progress | None = None) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
     meshes at unit area; compare figures of one mass only.
 
@@ -144,7 +148,7 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
                of the operator, (v, 7), as of simplify()
     coarse_coefficients
                those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients where None
-    threads, progress
+    boundary, threads, progress
                as of simplify()"""
     return _evaluate(locals())
 
@@ -173,8 +177,8 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
 
 
 def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: numpy.ndarray | None = None) -> numpy.ndarray:
-    """(v, 7), the coefficients of -div(c grad phi) = lambda rho phi: rho and c at each vertex, positive; 1 where None.
-    simplify() and others take them."""
+    """(v, 7), the coefficients of -div(c grad phi) = lambda rho phi, with the density rho and the conductivity c at
+    each vertex, positive; 1 where None. simplify() and others take them."""
     if density is None and conductivity is None:
         raise ValueError("density and conductivity are None: give one of them.")
     rho, c = (None if x is None else numpy.asarray(x, float) for x in (density, conductivity))
@@ -188,8 +192,8 @@ def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: nu
 
 def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float) -> numpy.ndarray:
     """(v, 7), the coefficients of an anisotropic Laplacian (Andreux et al. 2014): in the direction of a principal
-    curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|), with kappa in units of the sphere of the same area.
-    simplify() and others take them.
+    curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|), with kappa in units of the sphere of the same
+    area. simplify() and others take them.
 
     V, F       as of simplify(), but faces need not form a manifold
     anisotropy from 0, the Laplacian itself"""

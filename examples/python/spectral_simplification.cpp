@@ -157,7 +157,7 @@ Pairs eigenpairs(const Arguments& a)
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const Index k = a.integer("k", 1, mesh.V.rows());
   const SG::Mass mass = a.mass();
-  const SG::Local_operator local(mass, a.coefficients(mesh.V.rows()));
+  const SG::Local_operator local(mass, a.coefficients(mesh.V.rows()), a.boundary());
   Watch watch(a);
   SG::Eigenpairs_options options;
   options.tolerance = a.number("tolerance", 0, false, 0.5);
@@ -358,6 +358,7 @@ Simplification simplify(const Arguments& a)
   SMS::Spectral_edge_collapse_options options = run_options(a, n);
   set_signals(a, vertices, n, options);
   options.coefficients = a.coefficients(vertices);
+  options.boundary = a.boundary();
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
   Watch watch(a);
@@ -378,7 +379,7 @@ Simplification simplify(const Arguments& a)
     run.coarse = SG::mesh_matrices(mesh);
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
       run.op = std::make_shared<SG::Laplace_operator>(
-          operator_of(*fine, {options.mass, options.coefficients}, "V, F"));
+          operator_of(*fine, SMS::internal::local_operator(options), "V, F"));
     if(run.result.fitted)
       run.fitted = fitted_pairs(std::move(*run.result.fitted), options.operator_fit,
                                 (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
@@ -415,10 +416,11 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
   const SG::Mass mass = a.mass();
-  const SG::Local_operator local(mass, a.coefficients(n));
+  const SG::Local_operator local(mass, a.coefficients(n), a.boundary());
   const SG::Local_operator of_coarse =
-      a.has("coarse_coefficients") ? SG::Local_operator(mass, a.coefficients(N, "coarse_coefficients", "Vc"))
-                                   : local.restricted(P);
+      a.has("coarse_coefficients")
+          ? SG::Local_operator(mass, a.coefficients(N, "coarse_coefficients", "Vc"), local.boundary)
+          : local.restricted(P);
   std::optional<Pairs> given, fitted;
   if(a.has("eigenpairs"))
     given = given_pairs(a, n, mass, k);

@@ -51,6 +51,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"preset", preset},
           {"eigenvectors", options.number_of_eigenvectors},
           {"mass", mass_name(options.mass)},
+          {"boundary", boundary_condition_name(options.boundary)},
           {"placement", placement_name(options.placement)},
           {"shape", options.shape},
           {"keep_free_of_self_intersections", options.keep_free_of_self_intersections},

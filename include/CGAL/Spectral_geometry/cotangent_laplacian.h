@@ -52,6 +52,8 @@ struct Laplace_operator
   double theta = 0.;
   /// whether `mass` is that of mixed Voronoi areas
   bool voronoi = false;
+  /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of before
+  Boundary_condition boundary = Boundary_condition::neumann;
 };
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which

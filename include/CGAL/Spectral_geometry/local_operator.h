@@ -44,6 +44,15 @@ inline const char* mass_name(Mass mass)
 /// Rows go on like signals: with a restriction P the coarse mesh has the coefficients `P * coefficients`.
 using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
+/// \brief what functions do on the border of a mesh: their derivative across it vanishes (the natural condition), or they do.
+enum class Boundary_condition { neumann, dirichlet };
+
+/// \brief `"neumann"` or `"dirichlet"`.
+inline const char* boundary_condition_name(const Boundary_condition condition)
+{
+  return condition == Boundary_condition::dirichlet ? "dirichlet" : "neumann";
+}
+
 /*!
 \brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners alone, which is what the
 metric of the collapses, flips and relocation need to follow an operator.
@@ -54,6 +63,10 @@ In a triangle with corners i, j, k, area A and the mean of its corners' coeffici
 n its normal and \f$e_i\f$ the edge opposite to i, all edges one way round: \f$L_{ij} = -\cot(k)/2\f$ for the identity, c times
 that for a conductivity c. The shares s are 1/3 each, or those of mixed Voronoi areas in the metric of D.
 Constants are in the kernel of L, whatever D is.
+
+With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. What couples vertices of the border to others is taken
+out of both, so that eigenvectors vanish there; each of them alone has an eigenvalue of about 400 pi n over the mass of
+the mesh in the unit of L, far beyond the spectrum that n vertices resolve. The masses M stay what they are.
 */
 struct Local_operator
 {
@@ -61,6 +74,7 @@ struct Local_operator
   bool voronoi = false; ///< mixed Voronoi shares in place of thirds; with `theta` 0 alone
   /// n x 7, or empty for the cotangent Laplacian
   Operator_coefficients coefficients;
+  Boundary_condition boundary = Boundary_condition::neumann; ///< where the mesh has a border
 
   /// the cotangent Laplacian in the blend `theta`
   Local_operator(const double theta = 0.)
@@ -68,10 +82,12 @@ struct Local_operator
   {}
 
   /// coefficients at the vertices, or none, in a mass by name
-  Local_operator(const Mass mass, Operator_coefficients coefficients = {})
+  Local_operator(const Mass mass, Operator_coefficients coefficients = {},
+                 const Boundary_condition boundary = Boundary_condition::neumann)
     : theta(mass_blend(mass))
     , voronoi(mass == Mass::voronoi)
     , coefficients(std::move(coefficients))
+    , boundary(boundary)
   {}
 
   /// The same operator on a mesh that the restriction P leads to.
@@ -80,6 +96,7 @@ struct Local_operator
   {
     Local_operator result(theta);
     result.voronoi = voronoi;
+    result.boundary = boundary;
     if(coefficients.rows() != 0)
       result.coefficients = P * coefficients;
     return result;

@@ -116,7 +116,7 @@ private:
     for(Index w = 0; w < number_of_vertices(); ++w) {
       const auto& row = m_geometry.row(w);
       m_E(w) = 0;
-      if(row.empty())
+      if(row.empty() || m_geometry.vanishes_at(w))
         continue;
       const Index d = Index(row.size());
       m_coefficients.resize(2 * d + 1);

@@ -155,6 +155,8 @@ private:
     Rows F, Z, by_F, by_Z;
     if(m_moving) {
       m_moving->evaluate(V, F, Z);
+      clear_vanishing(F);
+      clear_vanishing(Z);
       by_F.resize(F.rows(), F.cols());
       by_Z.resize(F.rows(), F.cols());
     }
@@ -178,11 +180,21 @@ private:
         derivatives += work.derivatives;
     }
     if(gradient) {
-      if(m_moving)
+      if(m_moving) {
+        clear_vanishing(by_F);
+        clear_vanishing(by_Z);
         m_moving->add_gradient(by_F, by_Z, *gradient);
+      }
       m_geometry.add_gradient(derivatives, V, *gradient);
     }
     return m_smoothed + m_mu * m_plain;
+  }
+
+  void clear_vanishing(Rows& rows) const
+  {
+    for(Index w = 0; w < rows.rows(); ++w)
+      if(m_geometry.vanishes_at(w))
+        rows.row(w).setZero();
   }
 
   // Derivatives with respect to the entries of F and Z, in which R is linear.
@@ -217,6 +229,13 @@ private:
     Eigen::VectorXd diagonal = m_entries.B_diagonal;
     for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
       const auto [i, j] = m_geometry.edges()[e];
+      if(m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j)) { // no coupling, but in the diagonal
+        const double L = m_tau * m_entries.L(Index(e));
+        diagonal(i) -= L;
+        diagonal(j) -= L;
+        entries.emplace_back((std::max)(i, j), (std::min)(i, j), 0.);
+        continue;
+      }
       const double L = m_tau * m_entries.L(Index(e));
       diagonal(i) -= L;
       diagonal(j) -= L;
@@ -279,6 +298,8 @@ private:
     X.setZero(n, width);
     Q.setZero(n, width);
     for(Index w = 0; w < n; ++w) {
+      if(m_geometry.vanishes_at(w))
+        continue;
       double* const r = Y.row(w).data();
       add_multiple(m_entries.B_diagonal(w), s.Z.row(w).data(), r);
       for(const auto& entry : m_geometry.row(w)) {
@@ -296,6 +317,8 @@ private:
     }
     solve(Y, work.scratch);
     for(Index w = 0; w < n; ++w) {
+      if(m_geometry.vanishes_at(w))
+        continue;
       double* const x = X.row(w).data();
       add_multiple(m_entries.B_diagonal(w), Y.row(w).data(), x);
       for(const auto& entry : m_geometry.row(w))

@@ -120,6 +120,10 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
           "Spectral_edge_collapse_options: fit_operators fits to eigenvectors, but signals "
           "are given; leave one of them out.");
   }
+  if(options.fit_operators && options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+    throw std::invalid_argument(
+        "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, "
+        "which those of the Dirichlet condition do not; leave one of them out.");
   if(!options.relocate)
     return;
   Spectral_geometry::internal::check_relocation_options(options.relocation);

@@ -43,7 +43,8 @@ public:
     , m_shift(4. * 3.14159265358979323846 / mass.sum() * unit_of(L))
   {}
 
-  void check(Eigen::Index K) const
+  // Where nothing was taken out of B its row sums are the masses.
+  void check(const Eigen::Index K, const bool masses_are_row_sums) const
   {
     const Eigen::Index n = size();
     if(m_L.cols() != n || m_B.rows() != n || m_B.cols() != n || m_mass.size() != n)
@@ -51,7 +52,8 @@ public:
           "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
     if(!(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift)))
       throw std::invalid_argument("Eigenpairs: every mass must be positive and finite.");
-    if(!((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all())
+    if(masses_are_row_sums &&
+       !((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all())
       throw std::invalid_argument("Eigenpairs: the mass vector must hold the row sums of B.");
     if(K < 1 || K > n)
       throw std::invalid_argument(
@@ -120,6 +122,24 @@ private:
   double m_shift;
   mutable double m_fraction = 0.;
 };
+
+// A row without couplings, as of a vertex at which functions vanish, is an eigenvector of its own: of others it has exactly 0,
+// and a solver its tolerance.
+inline void clear_uncoupled_rows(const Eigen_problem& problem, Ritz_pairs& pairs)
+{
+  using Entry = Eigen::SparseMatrix<double>::InnerIterator;
+  for(Eigen::Index v = 0; v < problem.size(); ++v) {
+    double l = 0., b = 0.;
+    bool coupled = false;
+    for(Entry entry(problem.L(), v); entry && !coupled; ++entry)
+      entry.row() == v ? void(l = entry.value()) : void(coupled = entry.value() != 0.);
+    for(Entry entry(problem.B(), v); entry && !coupled; ++entry)
+      entry.row() == v ? void(b = entry.value()) : void(coupled = entry.value() != 0.);
+    for(Eigen::Index k = 0; k < pairs.values.size() && !coupled && b > 0.; ++k)
+      if(std::abs(pairs.values(k) - l / b) > 1e-3 * (l / b + problem.shift()))
+        pairs.vectors(v, k) = 0.;
+  }
+}
 
 // A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors
 // vanish; an entry of exactly 0.618... times the largest is not structural.

@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Flip_connectivity.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 
 #include <Eigen/Core>
 
@@ -47,6 +48,8 @@ public:
     , m_R(m_F.cols())
   {
     const Eigen::MatrixXi& T = mesh.triangles();
+    if(op.boundary == Boundary_condition::dirichlet)
+      m_border = border_vertices(T, V.rows());
     for(Eigen::Index f = 0; f < T.rows(); ++f)
       m_triangles.push_back(triangle({T(f, 0), T(f, 1), T(f, 2)}));
     for(int v = 0; v < int(V.rows()); ++v)
@@ -91,6 +94,8 @@ private:
   // E_w as it is, or with two triangles in the place of those of a quad.
   double term(const int w, const Flip_connectivity::Quad* without, const std::array<Triangle, 2>* with)
   {
+    if(!m_border.empty() && m_border[std::size_t(w)] != 0)
+      return 0;
     m_R.setZero();
     double mass = 0;
     for(const int f : m_mesh.faces_of(w))
@@ -125,6 +130,7 @@ private:
   const Eigen::MatrixXd& m_V;
   Rows m_F, m_Z;
   Local_operator m_op;
+  std::vector<char> m_border;        // where functions vanish, or nothing
   std::vector<Triangle> m_triangles; // by face
   Eigen::VectorXd m_E;
   Eigen::RowVectorXd m_R;

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
@@ -66,12 +67,16 @@ public:
         t.e[k] = edge_of(t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
       m_triangles.push_back(t);
     }
+    if(op.boundary == Boundary_condition::dirichlet)
+      m_border = border_vertices(T, n);
   }
 
   Index number_of_vertices() const { return Index(m_rows.size()); }
   const std::vector<Edge>& edges() const { return m_edges; }
   const std::vector<Entry>& row(const Index w) const { return m_rows[std::size_t(w)]; }
   const Local_operator& local_operator() const { return m_op; }
+  /// Whether functions vanish there: it has no row in the operator.
+  bool vanishes_at(const Index w) const { return !m_border.empty() && m_border[std::size_t(w)] != 0; }
 
   Entries zero_entries() const
   {
@@ -276,6 +281,7 @@ private:
   }
 
   Local_operator m_op;
+  std::vector<char> m_border; // where functions vanish, or nothing
   std::vector<Triangle> m_triangles;
   std::vector<Edge> m_edges;
   std::vector<std::vector<Entry>> m_rows;

@@ -11,6 +11,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/internal/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/closest_point_search.h>
@@ -61,20 +62,6 @@ inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd&
           "the list of fixed vertices has " + std::to_string(fixed.size()) + " entries for " +
               std::to_string(V.rows()) + " vertices; pass one for each, or none.");
   check_relocation_options(o);
-}
-
-/// The directed edges that have a face on their left only: the boundary.
-inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
-{
-  std::map<std::pair<int, int>, int> faces_of;
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    for(int k = 0; k < 3; ++k)
-      ++faces_of[std::minmax(T(f, k), T(f, (k + 1) % 3))];
-  std::vector<std::pair<int, int>> result;
-  for(const auto& [edge, count] : faces_of)
-    if(count == 1)
-      result.push_back(edge);
-  return result;
 }
 
 /// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
@@ -216,9 +203,7 @@ private:
     std::vector<std::vector<Boundary_segment>> boundary(m_fine_parts.size()); // of each component
     for(const auto& [i, j] : boundary_edges(m_fine.T))
       boundary[std::size_t(m_fine_parts[std::size_t(i)])].push_back({m_fine.V.row(i), m_fine.V.row(j)});
-    std::vector<bool> on_boundary(std::size_t(m_start.rows()), false);
-    for(const auto& [i, j] : boundary_edges(m_T))
-      on_boundary[std::size_t(i)] = on_boundary[std::size_t(j)] = true;
+    const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
     for(std::size_t v = 0; v < on_boundary.size(); ++v)
       if(on_boundary[v] && m_options.fix_boundary)
         m_guards.fix(Eigen::Index(v));

@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <algorithm>
@@ -236,6 +237,23 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
   return result;
 }
 
+// See `Boundary_condition`.
+inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& op)
+{
+  const auto on_border = [&](const Eigen::Index v) { return border[std::size_t(v)] != 0; };
+  const auto couples = [&](const Eigen::Index i, const Eigen::Index j) {
+    return i != j && (on_border(i) || on_border(j));
+  };
+  const double unit = op.L.diagonal().cwiseAbs().mean() / std::sqrt(12.);
+  const double beyond = 400 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
+  for(Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
+    matrix->prune([&](const Eigen::Index i, const Eigen::Index j, double) { return !couples(i, j); });
+  for(Eigen::Index v = 0; v < op.L.rows(); ++v)
+    if(on_border(v))
+      op.L.coeffRef(v, v) = beyond * op.B.coeff(v, v);
+  op.boundary = Boundary_condition::dirichlet;
+}
+
 } // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
@@ -276,6 +294,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
     return element;
   });
   result.voronoi = op.voronoi;
+  if(op.boundary == Boundary_condition::dirichlet)
+    internal::impose_dirichlet(internal::border_vertices(T, V.rows()), result);
   return result;
 }
 

@@ -24,7 +24,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
 {
   using Method = Eigenpairs_method;
   const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
-  problem.check(K);
+  problem.check(K, op.boundary == Boundary_condition::neumann);
   internal::check_eigenpairs_options(options, K);
 
   internal::Ritz_pairs pairs;
@@ -45,6 +45,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
     pairs = lanczos.compute(K, options.verify, result.complete);
     result.solver = "block+" + internal::Cholesky::name();
   }
+  internal::clear_uncoupled_rows(problem, pairs);
   internal::fix_signs(pairs.vectors);
   result.zeros = number_of_zero_eigenvalues(op);
   result.residuals = problem.residuals(pairs);

@@ -136,6 +136,10 @@ struct Spectral_options
   /// are: the coarse mesh has P times them. Empty: the Laplace-Beltrami operator.
   Spectral_geometry::Operator_coefficients coefficients;
 
+  /// What functions do on the border of the mesh. With `dirichlet`, where they vanish, `preserve_border` is set: a vertex of the
+  /// border is one of vertices of the border. Signals of the user's must vanish there.
+  Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
+
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
   bool binary = false;

@@ -37,6 +37,10 @@ struct Spectral_basis
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n);
 
+/// The operator of the input.
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
+local_operator(const Spectral_options& options);
+
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V);
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,

@@ -9,6 +9,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -65,12 +66,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
   if(options.metric_eigenvectors < 0)
     throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
                                 to_string(options.metric_eigenvectors) + ", use a number from 0.");
-  Spectral_geometry::internal::check_local_operator({options.mass, options.coefficients}, n);
+  Spectral_geometry::internal::check_local_operator(local_operator(options), n);
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
                                 to_string(options.number_of_eigenvectors) + ", but the mesh has " +
                                 to_string(n) + " vertices; use a number from 1 to " + to_string(n - 1) + ".");
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
+local_operator(const Spectral_options& options)
+{
+  return {options.mass, options.coefficients, options.boundary};
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
@@ -172,6 +179,19 @@ inline void check_eigenpairs(const Spectral_geometry::Eigenpairs& pairs, const E
   }
 }
 
+inline void check_signals_on_border(const Spectral_options& options, const Eigen::MatrixXi& T)
+{
+  if(options.boundary != Spectral_geometry::Boundary_condition::dirichlet)
+    return;
+  const double largest = options.signals.cwiseAbs().maxCoeff();
+  for(const auto& [i, j] : Spectral_geometry::internal::boundary_edges(T))
+    for(const int v : {i, j})
+      if(options.signals.row(v).cwiseAbs().maxCoeff() > 1e-9 * largest)
+        throw std::invalid_argument("Spectral_options: the signals do not vanish at " +
+                                    Spectral_geometry::internal::vertex_name(v) +
+                                    " of the border, as the Dirichlet condition wants; set them to 0 there.");
+}
+
 inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
                                        const Spectral_options& options, const double area)
 {
@@ -225,10 +245,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
 {
   check_spectral_options(options, V.rows());
   check_extent(V);
-  Spectral_geometry::Local_operator local(options.mass, options.coefficients);
+  Spectral_geometry::Local_operator local = local_operator(options);
   const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, local);
   const double area = op.mass.sum();
   Spectral_basis basis;
+  if(options.signals.size() != 0)
+    check_signals_on_border(options, T);
   if(options.signals.size() != 0)
     basis = basis_of_signals(op, options, area);
   else {

@@ -42,7 +42,7 @@ public:
                     const double weight, const Eigen::Vector3d& point)
   {
     set_collapse(fields, u, v, weight, point);
-    double change = merged_energy() - fields.E[u] - fields.E[v];
+    double change = at_merged(merged_energy()) - fields.E[u] - fields.E[v];
     for(const Spectral_slot end : {u, v})
       for(const Spectral_ring_entry& e : fields.rings[end])
         if(!is_merged(e.vertex) && !(end == v && fields.rings.are_adjacent(u, e.vertex)))
@@ -59,7 +59,7 @@ public:
     const bool more_at_u = fields.rings[u].size() >= fields.rings[v].size();
     const Spectral_slot c = more_at_u ? u : v, o = more_at_u ? v : u;
     const bool stays = point == fields.points[c] && weight == (more_at_u ? 0. : 1.);
-    double change = (stays ? energy_after_few(c, o) : merged_energy()) - fields.E[u] - fields.E[v];
+    double change = at_merged(stays ? energy_after_few(c, o) : merged_energy()) - fields.E[u] - fields.E[v];
     for(const Spectral_ring_entry& e : fields.rings[o])
       if(e.vertex != c && (stays || !fields.rings.are_adjacent(c, e.vertex)))
         change += energy_after(e.vertex) - fields.E[e.vertex];
@@ -105,6 +105,12 @@ private:
     return spectral_triangle(position(c), position(a), position(b), &mean);
   }
 
+  // Where functions vanish there is no term.
+  double at_merged(const double E) const
+  {
+    return m_fields->vanishes_at(m_u) || m_fields->vanishes_at(m_v) ? 0. : E;
+  }
+
   // E_x of the merged vertex.
   double merged_energy()
   {
@@ -117,11 +123,15 @@ private:
   // E_w of a vertex of the link.
   double energy_after(const Spectral_slot w)
   {
+    double E = 0;
     if(!m_fields->has_products(w))
-      return energy_after_few(w, w);
-    begin_row();
-    add_ring(w);
-    return end_row(w);
+      E = energy_after_few(w, w);
+    else {
+      begin_row();
+      add_ring(w);
+      E = end_row(w);
+    }
+    return m_fields->vanishes_at(w) ? 0. : E; // with its triangles looked at
   }
 
   void begin_row()

@@ -208,6 +208,7 @@ private:
   std::vector<char> m_kept;
   Spectral_shape_term m_shape;
   double m_surface_scale = 0; // 1 / area of the input
+  bool m_dirichlet = false;
   Spectral_crossing_guard m_crossing;
   std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;

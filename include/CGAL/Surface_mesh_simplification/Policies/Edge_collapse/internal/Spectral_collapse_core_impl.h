@@ -89,6 +89,8 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
   m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
   m_parameters = parameters;
   m_surface_scale = 0;
+  m_fields.vanishing.clear();
+  m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
   m_shape = Spectral_shape_term();
   m_pool = std::make_unique<Pool>(parameters.threads);
   m_forest = Spectral_geometry::Merge_forest(F.rows());
@@ -103,6 +105,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
   if(m_fields.R.empty())
     m_fields.R.assign(n, m_number_of_signals);
+  if(m_dirichlet && m_fields.vanishing.empty())
+    for(std::size_t w = 0; w < std::size_t(n); ++w)
+      m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
   m_products.resize(std::size_t(n));
@@ -287,6 +292,8 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   merge_rows(m_fields.F, removed, kept, weight);
   if(m_fields.has_z_rows())
     merge_rows(m_fields.Z, removed, kept, weight);
+  if(m_fields.vanishes_at(removed))
+    m_fields.vanishing[kept] = 1;
   if(!m_fields.coefficients.empty())
     m_fields.coefficients[kept] =
         (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
@@ -363,7 +370,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   row.push_back(Spectral_row_entry{w, to_self, area * m_fields.diagonal_share()});
   const double square = spectral_combine_rows(m_fields, row, m_fields.R[w]);
   m_fields.mass[w] = area / 3;
-  m_fields.E[w] = area > 0 ? square / m_fields.mass[w] : 0;
+  m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow_around(const Spectral_slot removed,

@@ -304,8 +304,9 @@ private:
       add_link_terms<false, true>(point, weight, total_area, cost, invalid);
     else
       add_link_terms<false, false>(point, weight, total_area, cost, invalid);
-    m_merged.add_term(m_new.data(), total_area, weight, m_fields->diagonal_share() * m_fields->area_scale,
-                      m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
+    if(!m_fields->vanishes_at(m_link.u()) && !m_fields->vanishes_at(m_link.v()))
+      m_merged.add_term(m_new.data(), total_area, weight, m_fields->diagonal_share() * m_fields->area_scale,
+                        m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
     for(int s = 0; s < count; ++s)
       samples[s].cost =
           invalid[s] == 0 && std::isfinite(cost[s]) ? cost[s] : std::numeric_limits<double>::infinity();
@@ -324,8 +325,9 @@ private:
     const Lanes near[number_of_link_ends] = {rest, one, one},
                 far[number_of_link_ends] = {weight, weight, rest};
     for(std::size_t i = 0; i < m_link.size(); ++i)
-      add_link_term<Full>(m_link[i], m_gram[i], m_new[i], near[m_link[i].ends], far[m_link[i].ends], cost,
-                          invalid);
+      if(!m_fields->vanishes_at(m_link[i].slot))
+        add_link_term<Full>(m_link[i], m_gram[i], m_new[i], near[m_link[i].ends], far[m_link[i].ends], cost,
+                            invalid);
   }
 
   template <bool Full, bool Cotangent>

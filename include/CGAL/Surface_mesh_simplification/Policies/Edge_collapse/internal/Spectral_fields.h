@@ -40,6 +40,8 @@ struct Spectral_fields
   bool voronoi = false; ///< M_lumped has mixed Voronoi areas
   /// of the operator, merged as f_w is; empty for the cotangent Laplacian
   std::vector<Spectral_geometry::internal::Point_coefficients> coefficients;
+  /// Whether functions vanish there, on the border: its row is not in E. Empty: nowhere.
+  std::vector<char> vanishing;
   double conductivity = 1; ///< their mean on the input: the unit of cotangents
   double area_scale = 1;   ///< 1 / area of the input, weighted by the density
   /// The largest degree of a vertex whose ring keeps its inner products, which are quadratic in it. An edge that has a
@@ -60,6 +62,8 @@ struct Spectral_fields
         (coefficients[c] + coefficients[a] + coefficients[b]) / 3;
     return spectral_triangle(points[c], points[a], points[b], &mean);
   }
+
+  bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }
 
   /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is divided equally.
   double area_of_center(const Spectral_triangle& t) const

@@ -170,6 +170,8 @@ private:
   {
     if(is_kept(u) || is_kept(v))
       return is_kept(u) ? 0. : 1.;
+    if(m_fields->vanishes_at(u) != m_fields->vanishes_at(v))
+      return m_fields->vanishes_at(u) ? 0. : 1.;
     if(!m_parameters->binary)
       return alpha;
     if(alpha != 0.5)

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -127,13 +128,13 @@ private:
     result.seconds_operator_fit = timer.time();
   }
 
-  Spectral_geometry::Local_operator fine_operator() const { return {m_options.mass, m_options.coefficients}; }
+  Spectral_geometry::Local_operator fine_operator() const { return local_operator(m_options); }
 
   // With the coefficients that the collapses have merged.
   template <class Result>
   Spectral_geometry::Local_operator coarse_operator(const Result& result) const
   {
-    return {m_options.mass, result.coefficients};
+    return {m_options.mass, result.coefficients, m_options.boundary};
   }
 
   bool changes_mesh() const
@@ -207,8 +208,24 @@ private:
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
       own += kept;
     }
+    if(result.relocation.resampled && op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+      keep_border_rows(mesh, P, np, own);
     const Eigen::Index seen = policies.state().core().number_of_signals();
     set_error(mesh, policies.state().area(), own, F.leftCols(seen), Z.leftCols(seen), np, result);
+  }
+
+  // A vertex of the border whose closest point is an inner one goes on having 0.
+  template <class TriangleMesh, class NamedParameters>
+  static void keep_border_rows(const TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
+                               const NamedParameters& np, Eigen::SparseMatrix<double>& own)
+  {
+    const std::vector<char> border =
+        Spectral_geometry::internal::border_vertices(Spectral_geometry::mesh_matrices(mesh, np).T, P.rows());
+    Eigen::SparseMatrix<double> carried = P;
+    carried.prune(
+        [&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] != 0; });
+    own.prune([&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] == 0; });
+    own += carried;
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.

@@ -114,7 +114,8 @@ public:
     Spectral_cost_parameters parameters;
     parameters.placement = m_options.placement;
     parameters.binary = m_options.binary;
-    parameters.preserve_border = m_options.preserve_border;
+    parameters.preserve_border =
+        m_options.preserve_border || m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet;
     parameters.single_precision_points = std::is_same<FT, float>::value;
     parameters.shape = m_options.shape;
     parameters.largest_loss = m_options.largest_loss;
