@@ -79,7 +79,7 @@ def draw(axes, V, F, f, limit):
 
 def picture(ss, V, F, path, mode=8):
     figure, panels = plt.subplots(2, 2, figsize=(9, 7.4), dpi=110)
-    for row, (name, c) in enumerate((("Laplace-Beltrami", None), ("anisotropic:5", ss.curvature_coefficients(V, F, 5)))):
+    for row, (name, c) in enumerate((("Laplace-Beltrami", None), ("anisotropic:1", ss.curvature_coefficients(V, F, 1)))):
         run = ss.simplify(V, F, N, K, coefficients=c)
         e = ss.evaluate(V, F, run.V, run.F, run.P, K, coefficients=c, coarse_coefficients=run.coefficients,
                         eigenpairs=run.eigenpairs)
