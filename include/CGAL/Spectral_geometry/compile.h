@@ -20,6 +20,7 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 #include <CGAL/Spectral_geometry/internal/functional_map_estimation_impl.h>
 #include <CGAL/Spectral_geometry/internal/functional_map_impl.h>
 #include <CGAL/Spectral_geometry/internal/hierarchical_functional_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/intrinsic_delaunay_impl.h>
 #include <CGAL/Spectral_geometry/internal/mesh_diagnosis_impl.h>
 #include <CGAL/Spectral_geometry/internal/operator_coefficients_impl.h>
 #include <CGAL/Spectral_geometry/internal/relocation_impl.h>
