@@ -274,7 +274,10 @@ cmp -s aniso.off weighted.off || fail "the mesh of the operator of the file is a
 runs "Voronoi areas" shape.off voronoi.off --vertices 250 --eigenvectors 25 --mass voronoi --relocate none --json voronoi.json
 grep -q '"mass": "voronoi"' voronoi.json || fail "the mass is not in the JSON file"
 runs "a closed surface has no border" shape.off dirichlet.off --vertices 250 --eigenvectors 25 --boundary dirichlet --json dirichlet.json
+grep -q '25 eigenvectors, dirichlet' said || fail "the boundary condition is not in the table"
 grep -q '"boundary": "dirichlet"' dirichlet.json || fail "the boundary condition is not in the JSON file"
+runs "an intrinsic triangulation" shape.off intrinsic.off --vertices 250 --eigenvectors 25 --intrinsic-delaunay --json intrinsic.json
+grep -q '"intrinsic_delaunay": true' intrinsic.json || fail "the intrinsic triangulation is not in the JSON file"
 # Two strips, the second in the same list after a -1, the first of three triangles.
 printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n%s\n%s\n%s\n' \
   'element tristrips 1' 'property list int int vertex_indices' 'end_header' >strips.ply
@@ -333,6 +336,7 @@ refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off
 refuses "no operator" "--operator is 'round'" shape.off out.off --vertices 100 --operator round
 refuses "an operator without its file" "weighted:FILE" shape.off out.off --vertices 100 --operator weighted:
 refuses "a negative anisotropy" "a number A from 0" shape.off out.off --vertices 100 --operator anisotropic:-1
+refuses "a basis of two operators" "leave out --operator" shape.off out.off --vertices 100 --intrinsic-delaunay --operator anisotropic:1
 refuses "an unknown condition" "--boundary is 'robin'" shape.off out.off --vertices 100 --boundary robin
 refuses "a fit with zero on the border" "rows sum to zero" shape.off out.off --vertices 100 --boundary dirichlet --fit-operators d
 refuses "coefficients that are none" "not an .npy file" shape.off out.off --vertices 100 --operator weighted:shape.off

@@ -284,11 +284,29 @@ class Results(Shapes):
                 (lambda: ss.weighted_coefficients(), "give one of them"),
                 (lambda: ss.weighted_coefficients(rho, c[:3]), r"both must be \(v,\)"),
                 (lambda: ss.curvature_coefficients(V, F, -1), "anisotropy is -1, it must be a finite number from 0"),
+                (lambda: ss.weighted_coefficients(-rho), r"density\[0\] is -.*, it must be positive"),
+                (lambda: ss.evaluate(V, F, run.V, run.F, run.P, 30, coarse_coefficients=run.coefficients),
+                 "without coefficients"),
                 (lambda: ss.evaluate(V, F, run.V, run.F, run.P, 30, eigenpairs=pairs), "another mesh or operator"),
                 (lambda: ss.evaluate(V, F, run.V, run.F, run.P, coarse_coefficients=coefficients, **arguments),
                  "coarse_coefficients has 400 rows, but Vc has 100")):
             with self.assertRaisesRegex(ValueError, sentence):
                 call()
+
+    def test_an_intrinsic_delaunay_triangulation(self):
+        V, F = sphere(3)
+        V = V * [1, 1, 0.1] # obtuse triangles
+        pairs = ss.eigenpairs(V, F, 30, intrinsic_delaunay=True)
+        L = pairs.L.tocoo()
+        self.assertLess(L.data[L.row != L.col].max(), 1e-9)
+        plain = ss.eigenpairs(V, F, 30).L.tocoo()
+        self.assertGreater(plain.data[plain.row != plain.col].max(), 0.1)
+        run = ss.simplify(V, F, 120, 30, intrinsic_delaunay=True)
+        self.close(run.eigenpairs.values, pairs.values, 1e-6)
+        e = ss.evaluate(V, F, run.V, run.F, run.P, 30, intrinsic_delaunay=True, eigenpairs=run.eigenpairs)
+        self.assertLess(e.eigenvalue_error, 0.1)
+        with self.assertRaisesRegex(ValueError, "leave out coefficients and boundary"):
+            ss.eigenpairs(V, F, 30, intrinsic_delaunay=True, boundary="dirichlet")
 
     def test_functions_that_vanish_on_the_border(self):
         V, F = sheet(20)
@@ -581,7 +599,7 @@ class Wrong_input(Shapes):
                 (TypeError, "eigenpairs is of the type ndarray, it must be Eigenpairs", dict(eigenpairs=V)),
                 (ValueError, "eigenpairs are of 200 vertices, but V has 2562",
                  dict(eigenpairs=ss.eigenpairs(self.run_.V, self.run_.F, 20), k=20)),
-                (ValueError, "eigenpair . is not one of this mesh in the averaged mass",
+                (ValueError, "eigenpair . is not one of this mesh and operator in the averaged mass",
                  dict(eigenpairs=ss.eigenpairs(V * [1, 1, 2], F, 20), k=20)),
                 (ValueError, "pre_simplify is 100, it must not be below n, which is 200", dict(pre_simplify=100)),
                 (ValueError, "max_error is 0, it must be a finite number above 0", dict(max_error=0)),

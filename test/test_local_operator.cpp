@@ -9,6 +9,7 @@
 #include "relocation_helpers.h"
 
 #include <CGAL/Spectral_geometry/edge_flips.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
@@ -169,6 +170,11 @@ TEST_CASE("Stiffness and mass with coefficients are the integrals of hat functio
     CHECK((op.mass - slow.B.rowwise().sum()).norm() < 1e-13 * op.mass.norm());
     CHECK(SG::number_of_zero_eigenvalues(op) == 1);
   }
+  for(const double unit : {1e-120, 1e13}) { // which is no needle, and no singular tensor
+    const shapes::Matrices grid = wavy_grid_matrices(5, 5);
+    const Eigen::VectorXd c = Eigen::VectorXd::Constant(grid.V.rows(), unit);
+    CHECK(SG::laplace_operator(grid.V, grid.T, {mass, SG::weighted_coefficients({}, c)}).L.norm() > unit);
+  }
   // A conductivity of one number is that number times the cotangents.
   const shapes::Matrices mesh = wavy_grid_matrices(9, 8);
   const Eigen::VectorXd three = Eigen::VectorXd::Constant(mesh.V.rows(), 3.);
@@ -305,8 +311,30 @@ TEST_CASE(
   const Basis basis = basis_of_pairs(op, pairs, local);
   CHECK(relative_difference(energy(coarse, basis, result.restriction), result.E) < 1e-6);
 
-  options.fit_operators = true;
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 39 * 39 + 1),
+                    ContainsSubstring("only 1521 vertices are off the border"));
+  CHECK(SG::eigenpairs(coarse_op, coarse_op.L.rows() - coarse_op.vanishing).values.tail(1)(0) < 1e6);
+  CHECK_THROWS_WITH(SG::fit_operators(coarse_op, result.restriction, op, pairs),
+                    ContainsSubstring("Dirichlet"));
+
+  options.flips = SG::Edge_flips::none;
+  options.pre_simplify = 800; // the first stage keeps the border apart as well
+  Mesh twice = make_mesh(input);
+  const Eigen::SparseMatrix<double> P = SMS::spectral_edge_collapse(twice, 150, options).restriction;
+  const std::vector<char> last_border =
+      SG::internal::border_vertices(SG::mesh_matrices(twice).T, Eigen::Index(twice.number_of_vertices()));
+  const Eigen::MatrixXd PF = P * pairs.vectors;
+  for(Eigen::Index v = 0; v < PF.rows(); ++v)
+    if(last_border[std::size_t(v)])
+      CHECK(PF.row(v).cwiseAbs().maxCoeff() < 1e-9);
+  options.pre_simplify = 0;
+
   Mesh another = make_mesh(input);
+  options.number_of_eigenvectors = 1600;
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
+                    ContainsSubstring("only 1521 vertices off its border"));
+  options.number_of_eigenvectors = 11;
+  options.fit_operators = true;
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options), ContainsSubstring("Dirichlet"));
   options.fit_operators = false;
   options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
@@ -425,7 +453,6 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
     SMS::Spectral_edge_collapse_options options = options_of(local, SG::Mass::averaged, 15);
     options.coefficients.rightCols<6>() *= unit;
     options.coefficients.col(0) *= std::sqrt(unit);
-    options.relocate = false;
     Mesh mesh = make_mesh(input);
     errors.push_back(SMS::spectral_edge_collapse(mesh, 100, options).relative_error);
   }

@@ -24,7 +24,7 @@ namespace {
 SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target, const std::vector<char>& fixed = {})
 {
   return SMS::internal::quadric_collapses(SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh)),
-                                          fixed, target, [](std::size_t) {});
+                                          fixed, false, target, [](std::size_t) {});
 }
 
 Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
@@ -210,6 +210,6 @@ TEST_CASE("The vertex where several fans of faces meet is named")
         arrays.opposite.push_back(d);
     }
   REQUIRE(arrays.opposite.size() == 24);
-  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, 4, [](std::size_t) {}),
+  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, false, 4, [](std::size_t) {}),
                     ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
 }

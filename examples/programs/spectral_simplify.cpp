@@ -150,6 +150,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   options.preserve_border = a.preserve_border;
   options.boundary =
       a.boundary == "dirichlet" ? SG::Boundary_condition::dirichlet : SG::Boundary_condition::neumann;
+  options.intrinsic_delaunay = a.intrinsic_delaunay;
   options.threads = a.threads;
   if(a.pre_simplify)
     options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
@@ -211,11 +212,10 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
 SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_collapse_options& run,
                                  const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
 {
-  const Eigen::Index N = meshes.coarse.V.rows();
-  meshes.fine_operator =
-      SG::laplace_operator(meshes.fine.V, meshes.fine.T, SMS::internal::local_operator(run));
-  meshes.coarse_operator =
-      SG::laplace_operator(meshes.coarse.V, meshes.coarse.T, {run.mass, result.coefficients, run.boundary});
+  SMS::Spectral_options of_coarse = run;
+  of_coarse.coefficients = result.coefficients;
+  meshes.fine_operator = SMS::internal::operator_of_basis(meshes.fine.V, meshes.fine.T, run);
+  meshes.coarse_operator = SMS::internal::operator_of_basis(meshes.coarse.V, meshes.coarse.T, of_coarse);
   SG::Eigenpairs_options options;
   options.progress = [&bar](double fraction) {
     bar.show("evaluation", fraction);
@@ -226,7 +226,8 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_c
   if(!meshes.fine_pairs || meshes.fine_pairs->vectors.rows() != meshes.fine.V.rows())
     meshes.fine_pairs = std::make_shared<SG::Eigenpairs>(
         SG::eigenpairs(meshes.fine_operator, run.number_of_eigenvectors, options));
-  const Eigen::Index K = meshes.fine_pairs->size();
+  const Eigen::Index K = meshes.fine_pairs->size(),
+                     N = meshes.coarse_operator.L.rows() - meshes.coarse_operator.vanishing;
   meshes.coarse_pairs = SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
   return SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, meshes.coarse_operator,
                                meshes.coarse_pairs, result.restriction, K);
@@ -289,6 +290,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
     run.simplifier += ", own signals";
   if(has_coefficients(a))
     run.simplifier += ", " + a.operator_word;
+  if(a.boundary != "neumann")
+    run.simplifier += ", " + a.boundary;
   if(a.binary)
     run.simplifier += ", binary";
   if(a.flips != "none")
@@ -397,12 +400,10 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
   CGAL::Real_timer timer;
   timer.start();
   report.evaluation = evaluate(meshes, report.options, report.result, bar);
-  if(has_coefficients(a) || a.boundary != "neumann") // the estimates are those of isotropic elements
-    report.evaluation->floor_norm_L = report.evaluation->floor_norm_D = 0;
   report.seconds_evaluation = timer.time();
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
-  if(area < 0.25)
+  if(area < 0.25 && !has_coefficients(a))
     report.result.warnings.push_back(
         "Only " + arguments_internal::shown(100 * area) +
         " % of the area is left, and the relative error does not see what is "

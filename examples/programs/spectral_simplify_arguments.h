@@ -41,7 +41,7 @@ struct Arguments
   std::optional<double> shape;                               // the same
   int threads = all_threads();
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
-       strict = false, no_attributes = false, keep_seams = false;
+       strict = false, intrinsic_delaunay = false, no_attributes = false, keep_seams = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string fit_operators;                                                      // the same
   std::string fit_mass;                                                           // empty: as the mass has it
@@ -114,10 +114,13 @@ inline boost::program_options::options_description described(Arguments& a)
   add("operator", text(a.operator_word, "OPERATOR")->default_value(a.operator_word),
       "whose spectrum is kept and judged: cotangent; weighted:W.npy, -div(c grad f) = lambda rho f, a NumPy "
       "array with a row for each vertex of INPUT: c, or rho and c, or rho and a tensor xx, xy, xz, yy, yz, "
-      "zz; anisotropic:A, along and across the bends of the surface conducts 1 / (1 + A |curvature|), "
-      "curvature in radii of the sphere of the same area");
+      "zz; anisotropic:A, a surface that conducts 1 / (1 + A |k|) in the direction of a principal curvature "
+      "k, which is 1 on a sphere of the same area. --eigenpairs writes coarse_coefficients.npy as well");
   add("boundary", text(a.boundary, "neumann|dirichlet")->default_value(a.boundary),
       "what functions do on the border of INPUT: their derivative across it is zero, or they are");
+  add("intrinsic-delaunay", po::bool_switch(&a.intrinsic_delaunay),
+      "for an INPUT of needles: take eigenvectors, and judge, on the intrinsic Delaunay triangulations of "
+      "INPUT and OUTPUT");
   add("placement", text(a.placement, "on_edge|midpoint|free"),
       "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   add("shape", po::value<double>()->value_name("G"),
@@ -249,6 +252,11 @@ inline void check(const Arguments& a)
   check_choice("--boundary", a.boundary, {"neumann", "dirichlet"});
   if(a.boundary == "dirichlet" && !a.fit_operators.empty())
     refuse("--fit-operators fits Laplacians whose rows sum to zero: leave it out with --boundary dirichlet.");
+  if(a.intrinsic_delaunay &&
+     (a.operator_word != "cotangent" || a.boundary != "neumann" || !a.signals.empty()))
+    refuse("--intrinsic-delaunay is for eigenvectors of the cotangent operator: leave out --operator, "
+           "--boundary and "
+           "--signals.");
   parsed_operator(a.operator_word);
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
   check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});

@@ -89,13 +89,16 @@ inline void print_table(const Simplification_report& r)
               r.result.stop_reason_name());
   if(r.evaluation) {
     const auto& e = *r.evaluation;
-    const std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
+    std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
+    if(r.options.boundary != CGAL::Spectral_geometry::Boundary_condition::neumann)
+      of += std::string(", ") + boundary_condition_name(r.options.boundary);
     std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes), of.c_str(),
                 e.mass.c_str());
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
     print_norm("|C|_D", e.norm_D, e.floor_norm_D);
     print_errors(e);
-    std::printf("  area of output / input    %8.4f\n\n", e.area_ratio);
+    std::printf("  %s of output / input    %8.4f\n\n", r.options.coefficients.rows() == 0 ? "area" : "mass",
+                e.area_ratio);
   }
   if(r.fitted) {
     const auto& options = r.options.operator_fit;

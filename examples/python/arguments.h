@@ -153,6 +153,15 @@ public:
                                                                      : SG::Boundary_condition::neumann;
   }
 
+  // Of functions that have neither coefficients nor a boundary condition.
+  bool intrinsic_delaunay() const
+  {
+    const bool wanted = flag("intrinsic_delaunay");
+    if(wanted && (has("coefficients") || boundary() != SG::Boundary_condition::neumann))
+      refuse("intrinsic_delaunay is for the Laplace-Beltrami operator: leave out coefficients and boundary.");
+    return wanted;
+  }
+
   // Of an operator on the n vertices of V or Vc; none where the argument is None.
   SG::Operator_coefficients coefficients(const Index n, const char* name = "coefficients",
                                          const char* of = "V") const

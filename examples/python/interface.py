@@ -61,7 +61,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
              signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
              pre_simplify: int | None = None, max_error: float | None = None, fit_operators: bool = False,
-             coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+             coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
+             intrinsic_delaunay: bool = False, threads: int | None = None,
              progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
 
@@ -101,6 +102,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place of the
                Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
                curvature_coefficients(). The simplified mesh has those of the result
+    intrinsic_delaunay
+               for a mesh of needles: keep eigenvectors of its intrinsic Delaunay triangulation
     boundary   'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or they are
     threads    for eigenpairs, costs and relocation, all cores by default and at most; the result does not depend
                on it
@@ -115,7 +118,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
 
 
 def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+               coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
+               intrinsic_delaunay: bool = False, threads: int | None = None,
                progress: Progress | None = None) -> Eigenpairs:
     """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
     an inverse area.
@@ -124,7 +128,7 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
     k          from 1 to v
     mass       'lumped', 'averaged' or 'voronoi'
     tolerance  relative accuracy of the solver; a run of simplify() has pairs of 1e-8
-    coefficients, boundary, threads, progress
+    coefficients, boundary, intrinsic_delaunay, threads, progress
                as of simplify()"""
     return _eigenpairs(locals())
 
@@ -132,7 +136,8 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
 def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
              k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
              operators: Fitted_operators | None = None, coefficients: numpy.ndarray | None = None,
-             coarse_coefficients: numpy.ndarray | None = None, boundary: str = 'neumann', threads: int | None = None,
+             coarse_coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
+             intrinsic_delaunay: bool = False, threads: int | None = None,
              progress: Progress | None = None) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
     meshes at unit area; compare figures of one mass only.
@@ -148,7 +153,7 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
                of the operator, (v, 7), as of simplify()
     coarse_coefficients
                those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients where None
-    boundary, threads, progress
+    boundary, intrinsic_delaunay, threads, progress
                as of simplify()"""
     return _evaluate(locals())
 
@@ -185,6 +190,10 @@ def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: nu
     rho, c = numpy.ones_like(c) if rho is None else rho, numpy.ones_like(rho) if c is None else c
     if rho.ndim != 1 or rho.shape != c.shape:
         raise ValueError(f"density and conductivity have the shapes {rho.shape} and {c.shape}, both must be (v,).")
+    for name, values in ("density", rho), ("conductivity", c):
+        wrong = numpy.flatnonzero(~((values > 0) & numpy.isfinite(values)))
+        if len(wrong):
+            raise ValueError(f"{name}[{wrong[0]}] is {values[wrong[0]]}, it must be positive.")
     result = numpy.zeros((len(rho), 7))
     result[:, 0], result[:, [1, 4, 6]] = rho, c[:, None]
     return result

@@ -52,14 +52,31 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace {
 
 // The library speaks of a mesh; here there may be two.
-SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const SG::Local_operator& op,
-                                 const char* names)
+template <class Function>
+auto named(const char* names, const Function& function)
 {
   try {
-    return SG::laplace_operator(mesh.V, mesh.T, op);
+    return function();
   } catch(const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(names) + ": " + error.what());
   }
+}
+
+SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const SMS::Spectral_options& options,
+                                 const char* names)
+{
+  return named(names, [&] { return SMS::internal::operator_of_basis(mesh.V, mesh.T, options); });
+}
+
+// The options that say which operator a function is about.
+SMS::Spectral_options operator_options(const Arguments& a, const Index n)
+{
+  SMS::Spectral_options options;
+  options.mass = a.mass();
+  options.coefficients = a.coefficients(n);
+  options.boundary = a.boundary();
+  options.intrinsic_delaunay = a.intrinsic_delaunay();
+  return options;
 }
 
 // Memory of `owner` as an array that may be read.
@@ -156,17 +173,16 @@ Pairs eigenpairs(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const Index k = a.integer("k", 1, mesh.V.rows());
-  const SG::Mass mass = a.mass();
-  const SG::Local_operator local(mass, a.coefficients(mesh.V.rows()), a.boundary());
+  const SMS::Spectral_options of = operator_options(a, mesh.V.rows());
   Watch watch(a);
   SG::Eigenpairs_options options;
   options.tolerance = a.number("tolerance", 0, false, 0.5);
   options.threads = a.threads();
   options.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
-    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, local, "V, F"));
+    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, of, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
-    return Pairs{std::move(pairs), std::move(op), SG::mass_name(mass)};
+    return Pairs{std::move(pairs), std::move(op), SG::mass_name(of.mass)};
   });
 }
 
@@ -359,6 +375,7 @@ Simplification simplify(const Arguments& a)
   set_signals(a, vertices, n, options);
   options.coefficients = a.coefficients(vertices);
   options.boundary = a.boundary();
+  options.intrinsic_delaunay = a.intrinsic_delaunay();
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
   Watch watch(a);
@@ -378,8 +395,7 @@ Simplification simplify(const Arguments& a)
     run.result = SMS::spectral_edge_collapse(mesh, std::size_t(n), options);
     run.coarse = SG::mesh_matrices(mesh);
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
-      run.op = std::make_shared<SG::Laplace_operator>(
-          operator_of(*fine, SMS::internal::local_operator(options), "V, F"));
+      run.op = std::make_shared<SG::Laplace_operator>(operator_of(*fine, options, "V, F"));
     if(run.result.fitted)
       run.fitted = fitted_pairs(std::move(*run.result.fitted), options.operator_fit,
                                 (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
@@ -415,15 +431,17 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
-  const SG::Mass mass = a.mass();
-  const SG::Local_operator local(mass, a.coefficients(n), a.boundary());
-  const SG::Local_operator of_coarse =
-      a.has("coarse_coefficients")
-          ? SG::Local_operator(mass, a.coefficients(N, "coarse_coefficients", "Vc"), local.boundary)
-          : local.restricted(P);
+  const SMS::Spectral_options of = operator_options(a, n);
+  SMS::Spectral_options of_coarse = of;
+  if(a.has("coarse_coefficients") && !a.has("coefficients"))
+    refuse("coarse_coefficients are given without coefficients: two operators would be compared.");
+  if(a.has("coarse_coefficients"))
+    of_coarse.coefficients = a.coefficients(N, "coarse_coefficients", "Vc");
+  else if(of.coefficients.rows() != 0)
+    of_coarse.coefficients = P * of.coefficients;
   std::optional<Pairs> given, fitted;
   if(a.has("eigenpairs"))
-    given = given_pairs(a, n, mass, k);
+    given = given_pairs(a, n, of.mass, k);
   if(a.has("operators")) {
     if(!py::isinstance<Fitted_pairs>(a["operators"]))
       throw py::type_error("operators must be Fitted_operators: pass what fit_operators() returns.");
@@ -438,14 +456,15 @@ SG::Spectral_evaluation evaluate(const Arguments& a)
   options.threads = a.threads();
   options.progress = [&](const double fraction) { return watch("evaluation", fraction); };
   return watch.run([&] {
-    const SG::Laplace_operator fine_op = operator_of(fine, local, "V, F");
+    const SG::Laplace_operator fine_op = operator_of(fine, of, "V, F");
     if(given && ((fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm() ||
                  (fine_op.mass - given->op->mass).norm() > 1e-12 * fine_op.mass.norm()))
       throw std::invalid_argument("eigenpairs are those of another mesh or operator: compute them of V, F.");
     const SG::Laplace_operator coarse_op = fitted ? *fitted->op : operator_of(coarse, of_coarse, "Vc, Fc");
     const SG::Eigenpairs fine_pairs = given ? *given->pairs : SG::eigenpairs(fine_op, k, options);
     const SG::Eigenpairs coarse_pairs =
-        fitted ? *fitted->pairs : SG::eigenpairs(coarse_op, (std::min)(N, k + (k + 9) / 10), options);
+        fitted ? *fitted->pairs
+               : SG::eigenpairs(coarse_op, (std::min)(N - coarse_op.vanishing, k + (k + 9) / 10), options);
     return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
   });
 }
@@ -468,13 +487,15 @@ Fitted_pairs fit_operators(const Arguments& a)
   options.plain = a.number("plain", 0);
   SG::Local_operator local(fine.op->theta);
   local.voronoi = fine.op->voronoi;
+  local.boundary = fine.op->boundary;
   local.coefficients = a.coefficients(coarse.V.rows(), "coefficients", "Vc");
   Watch watch(a);
   options.progress = [&](const double fraction) { return watch("operator_fit", fraction); };
   SG::Eigenpairs_options solver;
   solver.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
   return watch.run([&] {
-    const SG::Laplace_operator op = operator_of(coarse, local, "Vc, Fc");
+    const SG::Laplace_operator op =
+        named("Vc, Fc", [&] { return SG::laplace_operator(coarse.V, coarse.T, local); });
     return fitted_pairs(SG::fit_operators(op, P, *fine.op, *fine.pairs, options), options, k, solver);
   });
 }
@@ -482,7 +503,7 @@ Fitted_pairs fit_operators(const Arguments& a)
 Eigen::MatrixXd curvature_coefficients(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
-  const double anisotropy = a.number("anisotropy", 0);
+  const double anisotropy = a.number("anisotropy", 0, true, 1e6);
   const py::gil_scoped_release no_gil;
   return SG::curvature_coefficients(mesh.V, mesh.T, anisotropy);
 }

@@ -9,7 +9,6 @@
 #include <CGAL/Spectral_geometry/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <stdexcept>
@@ -31,20 +30,20 @@ Operator_word parsed_operator(const std::string& word)
   if(result.kind == "anisotropic" && !rest.empty()) {
     char* end = nullptr;
     result.anisotropy = std::strtod(rest.c_str(), &end);
-    if(*end == '\0' && result.anisotropy >= 0 && std::isfinite(result.anisotropy))
+    if(*end == '\0' && result.anisotropy >= 0 && result.anisotropy <= 1e6)
       return result;
   }
   throw std::runtime_error(
       "--operator is '" + word +
-      "', it must be cotangent, weighted:FILE.npy or anisotropic:A with a number A from 0.");
+      "', it must be cotangent, weighted:FILE.npy or anisotropic:A with a number A from 0 to 1e6.");
 }
 
 namespace {
 
-SG::Operator_coefficients read_coefficients(const std::string& file, const Vertex_numbering& numbering)
+// Checked as the file numbers vertices.
+SG::Operator_coefficients read_coefficients(const std::string& file, const std::size_t n)
 {
-  const Eigen::MatrixXd given =
-      numbering.rows_of_mesh(read_signals(file, numbering.number_of_file_vertices()));
+  const Eigen::MatrixXd given = read_signals(file, n);
   const auto columns = given.cols();
   try {
     if(columns == 7)
@@ -67,7 +66,7 @@ SG::Operator_coefficients operator_coefficients(const Operator_word& word, const
                                                 const Vertex_numbering& numbering)
 {
   if(word.kind == "weighted")
-    return read_coefficients(word.file, numbering);
+    return numbering.rows_of_mesh(read_coefficients(word.file, numbering.number_of_file_vertices()));
   if(word.kind == "anisotropic") {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
     return SG::curvature_coefficients(matrices.V, matrices.T, word.anisotropy);

@@ -52,6 +52,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"eigenvectors", options.number_of_eigenvectors},
           {"mass", mass_name(options.mass)},
           {"boundary", boundary_condition_name(options.boundary)},
+          {"intrinsic_delaunay", options.intrinsic_delaunay},
           {"placement", placement_name(options.placement)},
           {"shape", options.shape},
           {"keep_free_of_self_intersections", options.keep_free_of_self_intersections},

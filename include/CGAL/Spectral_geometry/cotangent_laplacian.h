@@ -54,6 +54,8 @@ struct Laplace_operator
   bool voronoi = false;
   /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of before
   Boundary_condition boundary = Boundary_condition::neumann;
+  Eigen::Index vanishing = 0;    ///< number of these vertices
+  bool has_coefficients = false; ///< whether it is that of other coefficients than 1
 };
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which

@@ -77,9 +77,9 @@ M. Pouget, `CGAL::Monge_via_jet_fitting`), and \f$r = \sqrt{A / 4 \pi}\f$, the r
 change with the scale. Where too few vertices can be fitted to, D is the identity.
 
 \param V, T   n x 3 positions and m x 3 vertex indices
-\param alpha  how much the curvature counts, from 0 (the identity); without unit
+\param alpha  how much the curvature counts, from 0 (the identity) to 1e6; without unit
 
-\throws std::invalid_argument if alpha is negative or not finite, or as `barycentric_corner_masses()` does
+\throws std::invalid_argument if alpha is out of range, or as `barycentric_corner_masses()` does
 */
 inline Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                                                     const double alpha)
@@ -88,9 +88,9 @@ inline Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, co
   using Point = Kernel::Point_3;
   using Fitting = CGAL::Monge_via_jet_fitting<Kernel, Kernel, CGAL::Eigen_svd>;
   constexpr std::size_t wanted = 16, needed = 6;
-  if(!(alpha >= 0 && std::isfinite(alpha)))
+  if(!(alpha >= 0 && alpha <= 1e6))
     throw std::invalid_argument("Local operator: the anisotropy is " + std::to_string(alpha) +
-                                "; use a number from 0.");
+                                "; use a number from 0 to 1e6.");
   const double area = 3 * barycentric_corner_masses(V, T).col(0).sum();
   const double radius = std::sqrt(area / (4 * std::acos(-1.)));
   const std::vector<std::vector<int>> neighbors = internal::vertex_neighbors(T, V.rows());

@@ -203,8 +203,8 @@ struct Spectral_evaluation
   /// `norm_L_input_scale` times the fine area: both meshes scaled by one factor, to set beside `norm_L`
   double norm_L_common_scale = 0;
   double norm_D_input_scale = 0; ///< Eq. (4) of the meshes as they are
-  double floor_norm_L = 0;       ///< `commutativity_floor()`
-  double floor_norm_D = 0;       ///< `orthonormality_floor()`
+  double floor_norm_L = 0;       ///< `commutativity_floor()`; 0 where there is no estimate
+  double floor_norm_D = 0;       ///< `orthonormality_floor()`; the same
 
   Eigenvalue_errors errors;        ///< of modes 1..K, zeros skipped
   Eigenvalue_errors errors_low;    ///< of modes 2..K/5: limbs that lost their tips show here

@@ -88,7 +88,7 @@ flip_mesh_edges(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const 
  * @param P       coarse x fine, rows in the order of `vertices(mesh)`
  * @param F       fine x K, the signals
  * @param Z       fine x K, B^-1 L F
- * @param mass    the mass matrix of the metric
+ * @param op      the mass matrix of the metric, or an operator with coefficients for the vertices of `mesh`
  * @param options which edges, guards, when to stop
  * @param np      named parameters: `vertex_point_map`, `geom_traits` and `edge_is_constrained_map` (these edges stay)
  *
@@ -100,11 +100,11 @@ flip_mesh_edges(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const 
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Spectral_geometry::Edge_flip_result
 spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
-                    const Eigen::MatrixXd& Z, const Spectral_geometry::Mass mass,
+                    const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
                     const Spectral_geometry::Edge_flip_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
-  return internal::flip_mesh_edges(mesh, P, F, Z, mass, options, np);
+  return internal::flip_mesh_edges(mesh, P, F, Z, op, options, np);
 }
 
 /*!
@@ -112,8 +112,8 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
  *
  * @param mesh    the coarse mesh, of triangles
  * @param P       coarse x fine, rows in the order of `vertices(mesh)`
- * @param pairs   eigenpairs of the fine mesh in the same mass, at its own scale; tight ones, since Z is taken as Phi Lambda
- * @param mass    the mass matrix of the metric
+ * @param pairs   eigenpairs of the fine mesh in the same mass, of the same operator, at its own scale; tight ones, since Z is taken as Phi Lambda
+ * @param op      the mass matrix of the metric, or an operator with coefficients for the vertices of `mesh`
  * @param options which edges, guards, when to stop
  * @param np      named parameters, as above
  *
@@ -122,11 +122,11 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Spectral_geometry::Edge_flip_result
 spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
-                    const Spectral_geometry::Eigenpairs& pairs, const Spectral_geometry::Mass mass,
+                    const Spectral_geometry::Eigenpairs& pairs, const Spectral_geometry::Local_operator& op,
                     const Spectral_geometry::Edge_flip_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
-  return spectral_edge_flips(mesh, P, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(), mass, options,
+  return spectral_edge_flips(mesh, P, pairs.vectors, pairs.vectors * pairs.values.asDiagonal(), op, options,
                              np);
 }
 

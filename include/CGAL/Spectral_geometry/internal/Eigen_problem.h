@@ -30,6 +30,25 @@ struct Ritz_pairs
   Eigen::MatrixXd vectors;
 };
 
+/// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the median leaves needles aside.
+inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
+{
+  Eigen::VectorXd diagonal = L.diagonal();
+  if(diagonal.size() == 0 || !diagonal.allFinite())
+    return 1.;
+  double* const middle = diagonal.data() + diagonal.size() / 2;
+  std::nth_element(diagonal.data(), middle, diagonal.data() + diagonal.size());
+  return *middle > 0. ? *middle / std::sqrt(12.) : 1.;
+}
+
+/// The mean spacing of eigenvalues by Weyl's law, 4 pi / area, in the unit of L. The shapes of triangles explain a factor of a
+/// thousand, beyond that it is a unit.
+inline double pencil_shift(const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& mass)
+{
+  const double unit = unit_of_stiffness(L);
+  return 4. * 3.14159265358979323846 / mass.sum() * (unit > 1e-3 && unit < 1e3 ? 1. : unit);
+}
+
 /// The pencil (L, B) with its shift: what every solver shares.
 class Eigen_problem
 {
@@ -40,7 +59,7 @@ public:
     , m_B(B)
     , m_mass(mass)
     , m_progress(progress)
-    , m_shift(4. * 3.14159265358979323846 / mass.sum() * unit_of(L))
+    , m_shift(pencil_shift(L, mass))
   {}
 
   // Where nothing was taken out of B its row sums are the masses.
@@ -102,19 +121,6 @@ public:
   }
 
 private:
-  // What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the shapes of triangles
-  // explain a factor of a thousand, beyond that it is a unit.
-  static double unit_of(const Eigen::SparseMatrix<double>& L)
-  {
-    Eigen::VectorXd diagonal = L.diagonal();
-    if(diagonal.size() == 0 || !diagonal.allFinite())
-      return 1.;
-    double* const middle = diagonal.data() + diagonal.size() / 2;
-    std::nth_element(diagonal.data(), middle, diagonal.data() + diagonal.size());
-    const double size = *middle / std::sqrt(12.);
-    return size > 0. && !(size > 1e-3 && size < 1e3) ? size : 1.;
-  }
-
   const Eigen::SparseMatrix<double>& m_L;
   const Eigen::SparseMatrix<double>& m_B;
   const Eigen::VectorXd& m_mass;

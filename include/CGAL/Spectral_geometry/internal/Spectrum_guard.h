@@ -47,8 +47,13 @@ public:
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_first(first)
-    , m_last((std::min)(last, V.rows() - 1))
+    , m_last(last)
   {
+    Index coupled = 0; // where functions vanish there is no mode
+    for(Index v = 0; v < V.rows(); ++v)
+      coupled += m_geometry.vanishes_at(v) ? 0 : 1;
+    m_modes = coupled - 1;
+    m_last = (std::min)(last, m_modes);
     for(Index v = 0; v < V.rows(); ++v)
       if(m_geometry.row(v).empty())
         m_last = first;
@@ -102,15 +107,22 @@ private:
     Eigenpairs_options options;
     options.tolerance = 1e-3;
     options.verify = false;
-    const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, op.mass.size() - 1), options);
+    const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, m_modes), options);
     m_vectors = pairs.vectors;
     m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
+  }
+
+  // The mean conductivity: what L is measured in.
+  double unit() const
+  {
+    const Operator_coefficients& c = m_geometry.local_operator().coefficients;
+    return c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
   }
 
   // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span.
   void follow(const Laplace_operator& op)
   {
-    const double shift = 4 * CGAL_PI / op.mass.sum();
+    const double shift = 4 * CGAL_PI / op.mass.sum() * unit();
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(op.L + shift * op.B);
     if(cholesky.info() != Eigen::Success)
       return find(op);
@@ -165,7 +177,7 @@ private:
   Eigen::MatrixXi m_T;
   Operator_geometry m_geometry;
   Operator_geometry::Entries m_entries;
-  Index m_first, m_last;
+  Index m_first, m_last, m_modes;
   Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_phi;
   Eigen::MatrixXd m_vectors; // all modes from the first to the last and the spare ones
   Row m_reference, m_stiffness, m_norm;

@@ -127,7 +127,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
     if(!(c(v, 0) > 0. && std::isfinite(c(v, 0))))
       throw std::invalid_argument(who + "the density of " + vertex_name(v) + " is " +
                                   std::to_string(c(v, 0)) + "; use positive numbers.");
-    const Eigen::Matrix3d D = conductivity(c.row(v).transpose());
+    Eigen::Matrix3d D = conductivity(c.row(v).transpose());
+    D /= D.trace(); // of any unit
     // Sylvester's criterion, each minor beside what it is a difference of.
     const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
     if(!(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
@@ -141,7 +142,8 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
                                               Eigen::Index f, const Operator_coefficients& c = {})
 {
   const Triangle_cotangents t = local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, c);
-  if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(t.area))
+  const double unit = c.rows() == 0 ? 1. : c.row(T(f, 0)).segment<6>(1).cwiseAbs().maxCoeff();
+  if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent * unit) || !std::isfinite(t.area))
     throw std::invalid_argument(
         "Laplace operator: " + face_name(f) +
         " is a needle or too large, its cotangents or its area overflow the matrix; collapse "
@@ -245,13 +247,14 @@ inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& 
     return i != j && (on_border(i) || on_border(j));
   };
   const double unit = op.L.diagonal().cwiseAbs().mean() / std::sqrt(12.);
-  const double beyond = 400 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
+  const double beyond = 100 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
   for(Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
     matrix->prune([&](const Eigen::Index i, const Eigen::Index j, double) { return !couples(i, j); });
   for(Eigen::Index v = 0; v < op.L.rows(); ++v)
     if(on_border(v))
       op.L.coeffRef(v, v) = beyond * op.B.coeff(v, v);
   op.boundary = Boundary_condition::dirichlet;
+  op.vanishing = Eigen::Index(std::count(border.begin(), border.end(), 1));
 }
 
 } // namespace internal
@@ -294,6 +297,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
     return element;
   });
   result.voronoi = op.voronoi;
+  result.has_coefficients = op.coefficients.rows() != 0;
   if(op.boundary == Boundary_condition::dirichlet)
     internal::impose_dirichlet(internal::border_vertices(T, V.rows()), result);
   return result;

@@ -25,6 +25,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   using Method = Eigenpairs_method;
   const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
   problem.check(K, op.boundary == Boundary_condition::neumann);
+  if(K > problem.size() - op.vanishing)
+    throw std::invalid_argument("Eigenpairs: " + std::to_string(K) +
+                                " eigenvectors are asked for, but only " +
+                                std::to_string(problem.size() - op.vanishing) +
+                                " vertices are off the border, where functions vanish; ask for fewer.");
   internal::check_eigenpairs_options(options, K);
 
   internal::Ritz_pairs pairs;

@@ -510,6 +510,10 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
               std::to_string(K) + " eigenvalues and eigenvectors of " +
               size(pairs.vectors.rows(), pairs.vectors.cols()) +
               ", pass the operator and at least one eigenpair of the fine mesh.");
+  require(coarse.boundary == Boundary_condition::neumann && fine.boundary == Boundary_condition::neumann,
+          "the rows of a fitted Laplacian sum to zero, which those of the Dirichlet condition do not; pass "
+          "operators "
+          "without it.");
   for(Eigen::Index v = 0; v < N; ++v)
     if(!(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v))))
       require(false, "the mass of " + vertex_name(v) + " of the coarse mesh is not a positive number.");

@@ -149,7 +149,7 @@ evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, co
   if(K < 1)
     throw std::invalid_argument("spectral evaluation: K is " + std::to_string(K) +
                                 ", judge at least one mode.");
-  const Eigen::Index N = coarse.B.rows(), judged = (std::min)(K, N);
+  const Eigen::Index N = coarse.B.rows() - coarse.vanishing, judged = (std::min)(K, N);
   internal::check_pairs("fine", fine, fine_pairs, judged);
   internal::check_pairs("coarse", coarse, coarse_pairs, judged);
 
@@ -182,8 +182,10 @@ evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, co
   e.norm_L = laplacian_commutativity_norm(e.C, e.fine_values.head(judged), e.coarse_values.head(judged));
   e.norm_D = orthonormality_norm(e.C);
   e.norm_D_extended = orthonormality_norm(unit_area_functional_map(C_extended, e.fine_area, e.coarse_area));
-  e.floor_norm_L = commutativity_floor(e.theta, judged, N);
-  e.floor_norm_D = orthonormality_floor(e.theta, judged, N);
+  if(!fine.has_coefficients && fine.boundary == Boundary_condition::neumann) {
+    e.floor_norm_L = commutativity_floor(e.theta, judged, N);
+    e.floor_norm_D = orthonormality_floor(e.theta, judged, N);
+  }
 
   e.errors = eigenvalue_errors(e.fine_values, e.coarse_values, 0, judged, e.fine_zeros);
   e.errors_low = eigenvalue_errors(e.fine_values, e.coarse_values, 1, judged / 5, e.fine_zeros);

@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -32,6 +33,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients weighted_coefficients(const 
   const Eigen::Index n = density.size() != 0 ? density.size() : conductivity.size();
   if(conductivity.size() != 0)
     internal::check_length("the conductivity", conductivity.size(), n);
+  for(Eigen::Index v = 0; v < conductivity.size(); ++v)
+    if(!(conductivity(v) > 0. && std::isfinite(conductivity(v))))
+      throw std::invalid_argument("Local operator: the conductivity of " + internal::vertex_name(v) + " is " +
+                                  std::to_string(conductivity(v)) + "; use positive numbers.");
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(n, 6);
   for(const int diagonal : {0, 3, 5})
     D.col(diagonal) = conductivity.size() != 0 ? conductivity : Eigen::VectorXd::Ones(n);

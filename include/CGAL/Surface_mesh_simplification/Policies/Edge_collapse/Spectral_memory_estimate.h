@@ -97,7 +97,7 @@ template <class TriangleMesh, std::enable_if_t<!std::is_arithmetic<TriangleMesh>
 double estimated_memory(const TriangleMesh& mesh, const Eigen::Index number_of_eigenvectors,
                         const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
 {
-  const bool full = options.mass != Spectral_geometry::Mass::lumped;
+  const bool full = Spectral_geometry::mass_blend(options.mass) != 0;
   const auto products = [full](const double d) { return 8 * ((full ? 3 : 2) * d * d + 3 * d); };
   const std::size_t largest = internal::Spectral_fields().largest_degree_with_products;
   std::size_t number_of_vertices = 0;

@@ -140,6 +140,12 @@ struct Spectral_options
   /// border is one of vertices of the border. Signals of the user's must vanish there.
   Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
 
+  /// Whether eigenvectors are those of the intrinsic Delaunay triangulation of the input, see
+  /// `Spectral_geometry::intrinsic_delaunay_laplacian()`: for inputs of needles and obtuse triangles, whose own operator is that of a
+  /// poorer space. The metric follows the triangles of the mesh all the same, so that E begins with the difference of both
+  /// operators. Not with `coefficients`, `boundary` or `signals`.
+  bool intrinsic_delaunay = false;
+
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
   bool binary = false;

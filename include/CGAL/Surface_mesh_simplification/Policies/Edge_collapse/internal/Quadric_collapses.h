@@ -46,13 +46,14 @@ struct Triangle_arrays
  *
  * @param mesh is consumed
  * @param fixed a flag for each vertex that stays where it is, or nothing
+ * @param border_is_apart whether a vertex of the border takes its values from vertices of the border alone
  * @param progress is called with the number of vertices left, each time a hundredth of the collapses is done; what it throws comes
  *        through
  * @throws std::invalid_argument that names the first vertex where several fans of faces meet
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
-quadric_collapses(Triangle_arrays mesh, std::vector<char> fixed, std::size_t target,
+quadric_collapses(Triangle_arrays mesh, std::vector<char> fixed, bool border_is_apart, std::size_t target,
                   const std::function<void(std::size_t)>& progress);
 
 } // namespace internal

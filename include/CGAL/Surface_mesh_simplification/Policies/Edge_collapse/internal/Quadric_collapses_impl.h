@@ -48,12 +48,13 @@ inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
 class Quadric_collapser
 {
 public:
-  Quadric_collapser(Triangle_arrays mesh, std::vector<char> fixed)
+  Quadric_collapser(Triangle_arrays mesh, std::vector<char> fixed, const bool border_is_apart)
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
     , m_vertex(std::move(mesh.vertex))
     , m_opposite(std::move(mesh.opposite))
+    , m_border_is_apart(border_is_apart)
     , m_fixed(std::move(fixed))
     , m_state(m_vertex.size(), none)
   {
@@ -314,8 +315,9 @@ private:
 
   void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
   {
-    const double alpha =
-        m_fixed[at(kept)] ? 0. : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    double alpha = m_fixed[at(kept)] ? 0. : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    if(m_border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
+      alpha = is_border_vertex(kept) ? 0. : 1.;
     m_log.merge(gone, kept, alpha, x + m_origin);
 
     std::vector<int>& ring = m_ring; // what is left of both
@@ -383,6 +385,7 @@ private:
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
   std::vector<int> m_vertex, m_opposite; // of each corner
+  bool m_border_is_apart;
   std::vector<char> m_fixed;             // of each vertex, as what follows
   std::vector<Eigen::Vector3d> m_points; // from the origin
   std::vector<Spectral_quadric> m_quadrics;
@@ -398,10 +401,11 @@ private:
 };
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mesh, std::vector<char> fixed,
+                                                             const bool border_is_apart,
                                                              const std::size_t target,
                                                              const std::function<void(std::size_t)>& progress)
 {
-  Quadric_collapser run(std::move(mesh), std::move(fixed));
+  Quadric_collapser run(std::move(mesh), std::move(fixed), border_is_apart);
   run.run(target, progress);
   return run.take_log();
 }

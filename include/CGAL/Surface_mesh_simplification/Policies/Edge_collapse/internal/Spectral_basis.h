@@ -37,9 +37,13 @@ struct Spectral_basis
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n);
 
-/// The operator of the input.
+/// That of which the metric takes rows.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
 local_operator(const Spectral_options& options);
+
+/// The matrices of it, or of the intrinsic Delaunay triangulation, of which eigenvectors are taken.
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
+operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Spectral_options& options);
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V);
 
@@ -51,7 +55,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_op
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op,
                                                          const Eigen::MatrixXd& F);
 
-/// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area, for each pair.
+/// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area in the unit of L, for each pair.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd
 spectral_residuals(const Spectral_geometry::Laplace_operator& op, const Spectral_geometry::Eigenpairs& pairs);
 

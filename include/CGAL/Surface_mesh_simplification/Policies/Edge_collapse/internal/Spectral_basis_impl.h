@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/internal/border.h>
+#include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
 #include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -67,6 +68,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
     throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
                                 to_string(options.metric_eigenvectors) + ", use a number from 0.");
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
+  if(options.intrinsic_delaunay && (options.coefficients.rows() != 0 || options.signals.size() != 0 ||
+                                    options.boundary != Spectral_geometry::Boundary_condition::neumann))
+    throw std::invalid_argument(
+        "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami operator, "
+        "but coefficients, signals or a boundary condition are given; leave one of the two out.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
     throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
@@ -78,6 +84,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
 local_operator(const Spectral_options& options)
 {
   return {options.mass, options.coefficients, options.boundary};
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
+operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Spectral_options& options)
+{
+  return options.intrinsic_delaunay ? Spectral_geometry::intrinsic_delaunay_laplacian(V, T, options.mass)
+                                    : Spectral_geometry::laplace_operator(V, T, local_operator(options));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
@@ -138,7 +151,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd
 spectral_residuals(const Spectral_geometry::Laplace_operator& op, const Spectral_geometry::Eigenpairs& pairs)
 {
   Eigen::VectorXd result(pairs.size());
-  const double shift = 4 * std::acos(-1.) / op.mass.sum();
+  const double shift = Spectral_geometry::internal::pencil_shift(op.L, op.mass);
   for(Eigen::Index k = 0; k < pairs.size(); ++k) {
     const Eigen::VectorXd r = op.L * pairs.vectors.col(k) - pairs.values[k] * (op.B * pairs.vectors.col(k));
     result[k] = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values[k] + shift);
@@ -152,7 +165,7 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
                                      const Spectral_geometry::Eigenpairs& pairs,
                                      const Eigen::VectorXd& residuals)
 {
-  const double shift = 4 * std::acos(-1.) / op.mass.sum();
+  const double shift = Spectral_geometry::internal::pencil_shift(op.L, op.mass);
   for(Eigen::Index k = 0; k < pairs.size(); ++k)
     if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
       return false;
@@ -173,8 +186,9 @@ inline void check_eigenpairs(const Spectral_geometry::Eigenpairs& pairs, const E
     const double r = residuals[k];
     if(!(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - now[k]) < 1e-3 * now[k])))
       throw std::invalid_argument("Spectral_options: eigenpair " + std::to_string(k) +
-                                  " is not one of this mesh in the " + Spectral_geometry::mass_name(mass) +
-                                  " mass (relative residual " + std::to_string(r) +
+                                  " is not one of this mesh and operator in the " +
+                                  Spectral_geometry::mass_name(mass) + " mass (relative residual " +
+                                  std::to_string(r) +
                                   "); compute it with eigenpairs(), or pass the vectors as signals.");
   }
 }
@@ -245,8 +259,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
 {
   check_spectral_options(options, V.rows());
   check_extent(V);
-  Spectral_geometry::Local_operator local = local_operator(options);
-  const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(V, T, local);
+  const Spectral_geometry::Laplace_operator op = operator_of_basis(V, T, options);
+  if(op.vanishing != 0 && options.signals.size() == 0 && !options.eigenpairs &&
+     options.number_of_eigenvectors > op.L.rows() - op.vanishing)
+    throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
+                                std::to_string(options.number_of_eigenvectors) + ", but the mesh has only " +
+                                std::to_string(op.L.rows() - op.vanishing) +
+                                " vertices off its border, where functions vanish; use a smaller number.");
   const double area = op.mass.sum();
   Spectral_basis basis;
   if(options.signals.size() != 0)
@@ -274,7 +293,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   const double rounding = 1e-14 * double(V.rows());
   if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
     basis.sum_of_squares = 0;
-  basis.op = std::move(local);
+  basis.op = local_operator(options);
   basis.area = area;
   return basis;
 }

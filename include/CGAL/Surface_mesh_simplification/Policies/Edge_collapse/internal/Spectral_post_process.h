@@ -103,7 +103,7 @@ private:
     try {
       if(!allows(mesh, consequence, false, np, result))
         return;
-      const Laplace_operator fine = laplace_operator(m_fine.V, m_fine.T, fine_operator());
+      const Laplace_operator fine = operator_of_basis(m_fine.V, m_fine.T, m_options);
       std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
       if(!pairs) {
         Eigenpairs_options solver = m_options.eigenpairs_options;
@@ -128,8 +128,6 @@ private:
     result.seconds_operator_fit = timer.time();
   }
 
-  Spectral_geometry::Local_operator fine_operator() const { return local_operator(m_options); }
-
   // With the coefficients that the collapses have merged.
   template <class Result>
   Spectral_geometry::Local_operator coarse_operator(const Result& result) const
@@ -145,14 +143,14 @@ private:
   // Whether the mesh that is left has an operator, and each face an area if need be; warns where it has not. The collapses
   // are done: to throw would lose them.
   template <class TriangleMesh, class NamedParameters, class Result>
-  static bool allows(const TriangleMesh& mesh, const char* consequence, const bool needs_areas,
-                     const NamedParameters& np, Result& result)
+  bool allows(const TriangleMesh& mesh, const char* consequence, const bool needs_areas,
+              const NamedParameters& np, Result& result) const
   {
     using namespace Spectral_geometry;
     const Mesh_matrices coarse = mesh_matrices(mesh, np);
     std::string obstacle;
     try {
-      laplace_operator(coarse.V, coarse.T);
+      laplace_operator(coarse.V, coarse.T, coarse_operator(result));
     } catch(const std::invalid_argument& error) {
       obstacle = error.what();
     }
@@ -235,7 +233,7 @@ private:
     const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
     F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
     if(own_rows)
-      Z = spectral_z(Spectral_geometry::laplace_operator(m_fine.V, m_fine.T, fine_operator()), F);
+      Z = spectral_z(operator_of_basis(m_fine.V, m_fine.T, m_options), F);
     else
       Z = F * pairs->values.asDiagonal();
   }

@@ -171,8 +171,9 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
       throw Spectral_geometry::Cancelled();
   };
   report(n);
-  result.log =
-      quadric_collapses(std::move(arrays), fixed_vertex_flags(mesh, kept, np), options.pre_simplify, report);
+  result.log = quadric_collapses(std::move(arrays), fixed_vertex_flags(mesh, kept, np),
+                                 options.boundary == Spectral_geometry::Boundary_condition::dirichlet,
+                                 options.pre_simplify, report);
   Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, result.log, np);
   replay.collapse_to(result.log.number_of_vertices_left());
   result.slots = replay.slots();
