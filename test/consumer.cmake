@@ -45,7 +45,7 @@ spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_D
 if(TARGET make_demo_shape)
   spectral_add_consumer_test("examples-find-package" "${PROJECT_SOURCE_DIR}/examples"
                              "-DSpectral_mesh_simplification_ROOT=${prefix}" make_demo_shape
-                             "${CMAKE_CURRENT_BINARY_DIR}/installed-example.off" --vertices 2000)
+                             --help)
   set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 
   # Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual.

@@ -448,14 +448,19 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const SG::Local_operator local = operator_on(input.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
-  std::vector<double> errors;
+  std::vector<double> errors, fitted;
   for(const double unit : {1., 1e-8, 1e8}) {
     SMS::Spectral_edge_collapse_options options = options_of(local, SG::Mass::averaged, 15);
     options.coefficients.rightCols<6>() *= unit;
     options.coefficients.col(0) *= std::sqrt(unit);
+    options.fit_operators = true;
     Mesh mesh = make_mesh(input);
-    errors.push_back(SMS::spectral_edge_collapse(mesh, 100, options).relative_error);
+    const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
+    errors.push_back(result.relative_error);
+    fitted.push_back(SG::eigenpairs(result.fitted->op, 15).values(14) / std::sqrt(unit));
   }
+  CHECK(relative_difference(fitted[1], fitted[0]) < 1e-2);
+  CHECK(relative_difference(fitted[2], fitted[0]) < 1e-2);
   CHECK(relative_difference(errors[1], errors[0]) < 1e-3);
   CHECK(relative_difference(errors[2], errors[0]) < 1e-3);
 }

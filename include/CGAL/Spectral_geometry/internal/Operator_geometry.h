@@ -5,9 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATOR_GEOMETRY_H
 
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/border.h>
-#include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -125,13 +125,7 @@ private:
   void check(const Eigen::MatrixXi& T, const Index n) const
   {
     const std::string who = "relocation: ";
-    if(!(m_op.theta >= 0 && m_op.theta <= 1))
-      throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(m_op.theta) +
-                                  ".");
-    if(m_op.coefficients.rows() != 0 && m_op.coefficients.rows() != n)
-      throw std::invalid_argument(who + "there are coefficients for " +
-                                  std::to_string(m_op.coefficients.rows()) + " vertices, but the mesh has " +
-                                  std::to_string(n) + "; give one row for each.");
+    check_local_operator(m_op, n);
     if(T.cols() != 3)
       throw std::invalid_argument(who + "T has " + std::to_string(T.cols()) +
                                   " columns; pass a matrix of three.");

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FITTED_OPERATORS_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FITTED_OPERATORS_IMPL_H
 
+#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
@@ -41,6 +42,12 @@ class Operator_fit
   using Rows = Rank_one_terms::Rows;
 
 public:
+  // What eigenvalues are measured in, at unit area.
+  static double unit_of(const Laplace_operator& op)
+  {
+    return op.has_coefficients ? unit_of_stiffness(op.L) : 1.;
+  }
+
   Operator_fit(const Laplace_operator& own, const Matrix& G, Vector lambda,
                const Operator_fit_options& options)
     : m_options(options)
@@ -48,7 +55,7 @@ public:
     , m_lambda(std::move(lambda))
     , m_area(own.mass.sum())
     , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
-    , m_weight((m_lambda.array() + 4 * CGAL_PI).pow(-options.low_modes))
+    , m_weight((m_lambda.array() + 4 * CGAL_PI * unit_of(own)).pow(-options.low_modes))
     , m_pool(options.threads)
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
