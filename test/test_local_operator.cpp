@@ -255,6 +255,24 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
     }
     CHECK(relative_difference(stretched(1), 2.) > 0.3);
   }
+  SECTION("motion and scale, with the axes of the tensors")
+  {
+    const shapes::Matrices mesh = wavy_grid_matrices(12, 10);
+    const SG::Local_operator local = operator_on(mesh.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+    SG::Local_operator moved = local;
+    for(Eigen::Index v = 0; v < mesh.V.rows(); ++v) {
+      const Eigen::Matrix3d D =
+          R * SG::internal::conductivity(local.coefficients.row(v).transpose()) * R.transpose();
+      moved.coefficients.row(v).tail<6>() << D(0, 0), D(0, 1), D(0, 2), D(1, 1), D(1, 2), D(2, 2);
+    }
+    const Eigen::MatrixXd V = (3 * mesh.V * R.transpose()).rowwise() + Eigen::RowVector3d(4, 5, 6);
+    const SG::Laplace_operator one = SG::laplace_operator(mesh.V, mesh.T, local),
+                               two = SG::laplace_operator(V, mesh.T, moved);
+    CHECK((one.L - two.L).norm() < 1e-11 * one.L.norm());
+    CHECK((9 * one.B - two.B).norm() < 1e-11 * two.B.norm());
+  }
   SECTION("units")
   {
     const shapes::Matrices mesh = wavy_grid_matrices(12, 10);

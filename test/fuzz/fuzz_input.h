@@ -304,6 +304,39 @@ inline SG::Operator_fit_options fit_options_from(Bytes& bytes)
   return o;
 }
 
+// Coefficients of a contrast of up to 10,000, each vertex with axes of its own.
+inline SG::Operator_coefficients coefficients_from(Bytes& bytes, const Eigen::Index n)
+{
+  const double contrast = std::pow(10., 4 * bytes.unit()), phase = bytes.byte();
+  const bool tensors = bytes.one_in(2);
+  SG::Operator_coefficients result = SG::Operator_coefficients::Zero(n, 7);
+  for(Eigen::Index v = 0; v < n; ++v) {
+    const auto wave = [&](const double f) { return std::sin(f * double(v) + phase); };
+    result(v, 0) = std::pow(contrast, 0.5 * wave(3.7));
+    const double c = std::pow(contrast, 0.5 * wave(12.9898));
+    for(const int i : {1, 4, 6})
+      result(v, i) = c;
+    if(tensors) {
+      const double x = wave(1.3), y = wave(2.1), z = wave(0.7), more = std::pow(contrast, 0.5 * wave(7.1));
+      const double axis[6] = {x * x, x * y, x * z, y * y, y * z, z * z};
+      for(int i = 0; i < 6; ++i)
+        result(v, 1 + i) += more * axis[i];
+    }
+  }
+  return result;
+}
+
+inline void add_operator(One_call& call, Bytes& bytes)
+{
+  SMS::Spectral_edge_collapse_options& o = call.options;
+  if(bytes.one_in(3))
+    o.mass = SG::Mass::voronoi;
+  if(bytes.one_in(2))
+    o.coefficients = coefficients_from(bytes, call.fine.V.rows());
+  if(bytes.one_in(3) && o.signals.size() == 0 && !o.fit_operators)
+    o.boundary = SG::Boundary_condition::dirichlet;
+}
+
 inline void add_one_call_options(One_call& call, Bytes& bytes)
 {
   SMS::Spectral_edge_collapse_options& o = call.options;
@@ -334,6 +367,8 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
   call.filter = filter_from(bytes);
   call.calls_until_cancelled = bytes.one_in(8) ? 1 + int(bytes.byte()) : 0;
   call.level = bytes.byte();
+  if(bytes.one_in(3))
+    add_operator(call, bytes);
 }
 
 } // namespace spectral_test

@@ -142,8 +142,9 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
                                               Eigen::Index f, const Operator_coefficients& c = {})
 {
   const Triangle_cotangents t = local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, c);
-  const double unit = c.rows() == 0 ? 1. : c.row(T(f, 0)).segment<6>(1).cwiseAbs().maxCoeff();
-  if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent * unit) || !std::isfinite(t.area))
+  const Eigen::Vector3d own = // of the triangle itself, whatever conducts
+      c.rows() == 0 ? t.cot : local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, {}).cot;
+  if(!(own.cwiseAbs().maxCoeff() <= largest_cotangent) || !t.cot.allFinite() || !std::isfinite(t.area))
     throw std::invalid_argument(
         "Laplace operator: " + face_name(f) +
         " is a needle or too large, its cotangents or its area overflow the matrix; collapse "

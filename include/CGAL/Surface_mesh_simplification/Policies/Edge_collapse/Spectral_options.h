@@ -137,7 +137,7 @@ struct Spectral_options
   Spectral_geometry::Operator_coefficients coefficients;
 
   /// What functions do on the border of the mesh. With `dirichlet`, where they vanish, `preserve_border` is set: a vertex of the
-  /// border is one of vertices of the border. Signals of the user's must vanish there.
+  /// border is one of vertices of the border, wherever a wrapper of the placement puts it. Signals of the user's must vanish there.
   Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
 
   /// Whether eigenvectors are those of the intrinsic Delaunay triangulation of the input, see

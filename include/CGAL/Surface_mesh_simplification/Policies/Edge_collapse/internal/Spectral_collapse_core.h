@@ -70,7 +70,8 @@ public:
 
   bool is_kept(const Spectral_slot s) const { return s < m_kept.size() && m_kept[s]; }
 
-  /// Whether a collapse to `point` would move a vertex that is to be kept, or merge two of them.
+  /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
+  /// where functions vanish.
   bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
 
   const Spectral_fields& fields() const { return m_fields; }

@@ -156,8 +156,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE bool
 Spectral_collapse_core::moves_kept_vertex(const Spectral_slot u, const Spectral_slot v,
                                           const Eigen::Vector3d& point) const
 {
-  return (is_kept(u) && (is_kept(v) || point != m_fields.points[u])) ||
-         (is_kept(v) && point != m_fields.points[v]);
+  const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
+    return is_kept(kept) && (is_kept(other) || point != m_fields.points[kept] ||
+                             (m_fields.vanishes_at(other) && !m_fields.vanishes_at(kept)));
+  };
+  return would_move(u, v) || would_move(v, u);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate(

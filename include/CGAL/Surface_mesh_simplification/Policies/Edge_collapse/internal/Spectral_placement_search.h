@@ -278,7 +278,9 @@ private:
   {
     Fixed_ends fixed{is_kept(u), is_kept(v), false};
     if(m_parameters->preserve_border) {
-      const bool border_u = m_fields->rings.is_border(u), border_v = m_fields->rings.is_border(v);
+      // Functions go on to vanish where the border of a hole was, when it has closed.
+      const bool border_u = m_fields->rings.is_border(u) || m_fields->vanishes_at(u),
+                 border_v = m_fields->rings.is_border(v) || m_fields->vanishes_at(v);
       fixed.on_border = border_u && border_v;
       fixed.u = fixed.u || (border_u && !border_v);
       fixed.v = fixed.v || (border_v && !border_u);
