@@ -4,9 +4,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Makes the table and the picture of the manual's section on operators:
-#   doc/make_operators.py BUILD MESH...
-# BUILD is where the programs and the Python module were built, MESH... are .off or .obj files. The table goes to standard output, the
-# picture, of the demonstration shape, to doc/fig. Needs NumPy, SciPy and matplotlib.
+#   doc/make_operators.py BUILD MESH... [--needles MESH...]
+# BUILD is where the programs and the Python module were built, MESH... are .off or .obj files, those after --needles for the table of
+# the intrinsic Delaunay triangulation. Tables go to standard output, the picture, of the demonstration shape, to doc/fig. Needs
+# NumPy, SciPy and matplotlib.
 
 import os
 import subprocess
@@ -60,6 +61,14 @@ def rows(ss, name, V, F):
         yield name, word, mass, [(e.C_L, e.C_D, 100 * e.eigenvalue_error) for e in results]
 
 
+# |C|_L judged in the intrinsic operators and in the mesh's own, of runs with its own eigenvectors and with the intrinsic ones.
+def intrinsic_row(ss, V, F):
+    pairs = [ss.eigenpairs(V, F, K + K // 5, intrinsic_delaunay=intrinsic) for intrinsic in (True, False)]
+    runs = [ss.simplify(V, F, N, K, intrinsic_delaunay=intrinsic) for intrinsic in (False, True)]
+    return [ss.evaluate(V, F, run.V, run.F, run.P, K, intrinsic_delaunay=intrinsic, eigenpairs=of).C_L
+            for intrinsic, of in zip((True, False), pairs) for run in runs]
+
+
 # Faces from back to front, by the mean of a function at their corners.
 def draw(axes, V, F, f, limit):
     view = np.array([[0.94, 0.0, -0.34], [0.1, 0.96, 0.27], [0.33, -0.29, 0.9]])
@@ -98,19 +107,26 @@ def picture(ss, V, F, path, mode=8):
 
 def main():
     if len(sys.argv) < 3:
-        sys.exit("usage: make_operators.py BUILD MESH...")
+        sys.exit("usage: make_operators.py BUILD MESH... [--needles MESH...]")
     sys.path.insert(0, os.path.join(os.path.abspath(sys.argv[1]), "examples", "python"))
     import spectral_simplification as ss
     warnings.simplefilter("ignore")
     print("| mesh | operator | mass | \\|C\\|_L | \\|C\\|_D | eigenvalues | with the cotangent metric: \\|C\\|_L | \\|C\\|_D | eigenvalues |")
     print("|---|---|---|---|---|---|---|---|---|")
     ratios = []
-    for path in sys.argv[2:]:
+    split = sys.argv.index("--needles") if "--needles" in sys.argv else len(sys.argv)
+    for path in sys.argv[2:split]:
         for name, word, mass, (knows, other) in rows(ss, os.path.splitext(os.path.basename(path))[0], *read_mesh(path)):
             ratios.append(knows[0] / other[0])
             print(f"| {name} | {word} | {mass} | " + " | ".join(f"{x[0]:.1f} | {x[1]:.2f} | {x[2]:.1f} %" for x in (knows, other)) +
                   " |", flush=True)
-    print(f"\nmean ratio of |C|_L: {np.mean(ratios):.2f}")
+    print(f"\nmean ratio of |C|_L: {np.mean(ratios):.2f}\n")
+    if split < len(sys.argv):
+        print("| mesh | intrinsic operators: own eigenvectors | intrinsic ones | own operators: own eigenvectors | intrinsic ones |")
+        print("|---|---|---|---|---|")
+    for path in sys.argv[split + 1:]:
+        row = intrinsic_row(ss, *read_mesh(path))
+        print(f"| {os.path.splitext(os.path.basename(path))[0]} | " + " | ".join(f"{x:.1f}" for x in row) + " |", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         shape = os.path.join(folder, "shape.off")
         subprocess.run([os.path.join(sys.argv[1], "examples", "make_demo_shape"), shape, "--vertices", "10000"], check=True)

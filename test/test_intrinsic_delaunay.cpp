@@ -556,15 +556,10 @@ TEST_CASE("Bad meshes are refused by the name of the first offender, before and 
     CHECK_THROWS_WITH(SG::intrinsic_delaunay_laplacian(mesh.V.leftCols(2), mesh.T),
                       ContainsSubstring("3 columns"));
   }
-  SECTION("indices")
+  SECTION("indices, as of any operator")
   {
-    shapes::Matrices bad = mesh;
-    bad.T(5, 2) = 25;
-    CHECK_THROWS_WITH(intrinsic(bad), ContainsSubstring("face 5 ") && ContainsSubstring("0..24"));
-    bad = mesh;
-    bad.T(6, 0) = bad.T(6, 1);
-    CHECK_THROWS_WITH(intrinsic(bad), ContainsSubstring("face 6 ") && ContainsSubstring("twice"));
-    CHECK_THROWS_AS(SG::intrinsic_delaunay_laplacian(mesh.V, Eigen::MatrixXi(0, 3)), std::invalid_argument);
+    mesh.T(5, 2) = 25;
+    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("face 5 ") && ContainsSubstring("0..24"));
   }
   SECTION("an isolated vertex")
   {

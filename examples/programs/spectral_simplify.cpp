@@ -56,7 +56,7 @@ constexpr const char* coefficients_file = "/coarse_coefficients.npy";
 
 bool has_coefficients(const Arguments& a)
 {
-  return a.operator_word != "cotangent";
+  return a.operator_.kind != "cotangent";
 }
 
 // Those of --fit-operators.
@@ -527,8 +527,8 @@ int run(Arguments a)
   const std::size_t target =
       checked_target(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
   SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
-  options.coefficients = operator_coefficients(parsed_operator(a.operator_word), input.mesh, input.numbering);
-  Output_files files({a.input, a.keep, a.signals, parsed_operator(a.operator_word).file});
+  options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
+  Output_files files({a.input, a.keep, a.signals, a.operator_.file});
   announce(files, a);
   check_memory(a, input.mesh, target, options);
   if(!a.quiet && !input.changes.empty())

@@ -36,7 +36,8 @@ struct Arguments
   std::optional<long> pre_simplify; // as the preset has it; 0: never
   std::string preset = "best", flips = "none";
   std::string boundary = "neumann";
-  std::string operator_word = "cotangent";                   // see `parsed_operator()`
+  std::string operator_word = "cotangent";
+  Operator_word operator_;                                   // what it says
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
   int threads = all_threads();
@@ -255,9 +256,7 @@ inline void check(const Arguments& a)
   if(a.intrinsic_delaunay &&
      (a.operator_word != "cotangent" || a.boundary != "neumann" || !a.signals.empty()))
     refuse("--intrinsic-delaunay is for eigenvectors of the cotangent operator: leave out --operator, "
-           "--boundary and "
-           "--signals.");
-  parsed_operator(a.operator_word);
+           "--boundary and --signals.");
   check_choice("--self-intersections", a.self_intersections, {"allow", "refuse"});
   check_choice("--relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"});
   check_choice("--on-interrupt", a.on_interrupt, {"discard", "write"});
@@ -324,6 +323,7 @@ inline Arguments parse_arguments(int argc, char* argv[])
   if(values.count("levels"))
     a.levels = arguments_internal::parsed_levels(values["levels"].as<std::string>());
   arguments_internal::check(a);
+  a.operator_ = parsed_operator(a.operator_word);
   return a;
 }
 

@@ -184,19 +184,7 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
 def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: numpy.ndarray | None = None) -> numpy.ndarray:
     """(v, 7), the coefficients of -div(c grad phi) = lambda rho phi, with the density rho and the conductivity c at
     each vertex, positive; 1 where None. simplify() and others take them."""
-    if density is None and conductivity is None:
-        raise ValueError("density and conductivity are None: give one of them.")
-    rho, c = (None if x is None else numpy.asarray(x, float) for x in (density, conductivity))
-    rho, c = numpy.ones_like(c) if rho is None else rho, numpy.ones_like(rho) if c is None else c
-    if rho.ndim != 1 or rho.shape != c.shape:
-        raise ValueError(f"density and conductivity have the shapes {rho.shape} and {c.shape}, both must be (v,).")
-    for name, values in ("density", rho), ("conductivity", c):
-        wrong = numpy.flatnonzero(~((values > 0) & numpy.isfinite(values)))
-        if len(wrong):
-            raise ValueError(f"{name}[{wrong[0]}] is {values[wrong[0]]}, it must be positive.")
-    result = numpy.zeros((len(rho), 7))
-    result[:, 0], result[:, [1, 4, 6]] = rho, c[:, None]
-    return result
+    return _weighted_coefficients(locals())
 
 
 def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float) -> numpy.ndarray:

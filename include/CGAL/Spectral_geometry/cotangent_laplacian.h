@@ -18,7 +18,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -123,7 +122,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
 
 /// Those of the operator at a triangle, and its area weighted by the density.
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
-                                                                   const std::array<int, 3>& corners,
+                                                                   const int (&corners)[3],
                                                                    const Operator_coefficients& coefficients);
 
 } // namespace internal

@@ -122,7 +122,7 @@ inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpair
 /// times the largest one is positive. Within an eigenspace of several dimensions the basis is arbitrary.
 ///
 /// \param op       the operator; eigenvalues are in the inverse of its unit of area
-/// \param K        number of eigenpairs, 1 <= K <= n
+/// \param K        number of eigenpairs, 1 <= K <= n; with the Dirichlet condition at most the number of vertices off the border
 /// \param options  method, tolerance, limits, threads, progress
 ///
 /// \throws std::invalid_argument when K or an option is out of range or L, B differ in size;

@@ -41,7 +41,7 @@ inline const char* mass_name(Mass mass)
 /// row the density \f$\rho\f$ and the conductivity D, a symmetric 3 x 3 matrix, as xx, xy, xz, yy, yz, zz.
 ///
 /// Of D an operator sees what it does within the surface. Empty: \f$\rho = 1\f$, D the identity, the Laplace-Beltrami operator.
-/// Rows go on like signals: with a restriction P the coarse mesh has the coefficients `P * coefficients`.
+/// Collapses merge them as they merge signals: with their restriction P the coarse mesh has `P * coefficients`.
 using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
 /// \brief what functions do on the border of a mesh: their derivative across it vanishes (the natural condition), or they do.

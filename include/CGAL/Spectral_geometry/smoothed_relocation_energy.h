@@ -229,17 +229,11 @@ private:
     Eigen::VectorXd diagonal = m_entries.B_diagonal;
     for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
       const auto [i, j] = m_geometry.edges()[e];
-      if(m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j)) { // no coupling, but in the diagonal
-        const double L = m_tau * m_entries.L(Index(e));
-        diagonal(i) -= L;
-        diagonal(j) -= L;
-        entries.emplace_back((std::max)(i, j), (std::min)(i, j), 0.);
-        continue;
-      }
       const double L = m_tau * m_entries.L(Index(e));
       diagonal(i) -= L;
       diagonal(j) -= L;
-      entries.emplace_back((std::max)(i, j), (std::min)(i, j), m_entries.B(Index(e)) + L);
+      const bool apart = m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j); // but for the diagonal
+      entries.emplace_back((std::max)(i, j), (std::min)(i, j), apart ? 0. : m_entries.B(Index(e)) + L);
     }
     for(Index i = 0; i < n; ++i)
       entries.emplace_back(int(i), int(i), diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face

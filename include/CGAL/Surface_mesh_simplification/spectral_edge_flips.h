@@ -112,7 +112,8 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
  *
  * @param mesh    the coarse mesh, of triangles
  * @param P       coarse x fine, rows in the order of `vertices(mesh)`
- * @param pairs   eigenpairs of the fine mesh in the same mass, of the same operator, at its own scale; tight ones, since Z is taken as Phi Lambda
+ * @param pairs   eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight ones, since Z is taken as
+ *        Phi Lambda
  * @param op      the mass matrix of the metric, or an operator with coefficients for the vertices of `mesh`
  * @param options which edges, guards, when to stop
  * @param np      named parameters, as above

@@ -108,8 +108,10 @@ Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eig
  * @param mesh  the coarse mesh; its connectivity stays
  * @param P     coarse x fine, rows in the order of `vertices(mesh)`
  * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was simplified
- * @param pairs eigenpairs of the fine mesh in the same mass, of the same operator, at its own scale; tight ones, since Z is taken as Phi Lambda
- * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the mass `averaged`: with `lumped` the shape is bent to cancel the error of the elements
+ * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight ones, since Z is taken as
+ *        Phi Lambda
+ * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the mass `averaged`: with a lumped one
+ *        the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
  * @param np    named parameters: `vertex_point_map`, `geom_traits`, `vertex_is_constrained_map` and
  *        `edge_is_constrained_map` (both ends stay where they are)

@@ -133,16 +133,12 @@ private:
 // and a solver its tolerance.
 inline void clear_uncoupled_rows(const Eigen_problem& problem, Ritz_pairs& pairs)
 {
-  using Entry = Eigen::SparseMatrix<double>::InnerIterator;
   for(Eigen::Index v = 0; v < problem.size(); ++v) {
-    double l = 0., b = 0.;
-    bool coupled = false;
-    for(Entry entry(problem.L(), v); entry && !coupled; ++entry)
-      entry.row() == v ? void(l = entry.value()) : void(coupled = entry.value() != 0.);
-    for(Entry entry(problem.B(), v); entry && !coupled; ++entry)
-      entry.row() == v ? void(b = entry.value()) : void(coupled = entry.value() != 0.);
-    for(Eigen::Index k = 0; k < pairs.values.size() && !coupled && b > 0.; ++k)
-      if(std::abs(pairs.values(k) - l / b) > 1e-3 * (l / b + problem.shift()))
+    if(problem.L().col(v).nonZeros() > 1 || problem.B().col(v).nonZeros() > 1)
+      continue;
+    const double own = problem.L().coeff(v, v) / problem.B().coeff(v, v);
+    for(Eigen::Index k = 0; k < pairs.values.size(); ++k)
+      if(std::abs(pairs.values(k) - own) > 1e-3 * (own + problem.shift()))
         pairs.vectors(v, k) = 0.;
   }
 }

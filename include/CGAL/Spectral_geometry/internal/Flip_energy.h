@@ -29,7 +29,7 @@ class Flip_energy
 public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// One triangle with what L and B need of it.
+  /// One triangle with what L and B need of it, weighted by the coefficients.
   struct Triangle
   {
     std::array<int, 3> corners;
@@ -88,7 +88,7 @@ public:
 private:
   Triangle triangle(const std::array<int, 3>& corners) const
   {
-    return {corners, local_cotangents(m_V, corners, m_op.coefficients)};
+    return {corners, local_cotangents(m_V, {corners[0], corners[1], corners[2]}, m_op.coefficients)};
   }
 
   // E_w as it is, or with two triangles in the place of those of a quad.
@@ -116,8 +116,7 @@ private:
       const int x = (k + 1) % 3, y = (k + 2) % 3;
       const int a = t.corners[std::size_t(x)], b = t.corners[std::size_t(y)];
       const double area = t.shape.area, theta = m_op.theta,
-                   share = m_op.voronoi ? mixed_voronoi_share(t.shape.cot(k), t.shape.cot(x), t.shape.cot(y))
-                                        : 1. / 3,
+                   share = lumped_share(m_op.voronoi, t.shape.cot, k),
                    on = ((1 - theta) * share + theta / 6) * area, off = theta / 12 * area;
       m_R += on * m_Z.row(w) + off * (m_Z.row(a) + m_Z.row(b)) +
              0.5 * t.shape.cot(y) * (m_F.row(a) - m_F.row(w)) +

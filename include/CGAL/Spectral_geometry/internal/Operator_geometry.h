@@ -97,7 +97,7 @@ public:
         return false;
       const double area = density_of(t) * element.twice_area / 2;
       for(int k = 0; k < 3; ++k) {
-        const double lumped = (1 - m_op.theta) * share(element, k);
+        const double lumped = (1 - m_op.theta) * lumped_share(m_op.voronoi, element.dot, k);
         entries.L(t.e[k]) -= 0.5 * element.dot[k] / element.twice_area;
         entries.B(t.e[k]) += m_op.theta * area / 12;
         entries.B_diagonal(t.v[k]) += area * (lumped + m_op.theta / 6);
@@ -155,25 +155,18 @@ private:
       edge[k] = V.row(t.v[(k + 2) % 3]) - V.row(t.v[(k + 1) % 3]);
   }
 
-  Point_coefficients mean_coefficients(const Triangle& t) const
+  Point_coefficients coefficients_of(const Triangle& t) const
   {
-    return (m_op.coefficients.row(t.v[0]) + m_op.coefficients.row(t.v[1]) + m_op.coefficients.row(t.v[2]))
-               .transpose() /
-           3;
+    return mean_coefficients(m_op.coefficients, t.v);
   }
 
   bool has_coefficients() const { return m_op.coefficients.rows() != 0; }
 
-  double density_of(const Triangle& t) const { return has_coefficients() ? mean_coefficients(t)[0] : 1.; }
+  double density_of(const Triangle& t) const { return has_coefficients() ? coefficients_of(t)[0] : 1.; }
 
   Triangle_element element_of(const Triangle& t, const Eigen::Vector3d (&edge)[3]) const
   {
-    return has_coefficients() ? triangle_element(edge, mean_coefficients(t)) : triangle_element(edge);
-  }
-
-  double share(const Triangle_element& t, const int k) const
-  {
-    return m_op.voronoi ? mixed_voronoi_share(t.dot[k], t.dot[(k + 1) % 3], t.dot[(k + 2) % 3]) : 1. / 3;
+    return has_coefficients() ? triangle_element(edge, coefficients_of(t)) : triangle_element(edge);
   }
 
   // Derivatives with respect to the cotangents, of which half are in L, and to the weighted area.
@@ -184,7 +177,7 @@ private:
     const Triangle_element element = element_of(t, edge);
     double by_area = 0, by_cotangent[3], by_share[3];
     for(int k = 0; k < 3; ++k) {
-      const double lumped = (1 - m_op.theta) * share(element, k);
+      const double lumped = (1 - m_op.theta) * lumped_share(m_op.voronoi, element.dot, k);
       by_area += d.mass(t.v[k]) * (lumped + m_op.theta / 3) +
                  d.B_diagonal(t.v[k]) * (lumped + m_op.theta / 6) + d.B(t.e[k]) * m_op.theta / 12;
       by_cotangent[k] = -0.5 * d.L(t.e[k]);
@@ -244,7 +237,7 @@ private:
                                     const Triangle_element& element, const double (&by_cotangent)[3],
                                     const double by_area, Positions& gradient) const
   {
-    const Eigen::Matrix3d D = conductivity(mean_coefficients(t));
+    const Eigen::Matrix3d D = conductivity(coefficients_of(t));
     const double length = element.twice_area;
     const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
     Eigen::Vector3d by_turned[3], turned[3], by_edge[3];

@@ -155,7 +155,10 @@ public:
   {
     // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
     if(tau > 0 || sampled) {
-      const double smallest = 1e-6 * mean_ratio(op) * size.area() / double(F.rows());
+      // In the unit of 1 / lambda: density and area over conductivity.
+      const Operator_coefficients& c = op.coefficients;
+      const double density = c.rows() == 0 ? 1. : c.col(0).mean();
+      const double smallest = 1e-6 * density / mean_conductivity(c) * size.area() / double(F.rows());
       const Eigen::Index columns = carried ? F.cols() : 0;
       m_smoothed = std::make_unique<Smoothed_relocation_energy>(T, F.leftCols(columns), Z.leftCols(columns),
                                                                 op, (std::max)(tau, smallest), 0., sampled);
@@ -164,13 +167,6 @@ public:
         m_smoothed->set_mu(plain * m_smoothed->smoothed_part() / m_smoothed->plain_part());
     }
     m_scale = m_smoothed ? m_smoothed->value(start) : E(start);
-  }
-
-  // Density over conductivity: what 1 / lambda is measured in, beside an area.
-  static double mean_ratio(const Local_operator& op)
-  {
-    const Operator_coefficients& c = op.coefficients;
-    return c.rows() == 0 ? 1. : 3 * c.col(0).mean() / (c.col(1) + c.col(4) + c.col(6)).mean();
   }
 
   /// Brings what changes slowly up to date; true if that changes the values.

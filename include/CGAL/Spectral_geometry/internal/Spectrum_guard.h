@@ -47,12 +47,11 @@ public:
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_first(first)
-    , m_last(last)
+    , m_modes(V.rows() - 1)
   {
-    Index coupled = 0; // where functions vanish there is no mode
     for(Index v = 0; v < V.rows(); ++v)
-      coupled += m_geometry.vanishes_at(v) ? 0 : 1;
-    m_modes = coupled - 1;
+      if(m_geometry.vanishes_at(v)) // where functions vanish there is no mode
+        --m_modes;
     m_last = (std::min)(last, m_modes);
     for(Index v = 0; v < V.rows(); ++v)
       if(m_geometry.row(v).empty())
@@ -112,17 +111,11 @@ private:
     m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
   }
 
-  // The mean conductivity: what L is measured in.
-  double unit() const
-  {
-    const Operator_coefficients& c = m_geometry.local_operator().coefficients;
-    return c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
-  }
-
   // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span.
   void follow(const Laplace_operator& op)
   {
-    const double shift = 4 * CGAL_PI / op.mass.sum() * unit();
+    const double shift =
+        4 * CGAL_PI / op.mass.sum() * mean_conductivity(m_geometry.local_operator().coefficients);
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(op.L + shift * op.B);
     if(cholesky.info() != Eigen::Success)
       return find(op);
@@ -177,7 +170,7 @@ private:
   Eigen::MatrixXi m_T;
   Operator_geometry m_geometry;
   Operator_geometry::Entries m_entries;
-  Index m_first, m_last, m_modes;
+  Index m_first, m_modes, m_last;
   Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_phi;
   Eigen::MatrixXd m_vectors; // all modes from the first to the last and the spare ones
   Row m_reference, m_stiffness, m_norm;

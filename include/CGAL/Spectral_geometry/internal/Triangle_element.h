@@ -5,6 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_TRIANGLE_ELEMENT_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_TRIANGLE_ELEMENT_H
 
+#include <CGAL/Spectral_geometry/local_operator.h>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
@@ -55,6 +57,18 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
 /// Density, then the conductivity as xx, xy, xz, yy, yz, zz: a row of `Operator_coefficients`.
 using Point_coefficients = Eigen::Matrix<double, 7, 1>;
 
+/// Of a triangle: the mean of its corners'.
+inline Point_coefficients mean_coefficients(const Operator_coefficients& c, const int (&corners)[3])
+{
+  return (c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3;
+}
+
+/// Of an operator: what its L is measured in, 1 without coefficients.
+inline double mean_conductivity(const Operator_coefficients& c)
+{
+  return c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
+}
+
 inline Eigen::Matrix3d conductivity(const Point_coefficients& c)
 {
   Eigen::Matrix3d D;
@@ -90,6 +104,13 @@ inline double mixed_voronoi_share(const double c, const double a, const double b
     return 0.25;
   const double all = a * b + c * (a + b);
   return all > 0 ? 0.25 * (1 + a * b / all) : 1. / 3;
+}
+
+/// The same for corner k of three, or a third where areas are divided equally.
+template <class Cotangents>
+double lumped_share(const bool voronoi, const Cotangents& cot, const int k)
+{
+  return voronoi ? mixed_voronoi_share(cot[k], cot[(k + 1) % 3], cot[(k + 2) % 3]) : 1. / 3;
 }
 
 } // namespace internal

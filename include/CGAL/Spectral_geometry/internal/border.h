@@ -26,8 +26,8 @@ inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
       edges.push_back(std::minmax({T(f, k), T(f, (k + 1) % 3)}));
   std::sort(edges.begin(), edges.end());
   for(std::size_t i = 0, j; i < edges.size(); i = j) {
-    for(j = i + 1; j < edges.size() && edges[j] == edges[i]; ++j) {
-    }
+    j = std::size_t(std::upper_bound(edges.begin() + std::ptrdiff_t(i), edges.end(), edges[i]) -
+                    edges.begin());
     if(j == i + 1)
       result.push_back(edges[i]);
   }

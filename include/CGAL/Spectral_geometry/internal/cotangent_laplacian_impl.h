@@ -11,7 +11,6 @@
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -74,12 +73,12 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
-                                                                   const std::array<int, 3>& t,
+                                                                   const int (&t)[3],
                                                                    const Operator_coefficients& c)
 {
   if(c.rows() == 0)
     return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), nullptr);
-  const Point_coefficients mean = (c.row(t[0]) + c.row(t[1]) + c.row(t[2])).transpose() / 3;
+  const Point_coefficients mean = mean_coefficients(c, t);
   return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), &mean);
 }
 
@@ -141,9 +140,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
 inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                                               Eigen::Index f, const Operator_coefficients& c = {})
 {
-  const Triangle_cotangents t = local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, c);
+  const int corners[3] = {T(f, 0), T(f, 1), T(f, 2)};
+  const Triangle_cotangents t = local_cotangents(V, corners, c);
   const Eigen::Vector3d own = // of the triangle itself, whatever conducts
-      c.rows() == 0 ? t.cot : local_cotangents(V, {T(f, 0), T(f, 1), T(f, 2)}, {}).cot;
+      c.rows() == 0 ? t.cot : local_cotangents(V, corners, {}).cot;
   if(!(own.cwiseAbs().maxCoeff() <= largest_cotangent) || !t.cot.allFinite() || !std::isfinite(t.area))
     throw std::invalid_argument(
         "Laplace operator: " + face_name(f) +
@@ -188,6 +188,18 @@ struct Face_element
 {
   Triangle_cotangents t;
   Eigen::RowVector3d corner_masses;
+
+  Face_element(const Triangle_cotangents& t, const Eigen::RowVector3d& corner_masses)
+    : t(t)
+    , corner_masses(corner_masses)
+  {}
+  Face_element(const Triangle_cotangents& t, const bool voronoi)
+    : t(t)
+    , corner_masses(Eigen::RowVector3d::Constant(t.area / 3.))
+  {
+    for(int k = 0; k < 3 && voronoi; ++k)
+      corner_masses(k) = t.area * lumped_share(voronoi, t.cot, k);
+  }
 };
 
 template <class Element>
@@ -278,7 +290,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
     throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
   return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
-    return internal::Face_element{internal::checked_cotangents(V, T, f), corner_masses.row(f)};
+    return internal::Face_element(internal::checked_cotangents(V, T, f), corner_masses.row(f));
   });
 }
 
@@ -290,12 +302,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   internal::check_triangles(T, V.rows());
   internal::check_local_operator(op, V.rows());
   Laplace_operator result = internal::assemble(T, V.rows(), op.theta, [&](const Eigen::Index f) {
-    const Triangle_cotangents t = internal::checked_cotangents(V, T, f, op.coefficients);
-    internal::Face_element element{t, Eigen::RowVector3d::Constant(t.area / 3.)};
-    for(int k = 0; k < 3 && op.voronoi; ++k)
-      element.corner_masses(k) =
-          t.area * internal::mixed_voronoi_share(t.cot(k), t.cot((k + 1) % 3), t.cot((k + 2) % 3));
-    return element;
+    return internal::Face_element(internal::checked_cotangents(V, T, f, op.coefficients), op.voronoi);
   });
   result.voronoi = op.voronoi;
   result.has_coefficients = op.coefficients.rows() != 0;

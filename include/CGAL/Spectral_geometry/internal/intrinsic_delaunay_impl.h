@@ -58,24 +58,21 @@ public:
     glue_sides();
   }
 
-  /// Flips every edge that is not Delaunay, and returns how many flips that took.
-  std::size_t make_delaunay()
+  /// Flips every edge that is not Delaunay.
+  void make_delaunay()
   {
     std::vector<int> stack;
     for(int s = int(m_twin.size()) - 1; s >= 0; --s)
       if(s < twin(s))
         stack.push_back(s);
-    std::size_t flips = 0;
     while(!stack.empty()) {
       const int s = stack.back(), t = twin(s);
       stack.pop_back();
       if(is_delaunay(s) || !flip(s))
         continue;
-      ++flips;
       for(const int outer : {s, next(next(s)), t, next(next(t))})
         stack.push_back(outer);
     }
-    return flips;
   }
 
   const Eigen::MatrixXi& triangles() const { return m_T; }
@@ -242,14 +239,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
                                   " (counted from 0) is a needle or too large, its cotangents or its area "
                                   "overflow the matrix; collapse "
                                   "its shortest edge, remesh there or rescale the mesh.");
-    internal::Face_element element{t, Eigen::RowVector3d::Constant(t.area / 3.)};
-    for(int k = 0; k < 3; ++k) {
-      if(mass == Mass::voronoi)
-        element.corner_masses(k) =
-            t.area * internal::mixed_voronoi_share(t.cot(k), t.cot((k + 1) % 3), t.cot((k + 2) % 3));
+    internal::Face_element element(t, mass == Mass::voronoi);
+    for(int k = 0; k < 3; ++k)
       if(is_loop(f, k)) // its difference of values is 0
         element.t.cot(k) = 0.;
-    }
     return element;
   });
   result.voronoi = mass == Mass::voronoi;

@@ -88,7 +88,10 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
                          ? internal::memory_of_eigenpairs(n, 1.2 * K, options.eigenpairs_options)
                          : 0;
   const double both = (std::max)(solver, collapses + (std::max)(n * 8 * after * K, fit));
-  return input * internal::bytes_of_mesh + (reduced ? (std::max)(input * first_stage, both) : both);
+  const double coefficients =
+      5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
+  return input * internal::bytes_of_mesh + coefficients +
+         (reduced ? (std::max)(input * first_stage, both) : both);
 }
 
 /// The same for a mesh, with what its fans take: inner products quadratic in the number of neighbours, up to 256 of them, above which

@@ -132,8 +132,8 @@ struct Spectral_options
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
   /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of `vertices(mesh)`: a density and a
-  /// conductivity, which may depend on the direction; see `Spectral_geometry::Operator_coefficients`. They are merged as signals
-  /// are: the coarse mesh has P times them. Empty: the Laplace-Beltrami operator.
+  /// conductivity, which may depend on the direction; see `Spectral_geometry::Operator_coefficients`. The collapses merge
+  /// them as they merge signals, see `Spectral_edge_collapse_result::coefficients`. Empty: the Laplace-Beltrami operator.
   Spectral_geometry::Operator_coefficients coefficients;
 
   /// What functions do on the border of the mesh. With `dirichlet`, where they vanish, `preserve_border` is set: a vertex of the

@@ -260,19 +260,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   check_spectral_options(options, V.rows());
   check_extent(V);
   const Spectral_geometry::Laplace_operator op = operator_of_basis(V, T, options);
-  if(op.vanishing != 0 && options.signals.size() == 0 && !options.eigenpairs &&
-     options.number_of_eigenvectors > op.L.rows() - op.vanishing)
-    throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
-                                std::to_string(options.number_of_eigenvectors) + ", but the mesh has only " +
-                                std::to_string(op.L.rows() - op.vanishing) +
-                                " vertices off its border, where functions vanish; use a smaller number.");
   const double area = op.mass.sum();
   Spectral_basis basis;
-  if(options.signals.size() != 0)
+  if(options.signals.size() != 0) {
     check_signals_on_border(options, T);
-  if(options.signals.size() != 0)
     basis = basis_of_signals(op, options, area);
-  else {
+  } else {
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;

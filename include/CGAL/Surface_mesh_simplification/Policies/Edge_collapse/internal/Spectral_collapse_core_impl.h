@@ -84,7 +84,7 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
   m_fields.coefficients.clear();
   for(Eigen::Index v = 0; v < c.rows(); ++v)
     m_fields.coefficients.push_back(c.row(v).transpose());
-  m_fields.conductivity = c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
+  m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
   m_fields.area_scale = area_scale;
   m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
   m_parameters = parameters;

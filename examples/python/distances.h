@@ -1,0 +1,99 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef SPECTRAL_PYTHON_DISTANCES_H
+#define SPECTRAL_PYTHON_DISTANCES_H
+
+#include "arguments.h"
+#include "spectra.h"
+
+#include <CGAL/Spectral_geometry/spectral_distances.h>
+
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+// Distances and signatures from eigenpairs.
+
+// One source, and true, or a sequence of them.
+inline std::pair<std::vector<Index>, bool> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
+{
+  const auto n = std::size_t(pairs.vectors.rows());
+  if(PyIndex_Check(a["sources"].ptr()) &&
+     py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0)
+    return {{a.integer("sources", 0, Index(n) - 1, ", a vertex")}, true};
+  const std::vector<std::size_t> sources = a.indices("sources", n, "the mesh");
+  return {{sources.begin(), sources.end()}, false};
+}
+
+inline SG::Wave_kernel_energies energies_of(const Arguments& a, const SG::Eigenpairs& pairs)
+{
+  if(!a.has("energies"))
+    return SG::wave_kernel_energies(pairs);
+  try {
+    if(py::isinstance<py::tuple>(a["energies"])) {
+      const auto e = a["energies"].cast<std::tuple<double, double, double, Index>>();
+      return {std::get<0>(e), std::get<1>(e), std::get<2>(e), std::get<3>(e)};
+    }
+  } catch(const py::cast_error&) {
+  }
+  a.must_be("energies", "a tuple (t_min, t_max, sigma, steps), see wave_kernel_energies()", true);
+}
+
+inline py::object distances(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  const SG::Eigenpairs& pairs = *given.pairs;
+  const auto [sources, one] = sources_of(a, pairs);
+  const std::string kind = a.word("kind", {"diffusion", "biharmonic", "commute_time", "wave_kernel"});
+  for(const auto& [name, of] :
+      {std::make_pair("time", "diffusion"), std::make_pair("energies", "wave_kernel")})
+    if(a.has(name) && kind != of)
+      refuse(std::string(name) + " belongs to the kind '" + of + "', but the kind is '" + kind +
+             "': leave it out.");
+  const double time = kind != "diffusion" ? 0
+                      : a.has("time")     ? a.number("time", 0)
+                                          : SG::default_diffusion_time(pairs);
+  const SG::Wave_kernel_energies energies =
+      kind == "wave_kernel" ? energies_of(a, pairs) : SG::Wave_kernel_energies{0, 0, 1, 2};
+  Eigen::MatrixXd result;
+  {
+    const py::gil_scoped_release no_gil;
+    result = kind == "diffusion"      ? SG::squared_diffusion_distance(pairs, sources, time)
+             : kind == "biharmonic"   ? SG::squared_biharmonic_distance(pairs, sources)
+             : kind == "commute_time" ? SG::squared_commute_time_distance(pairs, sources)
+                                      : SG::wave_kernel_distance(pairs, sources, energies);
+  }
+  return one ? py::cast(Eigen::VectorXd(result.col(0))) : py::cast(std::move(result));
+}
+
+inline Eigen::MatrixXd heat_kernel_signature(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  const Eigen::VectorXd times = a.has("times") ? a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()
+                                               : SG::heat_kernel_times(*given.pairs);
+  const py::gil_scoped_release no_gil;
+  return SG::heat_kernel_signature(*given.pairs, times);
+}
+
+inline Eigen::MatrixXd wave_kernel_signature(const Arguments& a)
+{
+  const Pairs given = pairs_of(a, "eigenpairs");
+  const SG::Wave_kernel_energies energies = energies_of(a, *given.pairs);
+  const py::gil_scoped_release no_gil;
+  return SG::wave_kernel_signature(*given.pairs, energies);
+}
+
+inline py::tuple wave_kernel_energies(const Arguments& a)
+{
+  const SG::Wave_kernel_energies e =
+      SG::wave_kernel_energies(*pairs_of(a, "eigenpairs").pairs, a.integer("steps", 1, 1000000));
+  return py::make_tuple(e.t_min, e.t_max, e.sigma, e.steps);
+}
+
+#endif // SPECTRAL_PYTHON_DISTANCES_H
