@@ -55,14 +55,14 @@ made()
 # small NAME EXPECTED: the same to half of the vertices.
 small()
 {
-  made "$1" "$2" --ratio 0.5 --eigenvectors 2 --no-evaluation
+  made "$1" "$2" --vertices 50% --eigenvectors 2 --no-evaluation
 }
 
 # other FORMAT NAME EXPECTED: the same in a file that is not OFF, or not called so.
 other()
 {
   cat >"$folder/$2.$1"
-  row "$2" "$3" "$folder/$2.$1" --ratio 0.5 --eigenvectors 2 --no-evaluation
+  row "$2" "$3" "$folder/$2.$1" --vertices 50% --eigenvectors 2 --no-evaluation
 }
 
 # tori OPEN N M [N M]...: N x M vertices each, beside each other; tubes where OPEN is 1.

@@ -33,7 +33,7 @@ cmake -S "$root" -B "$build" "$@" ${CMAKE_ARGS:-} >"$output/build.log" 2>&1 &&
 }
 
 "$build/examples/make_demo_shape" "$output/shape.ply"
-"$build/examples/spectral_simplify" "$output/shape.ply" "$output/coarse.ply" --ratio 0.03 \
+"$build/examples/spectral_simplify" "$output/shape.ply" "$output/coarse.ply" --vertices 3% \
   --restriction "$output/restriction.mtx" --map "$output/map.txt" --json "$output/result.json" --report "$output/report.html"
 echo
 echo "In $output:"

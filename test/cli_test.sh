@@ -145,13 +145,13 @@ runs "a diagonal fit on two rings" shape.off b.off --vertices 250 --eigenvectors
 [ "$(sed -n '2s/.* //p' fitted/mass.mtx)" = 250 ] || fail "the mass of a diagonal fit has entries off the diagonal"
 grep -q 'fitted operators' fit.html || fail "no fitted operators in the report"
 
-runs "first run" shape.off one.ply --ratio 0.1 --eigenvectors 20 --restriction one.mtx
-runs "second run" shape.off two.ply --ratio 0.1 --eigenvectors 20 --restriction two.mtx
+runs "first run" shape.off one.ply --vertices 10% --eigenvectors 20 --restriction one.mtx
+runs "second run" shape.off two.ply --vertices 10% --eigenvectors 20 --restriction two.mtx
 cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"
 
 previous=shape.off
 for format in obj ply stl off; do
-  runs "to $format" "$previous" "copy.$format" --ratio 1 --eigenvectors 5
+  runs "to $format" "$previous" "copy.$format" --vertices 100% --eigenvectors 5
   previous=copy.$format
 done
 grep -q '^OFF' copy.off || fail "copy.off is not an OFF file"
@@ -187,10 +187,9 @@ rm large.off
 
 runs "without evaluation" shape.off few.off --vertices 200 --eigenvectors 30 --no-evaluation --json none.json
 grep -q '"norm_L": null' none.json || fail "without evaluation norm_L is not null"
-"$program" --help | grep -q -e '--preserve-border' || fail "--help does not name --preserve-border"
 
 # The points of the shape as write_mesh() writes them.
-runs "the shape itself" shape.off same.off --ratio 1 --eigenvectors 5 --no-evaluation --quiet
+runs "the shape itself" shape.off same.off --vertices 100% --eigenvectors 5 --no-evaluation --quiet
 sed -n '/./p' same.off | tail -n +3 | head -n "$(sed -n '2s/ .*//p' shape.off)" >points
 
 # Two tetrahedra cannot be reduced to five vertices.
@@ -267,7 +266,7 @@ runs "an operator" shape.off aniso.off --vertices 250 --eigenvectors 25 --operat
 grep -q '"operator": "anisotropic:2"' aniso.json || fail "the operator is not in the JSON file"
 grep -q '25 eigenvectors of anisotropic:2' said || fail "the operator is not in the table"
 [ -s aniso/coarse_coefficients.npy ] || fail "no coefficients are written"
-runs "no collapse" shape.off all.off --ratio 1 --eigenvectors 25 --operator anisotropic:2 --relocate none --eigenpairs all
+runs "no collapse" shape.off all.off --vertices 100% --eigenvectors 25 --operator anisotropic:2 --relocate none --eigenpairs all
 runs "coefficients" shape.off weighted.off --vertices 250 --eigenvectors 25 --operator weighted:all/coarse_coefficients.npy --json weighted.json
 [ "$(field norm_L weighted.json)" = "$(field norm_L aniso.json)" ] || fail "the operator of the file is another one"
 cmp -s aniso.off weighted.off || fail "the mesh of the operator of the file is another one"
@@ -282,7 +281,7 @@ grep -q '"intrinsic_delaunay": true' intrinsic.json || fail "the intrinsic trian
 printf 'ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n%s\n%s\n%s\n' \
   'element tristrips 1' 'property list int int vertex_indices' 'end_header' >strips.ply
 printf '%s\n' '0 0 0' '1 0 0' '0 1 0' '1 1 0' '0 2 0' '5 0 0' '6 0 0' '5 1 0' '9 0 1 2 3 4 -1 5 6 7' >>strips.ply
-runs "triangle strips" strips.ply strips.off --ratio 1 --eigenvectors 2 --no-evaluation --quiet
+runs "triangle strips" strips.ply strips.off --vertices 100% --eigenvectors 2 --no-evaluation --quiet
 grep -q '^8 4 0' strips.off || fail "the strips give $(sed -n 2p strips.off)"
 sed '$s/ 7$//' strips.ply >cut-strips.ply # the last index is missing
 
@@ -290,7 +289,7 @@ sed '$s/ 7$//' strips.ply >cut-strips.ply # the last index is missing
 spelt()
 {
   cat >"$1"
-  runs "$1" "$1" spelt.out.off --ratio 1 --eigenvectors 2 --no-evaluation --quiet
+  runs "$1" "$1" spelt.out.off --vertices 100% --eigenvectors 2 --no-evaluation --quiet
   [ -e square.off ] || cp spelt.out.off square.off
   cmp -s spelt.out.off square.off || fail "$1 is read as $(cat spelt.out.off)"
 }
@@ -314,10 +313,9 @@ refuses "no output" "INPUT and OUTPUT" shape.off --vertices 100
 refuses "three files" "more arguments" shape.off a.off b.off --vertices 100
 refuses "unknown option" "sideways" shape.off out.off --vertices 100 --sideways
 refuses "no target" "how far" shape.off out.off
-refuses "two targets" "both" shape.off out.off --vertices 100 --ratio 0.5
 refuses "a target that is no number" "many" shape.off out.off --vertices many
-refuses "no levels" "--levels is ','" shape.off out.off --levels ,
-refuses "levels that are no numbers" "separated by commas" shape.off out.off --levels 800,few
+refuses "no levels" "--levels has '' in it" shape.off out.off --levels ,
+refuses "levels that are no numbers" "--levels has 'few' in it" shape.off out.off --levels 800,few
 refuses "a level twice" "800 twice" shape.off out.off --levels 800,400,800
 refuses "a level below the target" "only levels above" shape.off out.off --levels 800,100 --vertices 200
 refuses "a level above the input" "--levels names 5000" shape.off out.off --levels 5000,100
@@ -363,12 +361,13 @@ refuses "matrices of an STL file" "STL" shape.off out.stl --vertices 200 --restr
 n=$(sed -n '2s/ .*//p' shape.off)
 refuses "N too large" "has $n vertices" shape.off out.off --vertices 1000000
 refuses "N just too large" "has $n vertices" shape.off out.off --vertices $((n + 1))
-refuses "N zero" "--vertices is 0" shape.off out.off --vertices 0
-refuses "N negative" "--vertices is -5" shape.off out.off --vertices -5
+refuses "N zero" "--vertices is '0'" shape.off out.off --vertices 0
+refuses "N negative" "--vertices is '-5'" shape.off out.off --vertices -5
 refuses "N huge" "99999999999999999999" shape.off out.off --vertices 99999999999999999999
-refuses "ratio zero" "--ratio is 0" shape.off out.off --ratio 0
-refuses "ratio above 1" "--ratio is 1.5" shape.off out.off --ratio 1.5
-refuses "ratio not a number" "--ratio" shape.off out.off --ratio nan
+refuses "a percentage of zero" "--vertices is '0%'" shape.off out.off --vertices 0%
+refuses "a percentage above 100" "--vertices is '150%'" shape.off out.off --vertices 150%
+refuses "a percentage that is no number" "--vertices is 'nan%'" shape.off out.off --vertices nan%
+refuses "two targets" "one number" shape.off out.off --vertices 300,200
 refuses "K zero" "--eigenvectors is 0" shape.off out.off --vertices 300 --eigenvectors 0
 refuses "K negative" "--eigenvectors is -1" shape.off out.off --vertices 300 --eigenvectors -1
 refuses "K as large as the mesh" "below $n" shape.off out.off --vertices "$n" --eigenvectors "$n"
@@ -434,7 +433,7 @@ repairs()
   change=$2
   cat >"$broken"
   refuses "$broken without --repair" "add --repair" "$broken" out.off --vertices 4 --eigenvectors 2 --strict
-  set -- --ratio 1 --eigenvectors 2 --no-evaluation --quiet
+  set -- --vertices 100% --eigenvectors 2 --no-evaluation --quiet
   runs "repair of $broken" "$broken" out.off --repair --repaired fixed.off --json repair.json "$@"
   grep -q -e "$change" repair.json || fail "repair of $broken: '$change' is not in $(cat repair.json)"
   runs "$broken, repaired" fixed.off out.off "$@"
@@ -451,12 +450,12 @@ printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' |
   repairs lonely.off '"isolated vertices removed": 1'
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n1 1e-14 0\n3 0 1 4\n3 0 4 2\n3 0 2 3\n' |
   repairs needle.off "degenerate faces removed"
-runs "the repair is in the table" quads.off out.off --repair --ratio 1 --eigenvectors 2 --no-evaluation
+runs "the repair is in the table" quads.off out.off --repair --vertices 100% --eigenvectors 2 --no-evaluation
 grep -q ' 2 polygons triangulated' said || fail "the repair is not in $(cat said)"
-runs "one thing repaired" lonely.off out.off --repair --ratio 1 --eigenvectors 1 --no-evaluation
+runs "one thing repaired" lonely.off out.off --repair --vertices 100% --eigenvectors 1 --no-evaluation
 grep -q ' 1 isolated vertex removed' said || fail "the repair is not in $(cat said)"
-runs "sound meshes are left alone" shape.off out.off --repair --repaired same.off --ratio 1 --eigenvectors 2 --json no.json
-runs "a copy" shape.off copy.off --ratio 1 --eigenvectors 2
+runs "sound meshes are left alone" shape.off out.off --repair --repaired same.off --vertices 100% --eigenvectors 2 --json no.json
+runs "a copy" shape.off copy.off --vertices 100% --eigenvectors 2
 cmp -s same.off copy.off || fail "--repair changed a mesh without faults"
 grep -q '"repairs": {}' no.json || fail "--repair of a mesh without faults says $(cat no.json)"
 refuses "beyond repair" "which --repair could not do" line.off out.off --repair --vertices 3 --eigenvectors 2
@@ -591,7 +590,7 @@ vertices=$(field output_vertices stopped/out.json)
 [ "$(sed -n '2s/ .*//p' stopped/out.off)" -eq "$vertices" ] && [ "$vertices" -lt "$n" ] ||
   fail "the interrupted mesh has $vertices vertices"
 grep -q '"norm_L": null' stopped/out.json || fail "an interrupted run has norms"
-"$program" stopped/out.off again.off --ratio 0.9 --eigenvectors 5 --no-evaluation --quiet ||
+"$program" stopped/out.off again.off --vertices 90% --eigenvectors 5 --no-evaluation --quiet ||
   fail "the interrupted mesh cannot be read"
 
 [ -z "$(find . -name '.*.*')" ] || fail "unfinished files are left: $(find . -name '.*.*')"

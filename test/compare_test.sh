@@ -29,8 +29,8 @@ refuses "a size that is no number" "'x'" shape.off --vertices 200,x
 refuses "a size that is too large" "vertices" shape.off --vertices 100000
 refuses "too many eigenvectors" "must be below" shape.off --vertices 200 --eigenvectors 100000 --report report.html
 refuses "an unknown mass" "heavy" shape.off --vertices 200 --judge heavy
-refuses "an operator without a mass" "needs --mass" --fine shape.off --operator shape.off
-refuses "a restriction that is none" "MatrixMarket" --fine shape.off --coarse shape.off --restriction shape.off --eigenvectors 5
+refuses "an operator without a mass" "NAME=L.mtx,M.mtx,P.mtx" shape.off --rival-operators x=shape.off
+refuses "a restriction that is none" "MatrixMarket" shape.off --rival x=shape.off,shape.off --eigenvectors 5
 refuses "an unknown simplifier" "no simplifier" shape.off --vertices 200 --eigenvectors 10 --only nobody --report report.html
 refuses "a folder that does not exist" "folder" shape.off --vertices 200 --json none/out.json
 
@@ -52,8 +52,8 @@ rm -f report.html
 
 "$simplify" shape.off coarse.off --vertices 150 --eigenvectors 20 --preset paper --restriction P.mtx --eigenpairs pairs --json s.json \
   --quiet || fail "spectral_simplify"
-runs "anybody's mesh" --fine shape.off --coarse coarse.off --restriction P.mtx --eigenvectors 20 --judge lumped --json mesh.json
-runs "anybody's operator" --fine shape.off --operator pairs/coarse_L.mtx --mass pairs/coarse_mass.mtx --restriction P.mtx \
+runs "anybody's mesh" shape.off --rival x=coarse.off,P.mtx --eigenvectors 20 --judge lumped --json mesh.json
+runs "anybody's operator" shape.off --rival-operators x=pairs/coarse_L.mtx,pairs/coarse_mass.mtx,P.mtx \
   --eigenvectors 20 --judge lumped --json operator.json
 for key in norm_L norm_D norm_L_input_scale eigenvalue_error_mean eigenvalue_error_low_mean; do
   for file in mesh.json operator.json; do
@@ -61,11 +61,11 @@ for key in norm_L norm_D norm_L_input_scale eigenvalue_error_mean eigenvalue_err
       fail "$key is $(number $file $key) in $file and $(number s.json $key) in s.json"
   done
 done
-runs "anybody's mesh without P" --fine shape.off --coarse coarse.off --eigenvectors 20 --judge averaged
-refuses "P of another mesh" "coarse x fine" --fine coarse.off --coarse coarse.off --restriction P.mtx --eigenvectors 5
+runs "anybody's mesh without P" shape.off --rival x=coarse.off --eigenvectors 20 --judge averaged
+refuses "P of another mesh" "coarse x fine" coarse.off --rival x=coarse.off,P.mtx --eigenvectors 5
 
 # No input is replaced, whatever it is read for.
-set -- --fine shape.off --coarse coarse.off --restriction P.mtx --eigenvectors 20 --judge lumped
+set -- shape.off --rival x=coarse.off,P.mtx --eigenvectors 20 --judge lumped
 for input in shape.off coarse.off P.mtx; do
   cp "$input" kept
   refuses "$input as an output" "read as an input" "$@" --json "$input"
@@ -138,24 +138,24 @@ refuses "a negative mass" "'negative.mtx' has a row whose sum is not positive, n
 awk 'NF' shape.off | awk 'NR == 2 { n = $1; print n + 1, $2, 0; print 9, 9, 9; next } NR < 3 || NR <= n + 2 { print; next }
   { print 3, $2 + 1, $3 + 1, $4 + 1 }' >isolated.off
 awk '/^%/ { print; next } !header { header = 1; print $1, $2 + 1, $3; next } { print $1, $2 + 1, $3 }' P.mtx >isolated.mtx
-runs "isolated vertices" --fine isolated.off --coarse coarse.off --restriction isolated.mtx --eigenvectors 20 --judge lumped \
+runs "isolated vertices" isolated.off --rival x=coarse.off,isolated.mtx --eigenvectors 20 --judge lumped \
   --json isolated.json
 [ "$(number mesh.json norm_L)" = "$(number isolated.json norm_L)" ] || fail "isolated vertices change norm_L"
 grep -q "1 isolated vertex left out" isolated.json || fail "isolated vertices are not in the notes"
-refuses "isolated vertices with --strict" "isolated" --fine isolated.off --coarse coarse.off --eigenvectors 20 --strict
+refuses "isolated vertices with --strict" "isolated" isolated.off --rival x=coarse.off --eigenvectors 20 --strict
 
 # A name that is no UTF-8 does not lose the run.
 name=$(printf 'n\377me.off')
 cp coarse.off "$name"
-runs "a name that is no UTF-8" --fine shape.off --coarse "$name" --eigenvectors 20 --judge lumped --json name.json
+runs "a name that is no UTF-8" shape.off --rival "$name=$name" --eigenvectors 20 --judge lumped --json name.json
 grep -q '"simplifier": "n.*me.off"' name.json || fail "a name that is no UTF-8 is missing in the JSON file"
 
 # A small file promises a large matrix.
 printf '%%%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n' >promise.mtx
 (ulimit -v 4000000
-  refuses "a promised matrix" "2000000000 x 2000000000" --fine shape.off --coarse coarse.off --restriction promise.mtx --eigenvectors 20
-  refuses "a promised operator" "rows without a nonzero" --fine shape.off --operator promise.mtx --mass promise.mtx \
-    --restriction P.mtx --eigenvectors 20
+  refuses "a promised matrix" "2000000000 x 2000000000" shape.off --rival x=coarse.off,promise.mtx --eigenvectors 20
+  refuses "a promised operator" "rows without a nonzero" shape.off --rival-operators x=promise.mtx,promise.mtx,P.mtx \
+    --eigenvectors 20
   exit "$failures")
 failures=$?
 

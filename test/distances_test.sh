@@ -13,11 +13,11 @@ folder=$3
 . "$(dirname "$0")/program_test.sh"
 unwanted=report.html
 
-refuses "no mesh" "a mesh is needed" --vertices 300 --report report.html
-refuses "no number of vertices" "\-\-vertices is 0" "$shape" --report report.html
+refuses "no mesh" "a mesh and a size are needed" --vertices 300 --report report.html
+refuses "no number of vertices" "a size" "$shape" --report report.html
 refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 300 --report report.html
 refuses "more vertices than there are" "has [0-9]* vertices" "$shape" --vertices 100000 --report report.html
-refuses "more eigenvectors than vertices" "at least --eigenvectors" "$shape" --vertices 50 --eigenvectors 60 --report report.html
+refuses "more eigenvectors than vertices" "at least 60" "$shape" --vertices 50 --eigenvectors 60 --report report.html
 refuses "an unknown mass" "'full'" "$shape" --vertices 300 --mass full --report report.html
 refuses "unknown operators" "'lumped', it must be fitted or mesh" "$shape" --vertices 300 --operators lumped --report report.html
 refuses "an unknown option" "colour" "$shape" --vertices 300 --colour red --report report.html

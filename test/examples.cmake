@@ -46,6 +46,14 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
   set_tests_properties("corrupted-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
 endif()
 
+find_program(SPECTRAL_BASH bash)
+if(SPECTRAL_BASH AND TARGET shape_matching AND TARGET spectral_compare AND TARGET spectral_simplify AND
+   TARGET spectral_distances_on_proxy AND TARGET make_demo_shape)
+  add_test(NAME "commands" COMMAND "${SPECTRAL_BASH}" "${CMAKE_CURRENT_SOURCE_DIR}/commands_test.sh" "${PROJECT_SOURCE_DIR}"
+                                   $<TARGET_FILE_DIR:spectral_simplify>)
+  set_tests_properties("commands" PROPERTIES LABELS examples)
+endif()
+
 if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "compare" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/compare_test.sh" $<TARGET_FILE:spectral_compare>
                                   $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")

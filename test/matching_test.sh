@@ -21,7 +21,7 @@ refuses "no arguments" "two meshes are needed"
 refuses "no output" "nothing is to be written" X.off Y.off
 refuses "a missing mesh" "cannot read 'none.off'" X.off none.off --output map.txt
 refuses "too many vertices" "vertices" X.off Y.off --output map.txt --vertices 100000
-refuses "more modes than vertices" "at most --vertices" X.off Y.off --output map.txt --vertices 50
+refuses "more modes than vertices" "and --eigenvectors, which is 100" X.off Y.off --output map.txt --vertices 50
 refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
 refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --output map.txt --operators own
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim

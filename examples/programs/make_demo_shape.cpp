@@ -24,14 +24,13 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 
-#include <boost/program_options.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iostream>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -378,24 +377,20 @@ std::vector<std::size_t> shuffle(Mesh& mesh, unsigned seed)
 
 int run(int argc, char* argv[])
 {
-  namespace po = boost::program_options;
   std::string output, pose_name = "stand", map;
-  long number_of_vertices = 25000, seed = -1;
-  po::options_description options("make_demo_shape OUTPUT [options]\n"
-                                  "Makes a closed surface of genus 1, an animal, in the format that the name "
-                                  "OUTPUT ends in (.off, .obj, .ply, .stl)");
-  options.add_options()("help", "show this text")                              //
-      ("output", po::value(&output), "the file to write (the first argument)") //
-      ("vertices", po::value(&number_of_vertices)->default_value(number_of_vertices),
-       "about how many vertices") //
-      ("pose", po::value(&pose_name)->default_value(pose_name),
-       "stand, walk or bend: nearly isometric, with the same triangles")                    //
-      ("shuffle", po::value(&seed), "renumber vertices and faces at random with this seed") //
-      ("map", po::value(&map),
-       "write for each vertex its number in OUTPUT, one per line, counted from 0: that of the same vertex in "
-       "another pose");
-  po::variables_map values;
-  const std::string help = read_command_line(argc, argv, options, {{"output", nullptr}}, "OUTPUT", values);
+  long number_of_vertices = 25000;
+  std::optional<long> seed;
+  Command_line line("make_demo_shape OUTPUT [options]",
+                    "Makes a closed surface of genus 1, an animal. OUTPUT ends in .off, .obj, .ply or .stl.");
+  line.argument("OUTPUT", output);
+  line.group("Options");
+  line.option("vertices", number_of_vertices, "N", "about how many vertices");
+  line.choice("pose", pose_name, {"stand", "walk", "bend"}, "nearly isometric, with the same triangles");
+  line.option("shuffle", seed, "X", "renumber vertices and faces at random with this seed");
+  line.option("map", map, "map.txt",
+              "write for each vertex its number in OUTPUT, one per line, from 0: that of the same vertex in "
+              "another pose");
+  const std::string help = line.read(argc, argv);
   if(!help.empty()) {
     std::cout << help;
     return 0;
@@ -406,10 +401,8 @@ int run(int argc, char* argv[])
   if(number_of_vertices < 1000 || number_of_vertices > 1000000)
     throw std::runtime_error("--vertices is " + std::to_string(number_of_vertices) +
                              ", it must lie between 1000 and 1000000.");
-
-  check_choice("--pose", pose_name, {"stand", "walk", "bend"});
-  if(values.count("shuffle") && (seed < 0 || seed > 1000000000))
-    throw std::runtime_error("--shuffle is " + std::to_string(seed) +
+  if(seed && (*seed < 0 || *seed > 1000000000))
+    throw std::runtime_error("--shuffle is " + std::to_string(*seed) +
                              ", it must lie between 0 and 1000000000.");
 
   mesh_format(output);
@@ -422,8 +415,8 @@ int run(int argc, char* argv[])
     pose(mesh, pose_name);
   std::vector<std::size_t> numbers(num_vertices(mesh));
   std::iota(numbers.begin(), numbers.end(), std::size_t(0));
-  if(seed >= 0)
-    numbers = shuffle(mesh, static_cast<unsigned>(seed));
+  if(seed)
+    numbers = shuffle(mesh, static_cast<unsigned>(*seed));
   write_mesh(files.temporary(output), mesh, output);
   if(!map.empty())
     write_indices(files.temporary(map), numbers, map);

@@ -11,6 +11,7 @@
 #include "io/program.h"
 #include "matching/geodesic_error.h"
 #include "matching/matching_arguments.h"
+#include "option_words.h"
 #include "matching/matching_report.h"
 
 #include <CGAL/Real_timer.h>
@@ -43,14 +44,17 @@ public:
     : m_arguments(arguments)
     , m_input_X(read_input_mesh(arguments.X, mending(arguments.strict, arguments.repair)))
     , m_input_Y(read_input_mesh(arguments.Y, mending(arguments.strict, arguments.repair)))
-    , m_mass(arguments.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped)
+    , m_proxy_size(proxy_size(arguments, m_X.number_of_vertices(), m_Y.number_of_vertices()))
     , m_files({arguments.X, arguments.Y, arguments.landmarks, arguments.ground_truth})
   {
     m_arguments.threads = usable_threads(arguments.threads, arguments.quiet);
     for(const std::string& path : {m_arguments.output, m_arguments.report})
       if(!path.empty())
         m_files.add(path);
-    check_sizes();
+    Option_words words;
+    words.preset = arguments.preset;
+    words.mass = arguments.mass;
+    m_options = options_of(words);
     read_correspondences();
     for(const auto& [input, path] :
         {std::make_pair(&m_input_X, &m_arguments.X), std::make_pair(&m_input_Y, &m_arguments.Y)})
@@ -65,7 +69,7 @@ public:
     c.command = m_arguments.command;
     c.X = std::filesystem::path(m_arguments.X).filename().string();
     c.Y = std::filesystem::path(m_arguments.Y).filename().string();
-    c.mass = m_arguments.mass;
+    c.mass = SG::mass_name(m_options.mass);
     c.modes = m_arguments.eigenvectors;
     c.landmarks = m_landmarks.size();
     c.shape_X = &m_shape_X;
@@ -80,15 +84,6 @@ public:
   }
 
 private:
-  void check_sizes() const
-  {
-    for(const auto& [mesh, path] :
-        {std::make_pair(&m_X, &m_arguments.X), std::make_pair(&m_Y, &m_arguments.Y)})
-      if(static_cast<long>(mesh->number_of_vertices()) < m_arguments.vertices)
-        throw std::runtime_error("--vertices is " + std::to_string(m_arguments.vertices) + ", but '" + *path +
-                                 "' has " + std::to_string(mesh->number_of_vertices()) + " vertices.");
-  }
-
   void read_correspondences()
   {
     const Vertex_numbering &X = m_input_X.numbering, &Y = m_input_Y.numbering;
@@ -121,7 +116,7 @@ private:
     CGAL::Real_timer timer;
     timer.start();
     const auto shape = [&](const Mesh& mesh) {
-      return make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_mass, keep_going);
+      return make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_options.mass, keep_going);
     };
     std::tie(m_shape_X, m_shape_Y) = side_by_side(
         m_arguments.threads, [&] { return shape(m_X); }, [&] { return shape(m_Y); });
@@ -150,13 +145,13 @@ private:
     const Proxy_operators operators =
         m_arguments.operators == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
-      return make_proxy(mesh, fine, kind, static_cast<std::size_t>(m_arguments.vertices),
-                        m_arguments.eigenvectors, m_mass, operators, keep_going);
+      return make_proxy(mesh, fine, kind, m_proxy_size, m_arguments.eigenvectors, m_options, operators,
+                        keep_going);
     };
     const auto [coarse_X, coarse_Y] = side_by_side(
         m_arguments.threads, [&] { return proxy(m_X, m_shape_X); }, [&] { return proxy(m_Y, m_shape_Y); });
     result.seconds_proxies = timer.time();
-    result.vertices = static_cast<std::size_t>(m_arguments.vertices);
+    result.vertices = m_proxy_size;
     result.match =
         match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks, options, keep_going);
     return result;
@@ -194,7 +189,8 @@ private:
   Matching_arguments m_arguments;
   Input_mesh m_input_X, m_input_Y;
   const Mesh &m_X = m_input_X.mesh, &m_Y = m_input_Y.mesh;
-  SG::Mass m_mass;
+  std::size_t m_proxy_size;
+  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options m_options;
   Output_files m_files;
   Landmarks m_landmarks;
   std::vector<Eigen::Index> m_truth;

@@ -48,7 +48,7 @@ namespace {
 // The files that are read, which no output replaces.
 std::vector<std::string> inputs(const Compare_arguments& a)
 {
-  std::vector<std::string> result{a.fine};
+  std::vector<std::string> result{a.mesh};
   for(const Rival& r : a.rivals)
     result.insert(result.end(), {r.mesh, r.operator_file, r.mass_file, r.restriction});
   return result;
@@ -70,7 +70,7 @@ public:
     : m_arguments(arguments)
     , m_files(inputs(arguments))
     , m_bar(!arguments.quiet)
-    , m_input(read(arguments.fine))
+    , m_input(read(arguments.mesh))
     , m_fine(m_input.mesh)
   {
     m_comparison.command = command;
@@ -120,7 +120,7 @@ private:
   {
     Comparison& c = m_comparison;
     c.program = "spectral_compare";
-    c.mesh = std::filesystem::path(m_arguments.fine).filename().string();
+    c.mesh = std::filesystem::path(m_arguments.mesh).filename().string();
     c.vertices = m_fine.number_of_vertices();
     c.faces = m_fine.number_of_faces();
     c.diagonal = box_diagonal(m_fine);
@@ -145,7 +145,7 @@ private:
                        K = m_arguments.eigenvectors;
     if(K >= n)
       throw std::runtime_error("--eigenvectors is " + std::to_string(K) + ", it must be below " +
-                               std::to_string(n) + ": that is how many vertices '" + m_arguments.fine +
+                               std::to_string(n) + ": that is how many vertices '" + m_arguments.mesh +
                                "' has.");
     m_matrices = SG::mesh_matrices(m_fine);
     std::vector<Eigen::Index> sources;
@@ -309,7 +309,7 @@ private:
     } catch(const std::bad_alloc&) {
       throw;
     } catch(const std::exception& error) {
-      throw std::runtime_error(rival.option.empty() ? error.what() : rival.option + ": " + error.what());
+      throw std::runtime_error(rival.option + ": " + error.what());
     }
   }
 

@@ -12,6 +12,8 @@
 #include "io/mesh_io.h"
 #include "io/output_files.h"
 #include "io/program.h"
+#include "io/vertex_target.h"
+#include "option_words.h"
 #include "report/html_report.h"
 #include "report/mesh_picture.h"
 
@@ -21,8 +23,6 @@
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
-
-#include <boost/program_options.hpp>
 
 #include <cmath>
 #include <cstdio>
@@ -46,10 +46,11 @@ namespace {
 
 struct Distance_arguments
 {
-  std::string mesh, report, mass = "averaged", operators = "fitted", command, help;
-  long vertices = 0, eigenvectors = 100, sources = 10;
+  std::string mesh, vertices, report, preset = "best", mass, operators = "fitted", command, help;
+  Vertex_target target;
+  long eigenvectors = 100, sources = 10;
   int threads = all_threads();
-  bool repair = false, strict = false;
+  bool repair = false, strict = false, quiet = false;
 };
 
 using Sources = std::vector<Eigen::Index>;
@@ -115,6 +116,7 @@ struct Pair
   std::vector<std::size_t> vertex_map;
   Eigen::MatrixXd C;
   double seconds_simplification = 0, seconds_fit = 0;
+  SG::Mass mass = SG::Mass::averaged;
 
   // Functions on the coarse mesh, one per column, in the way of that number.
   Eigen::MatrixXd bring_back(int way, const Eigen::MatrixXd& g) const
@@ -136,17 +138,19 @@ Pair simplify(const Distance_arguments& a)
 {
   Input_mesh input = read_input_mesh(a.mesh, mending(a.strict, a.repair));
   Mesh& mesh = input.mesh;
-  const long n = static_cast<long>(mesh.number_of_vertices());
-  if(a.vertices > n)
-    throw std::runtime_error("--vertices is " + std::to_string(a.vertices) + ", but '" + a.mesh + "' has " +
-                             std::to_string(n) + " vertices.");
-  if(!input.changes.empty())
+  const std::size_t n = mesh.number_of_vertices(), N = a.target.of(n);
+  if(N > n || static_cast<long>(N) < a.eigenvectors)
+    throw std::runtime_error("--vertices asks for " + std::to_string(N) + ", it must be at least " +
+                             std::to_string(a.eigenvectors) + ", the number of eigenvectors, and '" + a.mesh +
+                             "' has " + std::to_string(n) + " vertices.");
+  if(!a.quiet && !input.changes.empty())
     std::cout << printable(input.changes_of(a.mesh)) << "\n" << std::flush;
-  SMS::Spectral_edge_collapse_options options;
-  options.mass = a.mass == "averaged" ? SG::Mass::averaged : SG::Mass::lumped;
+  Option_words words;
+  words.preset = a.preset;
+  words.mass = a.mass;
+  SMS::Spectral_edge_collapse_options options = options_of(words);
   options.fit_operators = a.operators == "fitted";
-  options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
-  options.threads = usable_threads(a.threads, false);
+  options.threads = usable_threads(a.threads, a.quiet);
   options.cancel = &interrupted;
   const auto shape = [&](const std::optional<SG::Operator_fit_result>& fitted) {
     SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
@@ -159,8 +163,7 @@ Pair simplify(const Distance_arguments& a)
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
-  const SMS::Spectral_edge_collapse_result result =
-      SMS::spectral_edge_collapse(mesh, static_cast<std::size_t>(a.vertices), options);
+  const SMS::Spectral_edge_collapse_result result = SMS::spectral_edge_collapse(mesh, N, options);
   stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);
@@ -173,7 +176,8 @@ Pair simplify(const Distance_arguments& a)
             result.vertex_map,
             {},
             result.seconds_total - result.seconds_operator_fit,
-            result.seconds_operator_fit};
+            result.seconds_operator_fit,
+            options.mass};
   pair.Q = SG::closest_point_interpolation(pair.fine.matrices.V, pair.coarse.matrices);
   pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
   return pair;
@@ -306,7 +310,7 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
                      "</style></head><body>\n<h1>Spectral distances on a proxy: " +
                      escaped(name) + "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) +
                      " vertices, proxy " + std::to_string(pair.coarse.op.mass.size()) + " vertices, " +
-                     std::to_string(a.eigenvectors) + " eigenvectors, " + escaped(a.mass) +
+                     std::to_string(a.eigenvectors) + " eigenvectors, " + SG::mass_name(pair.mass) +
                      " mass, operators: " + escaped(a.operators) + ", " + std::to_string(a.sources) +
                      " sources. <code>" + escaped(a.command) + "</code></p>\n";
   html += "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
@@ -332,48 +336,48 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
          "</body></html>\n";
 }
 
+Command_line described(Distance_arguments& a)
+{
+  Command_line line(
+      "spectral_distances_on_proxy MESH --vertices N [options]",
+      "Computes spectral distances on a simplified mesh and says how far they are from those of MESH.");
+  line.argument("MESH", a.mesh);
+  line.group("Size");
+  line.option("vertices", a.vertices, "N|P%", "of the simplified mesh, such as 600 or 3%");
+  line.group("Quality");
+  line.option("eigenvectors", a.eigenvectors, "K", "of both meshes; best N >= 3 K");
+  line.choice("preset", a.preset, {"best", "paper"}, "how to simplify");
+  line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
+              "the mass matrix (best: averaged, paper: lumped)");
+  line.choice("operators", a.operators, {"fitted", "mesh"},
+              "of the simplified mesh: fitted to the spectrum of MESH, or its own");
+  line.option("sources", a.sources, "S", "random vertices to measure distances from");
+  line.group("Input");
+  line.flag("repair", a.repair, "change a mesh that cannot be used, as spectral_simplify does");
+  line.strict(a.strict);
+  line.group("Outputs");
+  line.option("report", a.report, "FILE.html", "a page with pictures");
+  line.group("Run");
+  line.threads(a.threads);
+  line.flag("quiet", a.quiet, "no table");
+  return line;
+}
+
 Distance_arguments parse(int argc, char* argv[])
 {
-  namespace po = boost::program_options;
   Distance_arguments a;
   a.command = command_line("spectral_distances_on_proxy", argc, argv);
-  po::options_description options("spectral_distances_on_proxy MESH --vertices N [options]\n\nComputes "
-                                  "spectral distances on a simplified mesh and "
-                                  "says how far they are from those of MESH.\n\nOptions",
-                                  100, 60);
-  options.add_options()("help", "show this text")("mesh", po::value(&a.mesh),
-                                                  "the mesh (the first argument)")(
-      "vertices", po::value(&a.vertices)->value_name("N"), "of the simplified mesh")(
-      "eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
-      "of both meshes")("sources", po::value(&a.sources)->value_name("S")->default_value(a.sources),
-                        "random vertices to measure distances from")(
-      "mass", po::value(&a.mass)->value_name("lumped|averaged")->default_value(a.mass), "the mass matrix")(
-      "operators", po::value(&a.operators)->value_name("fitted|mesh")->default_value(a.operators),
-      "of the simplified mesh: fitted to the spectrum of MESH, or its own")(
-      "threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
-      "at most")("report", po::value(&a.report)->value_name("report.html"), "write a page with pictures")(
-      "repair", po::bool_switch(&a.repair), "change a mesh that cannot be used, as spectral_simplify does")(
-      "strict", po::bool_switch(&a.strict),
-      "change nothing of it, not even what leaves the surface as it is");
-  po::variables_map values;
-  a.help = read_command_line(argc, argv, options, {{"mesh", nullptr}}, "one MESH", values);
+  a.help = described(a).read(argc, argv);
   if(!a.help.empty())
     return a;
-  if(a.mesh.empty())
-    throw std::runtime_error("a mesh is needed: spectral_distances_on_proxy MESH --vertices N.");
+  if(a.mesh.empty() || a.vertices.empty())
+    throw std::runtime_error("a mesh and a size are needed: spectral_distances_on_proxy MESH --vertices N.");
+  a.target = parsed_vertex_target("--vertices", a.vertices);
   if(a.eigenvectors < 3)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be at least 3.");
-  if(a.vertices < a.eigenvectors)
-    throw std::runtime_error("--vertices is " + std::to_string(a.vertices) +
-                             ", it must be given and at least --eigenvectors, which is " +
-                             std::to_string(a.eigenvectors) + ".");
   if(a.sources < 1)
     throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
-  if(a.threads < 1)
-    throw std::runtime_error("--threads is " + std::to_string(a.threads) + ", it must be at least 1.");
-  check_choice("--mass", a.mass, {"lumped", "averaged"});
-  check_choice("--operators", a.operators, {"fitted", "mesh"});
   return a;
 }
 
@@ -400,7 +404,8 @@ void run(const Distance_arguments& a)
     stop_if_interrupted();
     files.commit();
   }
-  print(pair, summary);
+  if(!a.quiet)
+    print(pair, summary);
 }
 
 } // namespace

@@ -524,8 +524,7 @@ int run(Arguments a)
   bar.clear();
   Simplification_report report;
   report.seconds_reading = timer.time();
-  const std::size_t target =
-      checked_target(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
+  const std::size_t target = resolve_sizes(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
   SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
   Output_files files({a.input, a.keep, a.signals, a.operator_.file});

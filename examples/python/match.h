@@ -29,7 +29,8 @@ inline Matched match(const Arguments& a)
   checked(X, "VX, FX");
   checked(Y, "VY, FY");
   const Index n = a.integer("n", 4, (std::min)(X.V.rows(), Y.V.rows()), ", the vertices of the smaller mesh");
-  const SG::Mass mass = a.mass();
+  SMS::Spectral_edge_collapse_options simplification;
+  simplification.mass = a.mass();
   Matching_options options;
   options.modes = a.integer("k", 10, n, ", which is n");
   options.initial_modes = a.integer("initial", 4, 60);
@@ -58,7 +59,7 @@ inline Matched match(const Arguments& a)
       return Keep_going([&watch, phase, fraction] { return watch(phase, fraction); });
     };
     const auto shape = [&](const SG::Mesh_matrices& mesh) {
-      return make_shape(mesh, options.modes, mass, going("eigenpairs", 0));
+      return make_shape(mesh, options.modes, simplification.mass, going("eigenpairs", 0));
     };
     const auto [x, y] = side_by_side(
         options.threads, [&] { return shape(X); }, [&] { return shape(Y); });
@@ -66,8 +67,8 @@ inline Matched match(const Arguments& a)
       return match_directly(x, y, landmarks, options, going("match", 0.5));
     const auto kind = proxy == "spectral" ? Proxy_kind::spectral : Proxy_kind::garland_heckbert;
     const auto coarse = [&](const Shape& fine) {
-      return make_proxy(surface_mesh(fine.matrices), fine, kind, std::size_t(n), options.modes, mass,
-                        operators, going("proxies", 1. / 3));
+      return make_proxy(surface_mesh(fine.matrices), fine, kind, std::size_t(n), options.modes,
+                        simplification, operators, going("proxies", 1. / 3));
     };
     const Shape &fine_X = x, &fine_Y = y;
     const auto [coarse_X, coarse_Y] = side_by_side(

@@ -8,9 +8,11 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,54 +27,189 @@ inline std::string command_line(const char* program, const int argc, const char*
   return command;
 }
 
-// An argument without a name, and where it goes; null if it is among the options, too.
-using Positional_argument = std::pair<const char*, std::string*>;
-
-// Stores all options and arguments, and returns the text that --help asks for, or nothing. No abbreviations: what --mass means must
-// not depend on what else there is. No short options: a negative number is a value. Throws std::runtime_error with one
-// sentence; `arguments` names in it what may stand without a name.
-inline std::string read_command_line(const int argc, const char* const* argv,
-                                     const boost::program_options::options_description& options,
-                                     const std::vector<Positional_argument>& positional,
-                                     const std::string& arguments,
-                                     boost::program_options::variables_map& values)
+// The words with `between` between them.
+inline std::string joined(const std::vector<std::string>& words, const std::string& between)
 {
-  namespace po = boost::program_options;
-  po::options_description all;
-  all.add(options);
-  po::positional_options_description positions;
-  for(const Positional_argument& p : positional) {
-    if(p.second != nullptr)
-      all.add_options()(p.first, po::value(p.second));
-    positions.add(p.first, 1);
-  }
-  const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short &
-                    ~po::command_line_style::allow_guessing;
-  try {
-    po::store(po::command_line_parser(argc, argv).options(all).positional(positions).style(style).run(),
-              values);
-    po::notify(values);
-  } catch(const po::too_many_positional_options_error&) {
-    throw std::runtime_error("there are more arguments than " + arguments + "; --help shows everything.");
-  } catch(const po::error& error) {
-    throw std::runtime_error(std::string(error.what()) + "; --help shows everything.");
-  }
-  std::ostringstream text;
-  if(values.count("help"))
-    text << options;
-  return text.str();
+  std::string list;
+  for(std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : between) + words[i];
+  return list;
 }
 
-// Refuses a value that is none of `choices`. Nothing is no choice, and passes.
-inline void check_choice(const char* option, const std::string& value,
-                         const std::vector<std::string>& choices)
+// The arguments and options of a program, options in groups. One table is what is read, what --help says and what
+// doc/commands.md shows.
+class Command_line
 {
-  if(value.empty() || std::find(choices.begin(), choices.end(), value) != choices.end())
-    return;
-  std::string list = choices.front();
-  for(std::size_t i = 1; i < choices.size(); ++i)
-    list += (i + 1 < choices.size() ? ", " : " or ") + choices[i];
-  throw std::runtime_error(std::string(option) + " is '" + value + "', it must be " + list + ".");
-}
+  using Options = boost::program_options::options_description;
+
+public:
+  // `usage`: what to type, a line for each form; `about`: what the program does.
+  Command_line(std::string usage, std::string about)
+    : m_usage(std::move(usage))
+    , m_about(std::move(about))
+  {}
+
+  // The next argument without a name.
+  void argument(const std::string& name, std::string& value)
+  {
+    m_arguments.add_options()(name.c_str(), boost::program_options::value(&value));
+    m_positions.add(name.c_str(), 1);
+    m_names.push_back(name);
+  }
+
+  // Begins a group of options; --help leaves out the advanced ones, which only --help advanced shows.
+  void group(const std::string& name) { m_groups.push_back({name, Options(name, 100, 60), false}); }
+  void advanced_group(const std::string& name) { m_groups.push_back({name, Options(name, 100, 60), true}); }
+
+  // An option that is given or is not.
+  void flag(const char* name, bool& value, const std::string& description)
+  {
+    put(name, boost::program_options::bool_switch(&value), description);
+  }
+
+  // An option with a value, `form` in the help. What `value` holds already is the default; none if that is nothing.
+  template <class Value>
+  void option(const char* name, Value& value, const char* form, const std::string& description)
+  {
+    auto* semantic = boost::program_options::value(&value)->value_name(form);
+    if constexpr(std::is_arithmetic_v<Value>)
+      semantic->default_value(value);
+    else if(!value.empty())
+      semantic->default_value(value, joined_default(value));
+    put(name, semantic, description);
+  }
+  template <class Value>
+  void option(const char* name, std::optional<Value>& value, const char* form, const std::string& description)
+  {
+    auto* semantic = boost::program_options::value<Value>()->value_name(form);
+    put(name, semantic->notifier([&value](const Value& given) { value = given; }), description);
+  }
+
+  // An option with one of these words as its value.
+  void choice(const char* name, std::string& value, const std::vector<std::string>& words,
+              const std::string& description)
+  {
+    auto* semantic = boost::program_options::value(&value)->value_name(joined(words, "|"));
+    if(!value.empty())
+      semantic->default_value(value);
+    semantic->notifier([name = std::string(name), words](const std::string& given) {
+      if(std::find(words.begin(), words.end(), given) == words.end())
+        throw std::runtime_error("--" + name + " is '" + given + "', it must be " +
+                                 joined({words.begin(), words.end() - 1}, ", ") + " or " + words.back() +
+                                 ".");
+    });
+    put(name, semantic, description);
+  }
+
+  // The options that several programs have, in the same words.
+  void threads(int& value)
+  {
+    auto* semantic = boost::program_options::value(&value)->value_name("T")->default_value(value, "all");
+    put("threads", semantic->notifier([](const int given) {
+      if(given < 1)
+        throw std::runtime_error("--threads is " + std::to_string(given) + ", it must be at least 1.");
+    }),
+        "all cores by default; the result does not depend on it");
+  }
+  void strict(bool& value)
+  {
+    flag("strict", value, "change nothing of a mesh: refuse what cannot be used as it is");
+  }
+
+  // Stores all arguments and options, and returns the text that --help, --help advanced or --help markdown asks for, or nothing. No
+  // abbreviations: what --mass means must not depend on what else there is. No short options: a negative number is a
+  // value. Throws std::runtime_error with one sentence.
+  std::string read(const int argc, const char* const* argv) const
+  {
+    namespace po = boost::program_options;
+    for(int k = 1; k < argc; ++k)
+      if(argv[k] == std::string("--help")) {
+        const std::string which = k + 1 < argc ? argv[k + 1] : "";
+        return which == "markdown" ? markdown() : text(which == "advanced");
+      }
+    Options all;
+    all.add(m_arguments);
+    for(const Group& group : m_groups)
+      all.add(group.options);
+    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short &
+                      ~po::command_line_style::allow_guessing;
+    try {
+      po::variables_map values;
+      po::store(po::command_line_parser(argc, argv).options(all).positional(m_positions).style(style).run(),
+                values);
+      po::notify(values);
+    } catch(const po::too_many_positional_options_error&) {
+      throw std::runtime_error("there are more arguments than " + joined(m_names, " and ") +
+                               "; --help shows what there is.");
+    } catch(const po::error& error) {
+      throw std::runtime_error(std::string(error.what()) + "; --help advanced shows every option.");
+    }
+    return "";
+  }
+
+private:
+  struct Group
+  {
+    std::string name;
+    Options options;
+    bool advanced;
+  };
+
+  void put(const char* name, const boost::program_options::value_semantic* semantic,
+           const std::string& description)
+  {
+    m_groups.back().options.add_options()(name, semantic, description.c_str());
+  }
+
+  static std::string joined_default(const std::string& value) { return value; }
+  static std::string joined_default(const std::vector<std::string>& value) { return joined(value, ","); }
+
+  std::string text(const bool advanced) const
+  {
+    Options shown(100, 60); // one for all groups: their columns agree
+    bool all = true;
+    for(const Group& group : m_groups)
+      if(advanced || !group.advanced)
+        shown.add(group.options);
+      else
+        all = false;
+    std::ostringstream stream;
+    stream << m_usage << "\n\n"
+           << m_about << "\n"
+           << shown << (all ? "" : "\n--help advanced shows the other options.\n");
+    return stream.str();
+  }
+
+  static std::string table_cell(std::string text)
+  {
+    for(std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+      text.insert(at, "\\");
+    return text;
+  }
+
+  // A section of doc/commands.md.
+  std::string markdown() const
+  {
+    std::ostringstream stream;
+    stream << "## " << m_usage.substr(0, m_usage.find(' ')) << "\n\n```\n"
+           << m_usage << "\n```\n\n"
+           << m_about << "\n";
+    for(const Group& group : m_groups) {
+      stream << "\n| " << group.name << " | |\n|---|---|\n";
+      for(const auto& option : group.options.options()) {
+        const std::string form = option->format_parameter();
+        stream << "| `--" << option->long_name() << (form.empty() ? "" : " ") << table_cell(form) << "` | "
+               << table_cell(option->description()) << " |\n";
+      }
+    }
+    return stream.str();
+  }
+
+  std::string m_usage, m_about;
+  Options m_arguments;
+  boost::program_options::positional_options_description m_positions;
+  std::vector<std::string> m_names;
+  std::vector<Group> m_groups;
+};
 
 #endif // SPECTRAL_EXAMPLES_IO_COMMAND_LINE_H

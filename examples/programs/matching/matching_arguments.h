@@ -8,9 +8,8 @@
 #include "../io/command_line.h"
 #include "../io/program.h"
 #include "../io/text_lines.h"
+#include "../io/vertex_target.h"
 #include "matcher.h"
-
-#include <boost/program_options.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -25,8 +24,11 @@
 struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
-  std::string proxies = "spectral", mass = "averaged", operators = "fitted";
-  long vertices = 600, eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
+  std::string proxies = "spectral", preset = "best", mass,
+              operators = "fitted"; // mass empty: as the preset has it
+  std::string vertices = "600";     // as it was typed
+  Vertex_target target;
+  long eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
   long samples = 300;
   double local_weight = 4;
   int threads = all_threads();
@@ -54,54 +56,51 @@ struct Matching_arguments
 
 namespace matching_arguments_internal {
 
-inline boost::program_options::options_description described(Matching_arguments& a)
+inline Command_line described(Matching_arguments& a)
 {
-  namespace po = boost::program_options;
-  const auto text = [](std::string& value, const char* name) { return po::value(&value)->value_name(name); };
-  const auto number = [](long& value, const char* name) {
-    return po::value(&value)->value_name(name)->default_value(value);
-  };
-  po::options_description options(
-      "shape_matching X Y --output map.txt [options]\n\n"
-      "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both "
-      "to\n"
-      "the same number of vertices, matches these (functional map from signatures, ZoomOut, Product "
-      "Manifold\n"
-      "Filter) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. 2020).\n\nOptions",
-      100, 60);
-  auto add = options.add_options();
-  add("help", "show this text");
-  add("vertices", number(a.vertices, "N"), "of the simplified meshes");
-  add("landmarks", text(a.landmarks, "file"),
-      "pairs of vertices that correspond, one of X and one of Y on each line, counted from 0");
-  add("output", text(a.output, "map.txt"),
-      "write for each vertex of X the vertex of Y, one per line, -1 for one that no face uses");
-  add("report", text(a.report, "report.html"), "write a page with pictures, times and errors");
-  add("ground-truth", text(a.ground_truth, "map.txt"),
-      "the true map, as of --output: geodesic errors are measured");
-  add("proxy", text(a.proxies, "NAME,...")->default_value(a.proxies),
-      "how to simplify: spectral, garland_heckbert or none (no filter then); several are compared, the first "
-      "is "
-      "written");
-  add("eigenvectors", number(a.eigenvectors, "K"), "of all meshes; N should be at least 3 K");
-  add("initial", number(a.initial_modes, "k"), "modes of the functional map from signatures");
-  add("mass", text(a.mass, "lumped|averaged")->default_value(a.mass), "the mass matrix");
-  add("operators", text(a.operators, "fitted|mesh")->default_value(a.operators),
-      "of the simplified meshes: fitted to the spectra of X and Y, or their own");
-  add("filter-iterations", number(a.filter_iterations, "I"),
-      "of the Product Manifold Filter; 0 leaves it out");
-  add("fine-iterations", number(a.fine_iterations, "I"),
-      "of bending X onto Y in space, at the end; 0 leaves it out");
-  add("local-weight", po::value(&a.local_weight)->value_name("w")->default_value(a.local_weight),
-      "of curvature in these, at most; 0: positions alone");
-  add("samples", number(a.samples, "S"), "how many vertices of X errors are measured at");
-  add("threads", po::value(&a.threads)->value_name("T")->default_value(a.threads),
-      "all cores by default; the result does not depend on it");
-  add("repair", po::bool_switch(&a.repair), "change meshes that cannot be used, as spectral_simplify does");
-  add("strict", po::bool_switch(&a.strict),
-      "change nothing of them, not even what leaves the surface as it is");
-  add("quiet", po::bool_switch(&a.quiet), "no table");
-  return options;
+  Command_line line(
+      "shape_matching X Y --output map.txt [options]",
+      "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both\n"
+      "to the same number of vertices, matches these (functional map from signatures, ZoomOut, Product\n"
+      "Manifold Filter) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. 2020).");
+  line.argument("X", a.X);
+  line.argument("Y", a.Y);
+  line.group("Size");
+  line.option("vertices", a.vertices, "N|P%", "of both simplified meshes; 3% is a part of X's");
+  line.group("Quality");
+  line.option("eigenvectors", a.eigenvectors, "K", "of all meshes; best N >= 3 K");
+  line.choice("preset", a.preset, {"best", "paper"},
+              "how the simplified meshes are made, without relocation");
+  line.option("landmarks", a.landmarks, "FILE",
+              "pairs of vertices that correspond, one of X and one of Y on each line, from 0");
+  line.group("Input");
+  line.flag("repair", a.repair, "change meshes that cannot be used, as spectral_simplify does");
+  line.strict(a.strict);
+  line.group("Outputs");
+  line.option("output", a.output, "map.txt",
+              "for each vertex of X the vertex of Y, one per line, from 0; -1: no face uses it");
+  line.option("report", a.report, "FILE.html", "a page with pictures, times and errors");
+  line.option("ground-truth", a.ground_truth, "map.txt",
+              "the true map, as of --output: geodesic errors are measured");
+  line.group("Run");
+  line.threads(a.threads);
+  line.flag("quiet", a.quiet, "no table");
+  line.advanced_group("Stages of the match (advanced)");
+  line.option("proxy", a.proxies, "NAME,...",
+              "how to simplify: spectral, garland_heckbert or none (no filter then); several are compared, "
+              "the first is written");
+  line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
+              "the mass matrix (best: averaged, paper: lumped)");
+  line.choice("operators", a.operators, {"fitted", "mesh"},
+              "of the simplified meshes: fitted to the spectra of X and Y, or their own");
+  line.option("initial", a.initial_modes, "k", "modes of the functional map from signatures");
+  line.option("filter-iterations", a.filter_iterations, "I",
+              "of the Product Manifold Filter; 0 leaves it out");
+  line.option("fine-iterations", a.fine_iterations, "I",
+              "of bending X onto Y in space, at the end; 0 leaves it out");
+  line.option("local-weight", a.local_weight, "w", "of curvature in these, at most; 0: positions alone");
+  line.option("samples", a.samples, "S", "how many vertices of X errors are measured at");
+  return line;
 }
 
 inline void check(const Matching_arguments& a)
@@ -113,10 +112,9 @@ inline void check(const Matching_arguments& a)
   };
   if(a.X.empty() || a.Y.empty())
     throw std::runtime_error(
-        "two meshes are needed: shape_matching X Y --output map.txt; --help shows everything.");
+        "two meshes are needed: shape_matching X Y --output map.txt; --help shows what there is.");
   if(a.output.empty() && a.report.empty())
     throw std::runtime_error("nothing is to be written: give --output, --report or both.");
-  at_least("vertices", a.vertices, 4);
   at_least("eigenvectors", a.eigenvectors, 10);
   at_least("initial", a.initial_modes, 4);
   at_least("filter-iterations", a.filter_iterations, 0);
@@ -125,15 +123,9 @@ inline void check(const Matching_arguments& a)
   if(!(a.local_weight >= 0 && a.local_weight <= 100))
     throw std::runtime_error("--local-weight is " + std::to_string(a.local_weight) +
                              ", it must lie between 0 and 100.");
-  at_least("threads", a.threads, 1);
   if(a.initial_modes > 60)
     throw std::runtime_error("--initial is " + std::to_string(a.initial_modes) +
                              ", it must be at most 60: memory grows with its fourth power.");
-  if(a.eigenvectors > a.vertices)
-    throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
-                             ", it must be at most --vertices, which is " + std::to_string(a.vertices) + ".");
-  check_choice("--mass", a.mass, {"lumped", "averaged"});
-  check_choice("--operators", a.operators, {"fitted", "mesh"});
   a.kinds();
 }
 
@@ -142,16 +134,29 @@ inline void check(const Matching_arguments& a)
 // Throws std::runtime_error with one sentence for what cannot be meant.
 inline Matching_arguments parse_matching_arguments(int argc, const char* const* argv)
 {
-  namespace po = boost::program_options;
   Matching_arguments a;
   a.command = command_line("shape_matching", argc, argv);
-  po::variables_map values;
-  a.help = read_command_line(argc, argv, matching_arguments_internal::described(a),
-                             {{"X", &a.X}, {"Y", &a.Y}}, "two meshes", values);
+  a.help = matching_arguments_internal::described(a).read(argc, argv);
   if(!a.help.empty())
     return a;
+  a.target = parsed_vertex_target("--vertices", a.vertices);
   matching_arguments_internal::check(a);
   return a;
+}
+
+// The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices.
+inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X, const std::size_t n_Y)
+{
+  const std::size_t N = a.target.of(n_X);
+  const auto refuse = [N](const std::string& why) {
+    throw std::runtime_error("--vertices asks for " + std::to_string(N) + ", but " + why + ".");
+  };
+  if(N < 4 || static_cast<long>(N) < a.eigenvectors)
+    refuse("it must be at least 4, and --eigenvectors, which is " + std::to_string(a.eigenvectors));
+  for(const auto& [path, n] : {std::make_pair(a.X, n_X), std::make_pair(a.Y, n_Y)})
+    if(n < N)
+      refuse("'" + path + "' has " + std::to_string(n) + " vertices");
+  return N;
 }
 
 // Reads lines of one vertex for each of `sizes`, which say how many vertices there are, or of -1 where `none` is allowed.

@@ -37,10 +37,9 @@ Eigen::SparseMatrix<double> picking(const std::vector<Eigen::Index>& representat
 
 // In the spectral metric, with the eigenpairs that the fine mesh has anyhow.
 Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, std::size_t vertices,
-                                                SG::Mass mass, const Keep_going& keep_going, Proxy& proxy)
+                                                SMS::Spectral_edge_collapse_options options,
+                                                const Keep_going& keep_going, Proxy& proxy)
 {
-  SMS::Spectral_edge_collapse_options options;
-  options.mass = mass;
   options.binary = true; // the matches are vertices of the fine mesh
   options.relocate = false;
   SG::Eigenpairs pairs = fine.spectral.pairs; // at the scale of the mesh
@@ -101,7 +100,8 @@ Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, 
 }
 
 Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
-                 Eigen::Index modes, SG::Mass mass, Proxy_operators operators, const Keep_going& keep_going)
+                 Eigen::Index modes, const SMS::Spectral_edge_collapse_options& options,
+                 Proxy_operators operators, const Keep_going& keep_going)
 {
   Proxy proxy;
   CGAL::Real_timer timer;
@@ -109,7 +109,7 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
   Mesh coarse = mesh;
   Eigen::SparseMatrix<double> P;
   if(kind == Proxy_kind::spectral)
-    P = simplify_spectrally(coarse, fine, vertices, mass, keep_going, proxy);
+    P = simplify_spectrally(coarse, fine, vertices, options, keep_going, proxy);
   else
     P = simplify_by_quadrics(coarse, vertices, proxy);
   proxy.representative = heaviest_vertices(P);
@@ -120,11 +120,11 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
   std::function<void(SG::Laplace_operator&)> fit;
   if(operators == Proxy_operators::fitted)
     fit = [&](SG::Laplace_operator& op) {
-      SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(op.theta);
-      options.progress = [&](double) { return keep_going(); };
-      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, options).op;
+      SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
+      fit_options.progress = [&](double) { return keep_going(); };
+      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, fit_options).op;
     };
-  proxy.shape = make_shape(std::move(matrices), modes, mass, keep_going, fit);
+  proxy.shape = make_shape(std::move(matrices), modes, options.mass, keep_going, fit);
   proxy.seconds_eigenpairs = timer.time();
   return proxy;
 }

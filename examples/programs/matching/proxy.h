@@ -8,6 +8,7 @@
 #include "../io/mesh_io.h"
 
 #include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
 #include <Eigen/SparseCore>
 
@@ -49,9 +50,11 @@ Shape make_shape(CGAL::Spectral_geometry::Mesh_matrices matrices, Eigen::Index m
                  CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going,
                  const std::function<void(CGAL::Spectral_geometry::Laplace_operator&)>& fit = {});
 
-// Throws std::runtime_error where the mesh cannot be reduced to exactly `vertices`.
+// The mass is that of `options`, which say how to simplify spectrally, but for relocation: the matches are vertices of `mesh`.
+// Throws std::runtime_error where it cannot be reduced to exactly `vertices`.
 Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
-                 Eigen::Index modes, CGAL::Spectral_geometry::Mass mass, Proxy_operators operators,
-                 const Keep_going& keep_going);
+                 Eigen::Index modes,
+                 const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
+                 Proxy_operators operators, const Keep_going& keep_going);
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_PROXY_H
