@@ -98,7 +98,7 @@ the cotangents or the areas of the actual triangles.
 With \f$ G = P \Phi \f$, all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
 it minimises
 \f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
-   + \frac{\tau}{N} \sum_a \Bigl( \frac{x_a - x_a^0}{x_a^0 + s_a} \Bigr)^2 \f]
+   + \frac{\tau}{N} \sum_a \left( \frac{x_a - x_a^0}{x_a^0 + s_a} \right)^2 \f]
 where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, made relative by \f$ \mathrm{mean}(W \lambda^2) \f$: 4 pi is
 the mean spacing of eigenvalues at unit area (Weyl's law), and e = 2 would ask for the same relative accuracy of all modes. The
 first term is \f$ \|C \Lambda - \widetilde\Lambda C\| \f$ when G stands for the coarse eigenvectors, the second the metric E

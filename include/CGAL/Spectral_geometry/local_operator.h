@@ -59,7 +59,7 @@ metric of the collapses, flips and relocation need to follow an operator.
 
 In a triangle with corners i, j, k, area A and the mean of its corners' coefficients, \f$\rho\f$ and D,
 \f[ L_{ij} = \frac{(n \times e_i) \cdot D (n \times e_j)}{4A} , \qquad
-    B = \rho A \left( (1-\theta)\, \mathrm{diag}(s) + \theta\, \tfrac{1}{12} (I + 1 1^\top) \right), \f]
+    B = \rho A \left( (1-\theta)\, \mathrm{diag}(s) + \theta\, \frac{1}{12} (I + 1 1^\top) \right), \f]
 n its normal and \f$e_i\f$ the edge opposite to i, all edges one way round: \f$L_{ij} = -\cot(k)/2\f$ for the identity, c times
 that for a conductivity c. The shares s are 1/3 each, or those of mixed Voronoi areas in the metric of D.
 Constants are in the kernel of L, whatever D is.
