@@ -61,6 +61,47 @@ std::size_t count(const std::string& text, const std::string& part)
   return n;
 }
 
+// The code of RFC 1951 that begins at bit `at`, as far as Deflated_runs writes it, read anew.
+struct Inflater
+{
+  const std::string& data;
+  std::size_t at = 0;
+
+  unsigned bit()
+  {
+    const unsigned b = static_cast<unsigned char>(data[at / 8]) >> at % 8 & 1;
+    ++at;
+    return b;
+  }
+  unsigned code(int length, unsigned begun = 0)
+  {
+    for(int i = 0; i < length; ++i)
+      begun = begun << 1 | bit();
+    return begun;
+  }
+  unsigned symbol()
+  {
+    const unsigned seven = code(7);
+    if(seven < 24)
+      return 256 + seven;
+    const unsigned eight = code(1, seven);
+    if(eight < 0xc0)
+      return eight - 0x30;
+    return eight < 0xc8 ? 280 + eight - 0xc0 : 144 + code(1, eight) - 0x190;
+  }
+  std::string text()
+  {
+    at = 3;
+    std::string result;
+    for(unsigned s = symbol(); s != 256; s = symbol())
+      if(s < 256)
+        result += static_cast<char>(s);
+      else
+        result.append(code(5) == 0 ? (s == 285 ? 258 : s - 254) : 0, result.back());
+    return result;
+  }
+};
+
 } // namespace
 
 TEST_CASE("base64 of lengths with and without padding")
@@ -77,12 +118,22 @@ TEST_CASE("A chunk of PNG and its check sums are those of the standard")
 {
   using namespace png_internal;
   CHECK(chunk("IEND", "") == std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12));
-  // zlib's header, one stored block of 3 bytes, and Adler-32 of "abc", 0x024d0127
-  CHECK(zlib_stored("abc") == std::string("\x78\x01\x01\x03\x00\xfc\xff"
-                                          "abc\x02\x4d\x01\x27",
-                                          14));
-  const std::string large(70000, 'x');
-  CHECK(zlib_stored(large).size() == 2 + 2 * 5 + large.size() + 4);
+  // what zlib makes of "abc" with its fixed codes, and Adler-32, 0x024d0127
+  CHECK(zlib_compressed("abc") == std::string("\x78\x01\x4b\x4c\x4a\x06\x00\x02\x4d\x01\x27", 11));
+}
+
+TEST_CASE("Runs are deflated, and nothing is lost")
+{
+  using png_internal::Deflated_runs;
+  std::string every;
+  for(int i = 0; i < 256; ++i)
+    every += static_cast<char>(i);
+  for(std::size_t length = 1; length < 600; ++length) {
+    const std::string data = every + std::string(length, length % 2 == 0 ? '\xf0' : 'x') + "end";
+    REQUIRE(Inflater{Deflated_runs(data).bytes()}.text() == data);
+  }
+  CHECK(Inflater{Deflated_runs("").bytes()}.text() == "");
+  CHECK(Deflated_runs(std::string(100000, '\0')).bytes().size() < 700);
 }
 
 TEST_CASE("The shades of a map begin with white and only get darker")

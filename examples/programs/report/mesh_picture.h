@@ -16,38 +16,59 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Pictures of coloured meshes, drawn here: a report needs no viewer.
 
-struct Picture
+// What is seen of space: points, less the middle, are turned to the screen (x to the right, y up, z to the viewer).
+struct Screen_frame
 {
-  int width = 460, height = 330;
-  Eigen::MatrixXd colours; // one row per vertex, red, green and blue in [0, 1]
-  Eigen::VectorXd levels;  // optional, one per vertex: black lines where it passes an integer
+  Eigen::Matrix3d turn;
+  Eigen::RowVector3d middle;
+  double half_width, half_height; // what the picture shows at least
+
+  Eigen::MatrixXd on_screen(const Eigen::MatrixXd& V) const
+  {
+    return (V.rowwise() - middle) * turn.transpose();
+  }
 };
 
-namespace mesh_picture_internal {
-
-// Turns the vertices to the screen (x to the right, y up, z to the viewer): the longest side of the box lies
-// across, the shortest to the viewer, a little aslant. What is up in the file stays up.
-inline Eigen::MatrixXd on_screen(const Eigen::MatrixXd& V)
+// The frame of a mesh: the longest side of its box lies across, the shortest to the viewer, a little aslant. What is
+// up in the file stays up.
+inline Screen_frame screen_frame(const Eigen::MatrixXd& V)
 {
-  const Eigen::RowVector3d low = V.colwise().minCoeff(), high = V.colwise().maxCoeff();
-  const Eigen::RowVector3d extent = high - low;
+  const Eigen::RowVector3d extent = V.colwise().maxCoeff() - V.colwise().minCoeff();
   std::array<int, 3> axis = {0, 1, 2};
   std::sort(axis.begin(), axis.end(), [&](int i, int j) { return extent(i) > extent(j); });
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
   for(int i = 0; i < 3; ++i)
     turn(i, axis[static_cast<std::size_t>(i)]) = 1;
-  const Eigen::RowVector3d middle = (low + high) / 2;
   turn.row(2) = turn.row(0).cross(turn.row(1)); // no mirror image
   const Eigen::Matrix3d aslant =
       (Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitY()))
           .toRotationMatrix();
-  return (V.rowwise() - middle) * (aslant * turn).transpose();
+  Screen_frame frame{aslant * turn, Eigen::RowVector3d::Zero(), 0, 0};
+  const Eigen::MatrixXd turned = frame.on_screen(V);
+  const Eigen::RowVector3d low = turned.colwise().minCoeff(), high = turned.colwise().maxCoeff();
+  frame.middle = (low + high) / 2 * frame.turn;
+  constexpr double filled = 0.94; // the rest is margin
+  frame.half_width = (high(0) - low(0)) / 2 / filled;
+  frame.half_height = (high(1) - low(1)) / 2 / filled;
+  return frame;
 }
+
+struct Picture
+{
+  int width = 460, height = 330;
+  Eigen::MatrixXd colours;           // one row per vertex, red, green and blue in [0, 1]
+  Eigen::VectorXd levels;            // optional, one per vertex: black lines where it passes an integer
+  std::optional<Screen_frame> frame; // the mesh's own unless it is given
+};
+
+namespace mesh_picture_internal {
 
 struct Raster
 {
@@ -63,7 +84,8 @@ inline void draw_triangle(Raster& raster, const Eigen::Matrix3d& p, const Eigen:
   const double determinant = a.x() * b.y() - a.y() * b.x();
   if(!(std::abs(determinant) > 0))
     return;
-  const double light = 0.45 + 0.55 * std::abs(a.cross(b).normalized().dot(Eigen::Vector3d(0.3, 0.5, 0.81)));
+  const Eigen::Vector3d towards_light(0.3, -0.5, 0.81); // from above: y points down here
+  const double light = 0.45 + 0.55 * std::abs(a.cross(b).normalized().dot(towards_light));
   const auto first = [](double x) { return (std::max)(0, static_cast<int>(std::ceil(x))); };
   const int x1 = (std::min)(raster.width - 1, static_cast<int>(std::floor(p.row(0).maxCoeff())));
   const int y1 = (std::min)(raster.height - 1, static_cast<int>(std::floor(p.row(1).maxCoeff())));
@@ -112,10 +134,9 @@ inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& me
   Raster raster{width, height, std::vector<double>(pixels, -infinity), std::vector<double>(pixels, 0.),
                 std::vector<Eigen::Vector3d>(pixels, Eigen::Vector3d::Ones())};
 
-  Eigen::MatrixXd V = on_screen(mesh.V);
-  const Eigen::RowVector3d low = V.colwise().minCoeff(), high = V.colwise().maxCoeff();
-  const double scale = 0.94 * (std::min)(width / (high(0) - low(0)), height / (high(1) - low(1)));
-  V = (V.rowwise() - (low + high) / 2) * scale;
+  const Screen_frame frame = picture.frame ? *picture.frame : screen_frame(mesh.V);
+  Eigen::MatrixXd V =
+      frame.on_screen(mesh.V) * (std::min)(width / (2 * frame.half_width), height / (2 * frame.half_height));
   V.col(0).array() += width / 2.;
   V.col(1) = (height / 2. - V.col(1).array()).matrix();
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
@@ -134,7 +155,8 @@ inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& me
 
   std::string rows;
   for(int y = 0; y < picture.height; ++y) {
-    rows += '\0'; // no filter
+    rows += '\1'; // the filter: differences to the pixel on the left
+    std::array<long, 3> left = {0, 0, 0};
     for(int x = 0; x < picture.width; ++x) {
       Eigen::Vector3d colour = Eigen::Vector3d::Zero();
       for(int i = 0; i < samples; ++i)
@@ -142,8 +164,10 @@ inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& me
           colour +=
               raster.colour[static_cast<std::size_t>(samples * y + i) * static_cast<std::size_t>(width) +
                             static_cast<std::size_t>(samples * x + j)];
-      for(int c = 0; c < 3; ++c)
-        rows += static_cast<char>(std::lround(255 * std::clamp(colour(c) / (samples * samples), 0., 1.)));
+      for(int c = 0; c < 3; ++c) {
+        const long here = std::lround(255 * std::clamp(colour(c) / (samples * samples), 0., 1.));
+        rows += static_cast<char>(here - std::exchange(left[static_cast<std::size_t>(c)], here));
+      }
     }
   }
   return png_address(picture.width, picture.height, 2, "", rows);
