@@ -145,6 +145,18 @@ runs "a diagonal fit on two rings" shape.off b.off --vertices 250 --eigenvectors
 [ "$(sed -n '2s/.* //p' fitted/mass.mtx)" = 250 ] || fail "the mass of a diagonal fit has entries off the diagonal"
 grep -q 'fitted operators' fit.html || fail "no fitted operators in the report"
 
+cp shape.off 'a<b>&.off'
+runs "a page" 'a<b>&.off' b.off --vertices 250 --eigenvectors 25 --report page.html
+grep -q 'a&lt;b&gt;&amp;.off' page.html && ! grep -q 'a<b>' page.html || fail "the name on the page is not escaped"
+sed 's,http://www.w3.org/2000/svg,,g' page.html | grep -q 'https\?:\|<link\|src=.[^d]' && fail "the page needs more than itself"
+n=$(sed -n 2p shape.off | cut -d ' ' -f 1)
+[ "$(grep -o "<figcaption>[A-Z]*PUT, [0-9,]* vertices" page.html | tr -dc '0-9\n' | tr '\n' ' ')" = "$n 250 " ] ||
+  fail "not the two meshes of $n and 250 vertices on the page"
+points_of() { sed -n "s/.*\"name\":\"$1\".*\"points\":\"\([^\"=]*\).*/\1/p" page.html | tr -d '\n' | wc -c; }
+[ "$(points_of fine)" -eq $((8 * n)) ] && [ "$(points_of coarse)" -eq 2000 ] || fail "not all points are on the page"
+grep -q 'first 25 eigenvalues are off by [0-9.]* %' page.html || fail "no sentences on the page"
+rm 'a<b>&.off'
+
 runs "first run" shape.off one.ply --vertices 10% --eigenvectors 20 --restriction one.mtx
 runs "second run" shape.off two.ply --vertices 10% --eigenvectors 20 --restriction two.mtx
 cmp -s one.ply two.ply && cmp -s one.mtx two.mtx || fail "two runs differ"

@@ -2,18 +2,24 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The pieces of the comparison's page that no reader would see to be wrong.
+// The pieces of the programs' pages that no reader would see to be wrong.
 
 #include "../examples/programs/compare/mode_alignment.h"
 #include "../examples/programs/report/html_report.h"
+#include "../examples/programs/report/plain_words.h"
 #include "../examples/programs/report/png_image.h"
+#include "../examples/programs/report/shape_view.h"
 
 #include "catch.h"
+#include "shapes.h"
 
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -101,6 +107,87 @@ struct Inflater
     return result;
   }
 };
+
+// The numbers of the array `key` of the mesh `name` on a page, of so many bytes each.
+std::vector<std::uint32_t> array_on_page(const std::string& html, const std::string& name,
+                                         const std::string& key, unsigned bytes)
+{
+  const std::size_t mesh = html.find("{\"name\":\"" + name + "\"");
+  REQUIRE(mesh != std::string::npos);
+  const std::size_t begin = html.find("\"" + key + "\":\"", mesh) + key.size() + 4;
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint32_t> result;
+  std::uint32_t bits = 0, number = 0;
+  unsigned n = 0, taken = 0;
+  for(std::size_t i = begin; html[i] != '"' && html[i] != '='; ++i) {
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(html[i]));
+    n += 6;
+    if(n < 8)
+      continue;
+    n -= 8;
+    number |= (bits >> n & 0xff) << 8 * taken++;
+    if(taken == bytes) {
+      result.push_back(number);
+      number = taken = 0;
+    }
+  }
+  CHECK(taken == 0);
+  return result;
+}
+
+// A mesh of 642 vertices and one of the first 162 of them in another unit, which values at unit area do not see, whose
+// eigenvectors have the other sign.
+struct Two_meshes
+{
+  shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3), coarse = shapes::bumpy_icosphere_matrices(2);
+  CGAL::Spectral_geometry::Eigenpairs fine_pairs, coarse_pairs;
+  CGAL::Spectral_geometry::Spectral_evaluation evaluation;
+
+  explicit Two_meshes(Eigen::Index K = 12)
+  {
+    namespace SG = CGAL::Spectral_geometry;
+    coarse.V *= 1.5;
+    const SG::Laplace_operator L = SG::laplace_operator(fine.V, fine.T, 0.),
+                               coarse_L = SG::laplace_operator(coarse.V, coarse.T, 0.);
+    fine_pairs = SG::eigenpairs(L, K);
+    coarse_pairs = SG::eigenpairs(coarse_L, K);
+    Eigen::SparseMatrix<double> P(coarse.V.rows(), fine.V.rows());
+    P.setIdentity();
+    for(Eigen::Index k = 0; k < K; ++k)
+      if(fine_pairs.vectors.col(k).head(162).dot(coarse_pairs.vectors.col(k)) > 0)
+        coarse_pairs.vectors.col(k) *= -1;
+    evaluation = SG::evaluate_spectrum(L, fine_pairs, coarse_L, coarse_pairs, P, K);
+  }
+
+  std::string view(std::size_t most = 1000) const
+  {
+    return shape_view({fine, fine_pairs}, {coarse, coarse_pairs}, evaluation, most);
+  }
+};
+
+void check_mesh(const std::string& html, const std::string& name, const shapes::Matrices& mesh,
+                std::size_t functions)
+{
+  const auto points = array_on_page(html, name, "points", 2);
+  const auto triangles = array_on_page(html, name, "triangles", 2);
+  const std::size_t n = static_cast<std::size_t>(mesh.V.rows());
+  REQUIRE(points.size() == 3 * n);
+  REQUIRE(triangles.size() == static_cast<std::size_t>(mesh.T.size()));
+  CHECK(array_on_page(html, name, "values", 1).size() == functions * n);
+  const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> T = mesh.T;
+  CHECK(std::equal(triangles.begin(), triangles.end(), T.data(),
+                   [](std::uint32_t i, int j) { return i == static_cast<std::uint32_t>(j); }));
+  // Turned, moved and scaled: distances keep their ratios.
+  const auto length = [&points](std::size_t v) {
+    return Eigen::Vector3d(points[3 * v] - 1. * points[0], points[3 * v + 1] - 1. * points[1],
+                           points[3 * v + 2] - 1. * points[2])
+        .norm();
+  };
+  for(std::size_t v = 2; v < n; ++v)
+    CHECK(length(v) / length(1) == Approx((mesh.V.row(static_cast<Eigen::Index>(v)) - mesh.V.row(0)).norm() /
+                                          (mesh.V.row(1) - mesh.V.row(0)).norm())
+                                       .epsilon(0.001));
+}
 
 } // namespace
 
@@ -208,6 +295,111 @@ TEST_CASE("The page holds every number, escapes names and needs nothing else")
   CHECK(count(html, "src='http") == 0);
   CHECK(count(html, "url(") == 0);
   CHECK(count(html, "nan") == 0);
+}
+
+TEST_CASE("The page holds both meshes and the functions on them")
+{
+  const Two_meshes meshes;
+  const std::string html = html_report(small_comparison(), meshes.view());
+  CHECK(count(html, "INPUT, 642 vertices</figcaption>") == 1);
+  CHECK(count(html, "OUTPUT, 162 vertices</figcaption>") == 1);
+  CHECK(count(html, "<option>") == 5);
+  CHECK(count(html, "\"gradient\":") == 5);
+  check_mesh(html, "fine", meshes.fine, 5);
+  check_mesh(html, "coarse", meshes.coarse, 5);
+  CHECK(count(html, "<script") == 2);
+  CHECK(count(html, "</script>") == 2);
+  CHECK(count(html, "http") == count(html, "xmlns='http://www.w3.org/2000/svg'"));
+  CHECK(count(html, "src='") == count(html, "src='data:image/png;base64,"));
+  CHECK(count(html, "<img ") == 4 + 2); // the pictures without a script
+  CHECK(count(html, "nan") == 0);
+}
+
+TEST_CASE("Coarse functions have the signs and the scale of the fine ones")
+{
+  const Two_meshes meshes;
+  const std::string html = meshes.view();
+  const auto fine = array_on_page(html, "fine", "values", 1),
+             coarse = array_on_page(html, "coarse", "values", 1);
+  REQUIRE(fine.size() == 5 * 642);
+  REQUIRE(coarse.size() == 5 * 162);
+  for(std::size_t f = 0; f < 5; ++f) {
+    double off = 0, all = 0, largest = 0;
+    for(std::size_t v = 0; v < 162; ++v) {
+      const double x = fine[642 * f + v] - 127.5, y = coarse[162 * f + v] - 127.5;
+      off += (x - y) * (x - y);
+      all += x * x;
+    }
+    for(std::size_t v = 0; v < 642; ++v)
+      largest = (std::max)(largest, std::abs(fine[642 * f + v] - 127.5));
+    CAPTURE(f);
+    CHECK(off < 0.05 * all);
+    CHECK(largest > 100); // most of the scale is used
+  }
+}
+
+TEST_CASE("Few modes leave few functions, and one of them is enough")
+{
+  CHECK(count(Two_meshes(3).view(), "<option>Eigenfunction") == 2);
+  const std::string html = Two_meshes(1).view();
+  CHECK(count(html, "<option>Eigenfunction 1</option>") == 1);
+  CHECK(count(html, "<option>") == 1);
+}
+
+TEST_CASE("A mesh that is too large stays a picture")
+{
+  const Two_meshes meshes;
+  std::string html = meshes.view(300);
+  CHECK(count(html, "\"name\":\"fine\"") == 0);
+  check_mesh(html, "coarse", meshes.coarse, 1);
+  CHECK(count(html, "INPUT has more vertices than the 300 that a page can turn") == 1);
+  CHECK(count(html, "<img ") == 2);
+  html = meshes.view(100);
+  CHECK(count(html, "<script") == 0);
+  CHECK(count(html, "<img ") == 2);
+}
+
+TEST_CASE("Indices beyond 65,536 vertices have 32 bits")
+{
+  const shapes::Matrices mesh = shapes::grid_matrices(256, 256);
+  REQUIRE(mesh.V.rows() > 65536);
+  const std::string data = shape_view_internal::mesh_data("fine", mesh, screen_frame(mesh.V), 2, {});
+  CHECK(count(data, "\"wide\":true") == 1);
+  const auto triangles = array_on_page(data, "fine", "triangles", 4);
+  REQUIRE(triangles.size() == static_cast<std::size_t>(mesh.T.size()));
+  const Eigen::Index last = mesh.T.rows() - 1;
+  for(int c = 0; c < 3; ++c)
+    CHECK(triangles[triangles.size() - 3 + static_cast<std::size_t>(c)] ==
+          static_cast<std::uint32_t>(mesh.T(last, c)));
+}
+
+TEST_CASE("Sentences say what the figures say")
+{
+  Comparison c = small_comparison();
+  c.results.resize(1);
+  c.results[0].shape.area_ratio = 0.98;
+  Judgement& j = c.results[0].judgements[0];
+  std::string words = plain_words(c, "area");
+  CHECK(count(words, "<li>") == 2); // no eigenvalue was judged
+  CHECK(count(words, "by 1.23, 2.47 times the estimate for ideal linear elements (0.500)") == 1);
+  CHECK(count(words, "The area is 2.00 % smaller than before.") == 1);
+
+  j.error_mean = 0.02;
+  j.error_max = 0.07;
+  j.error_low_mean = 0.05;
+  words = plain_words(c, "mass");
+  CHECK(count(words, "The first 4 eigenvalues are off by 2.00 % in the mean and by 7.00 % at worst.") == 1);
+  CHECK(count(words, "less well, to 5.00 %: limbs may have lost their tips.") == 1);
+  CHECK(count(words, "The mass is") == 1);
+  j.error_low_mean = 0.021;
+  CHECK(count(plain_words(c, "area"), "are kept alike, to 2.10 %.") == 1);
+
+  c.results.push_back(c.results[0]);
+  c.results[1].judgements[0].error_mean = 0.01;
+  words = plain_words(c, "area");
+  CHECK(count(words, "off by 1.00 % in the mean, which is better than the mesh's own") == 1);
+  CHECK(count(words, "1.23, which is not better than the mesh's own") == 1);
+  CHECK(count(words, "nan") == 0);
 }
 
 TEST_CASE("Sizes are ascending, families share a colour, variants differ in dashes")

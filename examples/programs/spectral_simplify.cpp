@@ -19,6 +19,8 @@
 #include "report/html_report.h"
 #include "report/json_text.h"
 #include "report/judgement.h"
+#include "report/plain_words.h"
+#include "report/shape_view.h"
 #include "spectral_simplify_arguments.h"
 #include "spectral_simplify_report.h"
 
@@ -316,7 +318,9 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   comparison.faces = static_cast<std::size_t>(meshes.fine.T.rows());
   comparison.threads = a.threads;
   comparison.notes = result.warnings;
-  return html_report(comparison);
+  return html_report(comparison, plain_words(comparison, has_coefficients(a) ? "mass" : "area") +
+                                     shape_view({meshes.fine, *meshes.fine_pairs},
+                                                {meshes.coarse, meshes.coarse_pairs}, *report.evaluation));
 }
 
 // What the evaluation makes.

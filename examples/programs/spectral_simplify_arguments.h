@@ -103,7 +103,7 @@ inline Command_line described(Arguments& a)
               "for each vertex of INPUT the one of OUTPUT it went to, from 0; -1: left out");
   line.option("json", a.json, "FILE", "the figures of the table, and more");
   line.option("report", a.report, "FILE.html",
-              "a page with the figures, the functional map and the eigenvalues");
+              "a page with both meshes, the figures, the functional map and the eigenvalues");
 
   line.group("Run");
   line.threads(a.threads);

@@ -17,15 +17,15 @@
 #include <utility>
 #include <vector>
 
-// A comparison as one page: no network, no JavaScript, no other file.
+// A comparison as one page that needs neither network nor another file.
 
 namespace html_internal {
 
 inline const char* style()
 {
   return "body{font:15px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1.5em}"
-         "h1{font-size:1.7em;margin-bottom:.2em}h2{font-size:1.3em;margin-top:2em;border-bottom:1px solid "
-         "#bbb}"
+         "h1{font-size:1.7em;margin-bottom:.2em;overflow-wrap:anywhere}"
+         "h2{font-size:1.3em;margin-top:2em;border-bottom:1px solid #bbb}"
          "h3{font-size:1.05em;margin:1.4em 0 .4em}"
          "table{border-collapse:collapse;font-size:13px;margin:.6em 0}"
          "th,td{padding:2px 9px;text-align:right;border-bottom:1px solid #e3e3e3;vertical-align:bottom}"
@@ -39,10 +39,20 @@ inline const char* style()
          "4em 0}"
          ".legend li{break-inside:avoid;display:block}.legend svg{vertical-align:middle;margin-right:.5em}"
          "svg{max-width:100%;height:auto}code{font-size:13px;overflow-wrap:anywhere}"
-         "p,ul{max-width:62em}.note{color:#555;font-size:13px}"
-         "@media print{body{margin:0;max-width:none;font-size:10pt}table{font-size:7.5pt}th,td{padding:1px "
-         "4px}"
-         "h2{break-after:avoid}*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"
+         "p,ul{max-width:62em}sub{line-height:0}.note{color:#555;font-size:13px}"
+         ".shapes{display:grid;grid-template-columns:1fr 1fr;gap:14px}.shapes figure{width:auto;min-width:0}"
+         ".shapes figcaption{font-weight:600;font-size:14px}"
+         ".shapes img,.shapes canvas{box-sizing:border-box;width:100%;height:auto;aspect-ratio:400/287;"
+         "display:block;border:1px solid #999;image-rendering:auto}"
+         ".shapes canvas{touch-action:none;cursor:grab}"
+         ".scale{max-width:36em;margin:.6em 0;font-size:13px}#shape-bar{height:14px;border:1px solid #999}"
+         "#shape-ticks{display:flex}#shape-ticks span{flex:1}#shape-ticks span+span{text-align:center}"
+         "#shape-ticks span+span+span{text-align:right}"
+         "@media(max-width:700px){body{margin:1em auto;padding:0 .8em}table{display:block;overflow-x:auto}"
+         ".legend{columns:1}.shapes{grid-template-columns:1fr}}"
+         "@media print{#shape-controls{display:none}body{margin:0;max-width:none;font-size:10pt}"
+         "table{font-size:7.5pt}th,td{padding:1px 4px}h2{break-after:avoid}"
+         "*{-webkit-print-color-adjust:exact;print-color-adjust:exact}}"
          "@page{size:A4 landscape;margin:12mm}";
 }
 
@@ -245,15 +255,15 @@ pairs of triangles. Bold: the smallest of its column and size.</li>
 
 } // namespace html_internal
 
-// The page.
-inline std::string html_report(const Comparison& c)
+// The page; `introduction` comes before the tables.
+inline std::string html_report(const Comparison& c, const std::string& introduction = "")
 {
   using namespace html_internal;
   std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
                      "<meta name='viewport' content='width=device-width'><title>" +
                      escaped(c.mesh) + " – spectral comparison</title>\n<style>" + style() +
                      "</style></head><body>\n";
-  html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n";
+  html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
   html += facts(c);
   for(const std::string& note : all_notes(c))
     html += "<p class='note'>" + escaped(note) + "</p>\n";
