@@ -50,7 +50,7 @@ if(TARGET make_demo_shape)
 
   # Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual.
   add_test(NAME "consumer-include-folder"
-           COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}"
+           COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}" "${CMAKE_NM}"
                    "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${PROJECT_SOURCE_DIR}/examples/edge_collapse_spectral.cpp" "${shape}"
                    "${CMAKE_CURRENT_BINARY_DIR}/include-folder" ${CGAL_INCLUDE_DIRS} ${Spectra_INCLUDE_DIR}
                    $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)

@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_collapse_loop {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
@@ -591,3 +593,5 @@ TEST_CASE("The smallest meshes go as far as the topology lets them")
         CHECK(fault_of_restriction(policies.restriction(), policies.vertex_map()) == "");
       }
 }
+
+} // namespace test_collapse_loop

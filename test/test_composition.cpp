@@ -41,6 +41,8 @@ using Edge_count_stop = SMS::Edge_count_stop_predicate<Mesh>;
 using Edge_count_stop = SMS::Count_stop_predicate<Mesh>;
 #endif
 
+namespace test_composition {
+
 namespace {
 
 using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
@@ -356,3 +358,5 @@ TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the co
     CHECK(count_vertices(mesh) == n - 1);
   }
 }
+
+} // namespace test_composition

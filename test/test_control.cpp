@@ -20,6 +20,8 @@
 #include <type_traits>
 #include <vector>
 
+namespace test_control {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
@@ -307,3 +309,5 @@ TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the poli
   CHECK(count_vertices(mesh) == 50);
   CHECK(fault_of_run(mesh, policies, fine) == "");
 }
+
+} // namespace test_control

@@ -24,6 +24,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_edge_flips {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Edges = std::set<std::pair<int, int>>;
@@ -465,3 +467,5 @@ TEST_CASE("edge flips refuse what does not belong together")
   std::swap(T(7, 0), T(7, 1));
   CHECK_THAT(refusal(T, s.P, {}), ContainsSubstring("manifold"));
 }
+
+} // namespace test_edge_flips

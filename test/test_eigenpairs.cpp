@@ -23,6 +23,8 @@
 #include <string>
 #include <vector>
 
+namespace test_eigenpairs {
+
 namespace SG = CGAL::Spectral_geometry;
 
 using Catch::Approx;
@@ -534,3 +536,5 @@ TEST_CASE("An iteration that may not restart takes a larger space")
   check_pairs(op, pairs);
   CHECK(pairs.complete);
 }
+
+} // namespace test_eigenpairs

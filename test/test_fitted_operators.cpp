@@ -26,6 +26,8 @@
 #include <string>
 #include <vector>
 
+namespace test_fitted_operators {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Eigen::Index;
@@ -573,3 +575,5 @@ TEST_CASE("What stops a fit of operators leaves the mesh that was made")
     CHECK(positions(mesh) == input.V);
   }
 }
+
+} // namespace test_fitted_operators

@@ -15,6 +15,8 @@
 #include <cmath>
 #include <random>
 
+namespace test_free_placement {
+
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 
@@ -116,3 +118,5 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
   CHECK(quadric_won > 10);
   CHECK(better > 50);
 }
+
+} // namespace test_free_placement

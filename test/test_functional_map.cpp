@@ -18,6 +18,8 @@
 #include <random>
 #include <vector>
 
+namespace test_functional_map {
+
 namespace SG = CGAL::Spectral_geometry;
 
 using Catch::Approx;
@@ -595,3 +597,5 @@ TEST_CASE("prolongation through the spectrum inverts the restriction of a mesh t
                     std::invalid_argument);
   }
 }
+
+} // namespace test_functional_map

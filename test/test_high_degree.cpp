@@ -21,6 +21,8 @@
 #include <random>
 #include <vector>
 
+namespace test_high_degree {
+
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 
@@ -240,3 +242,5 @@ TEST_CASE("The memory estimate knows fans, the shape term and the tree of boxes"
   options.keep_free_of_self_intersections = true;
   CHECK(SMS::estimated_memory(100000, 200, options) > loop + 100000 * 200.);
 }
+
+} // namespace test_high_degree

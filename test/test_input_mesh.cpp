@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace test_input_mesh {
+
 using Catch::Matchers::ContainsSubstring;
 using Indices = std::vector<std::size_t>;
 
@@ -172,3 +174,5 @@ TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copi
   const Input_mesh flat = read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4 5\n", Mending::full);
   CHECK(flat.mesh.number_of_faces() == 3);
 }
+
+} // namespace test_input_mesh

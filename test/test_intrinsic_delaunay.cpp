@@ -26,6 +26,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_intrinsic_delaunay {
+
 namespace SG = CGAL::Spectral_geometry;
 
 using Catch::Approx;
@@ -591,3 +593,5 @@ TEST_CASE("Bad meshes are refused by the name of the first offender, before and 
     CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("too large"));
   }
 }
+
+} // namespace test_intrinsic_delaunay

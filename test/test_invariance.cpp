@@ -19,6 +19,8 @@
 #include <string>
 #include <vector>
 
+namespace test_invariance {
+
 using namespace spectral_test;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using SMS::Spectral_options;
@@ -216,3 +218,5 @@ TEST_CASE("Property maps of what is left survive simplification and garbage coll
   CHECK(numbers_after == numbers);
   CHECK(names_after == names);
 }
+
+} // namespace test_invariance

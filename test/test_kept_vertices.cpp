@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+namespace test_kept_vertices {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
@@ -189,3 +191,5 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
   CHECK(result.pre_simplified_vertices == 4);
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
 }
+
+} // namespace test_kept_vertices

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_kernel {
+
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 
@@ -565,3 +567,5 @@ TEST_CASE("A face without area contributes nothing to a cost")
   }
   CHECK(tested > 100);
 }
+
+} // namespace test_kernel

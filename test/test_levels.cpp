@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_levels {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Result = SMS::Spectral_edge_collapse_result;
@@ -187,3 +189,5 @@ TEST_CASE("The log says what it cannot do")
   CHECK_THROWS_WITH(first.append(second, {2, 3}), ContainsSubstring("3 are left"));
   CHECK_THROWS_AS(SMS::Collapse_log(first.forest(), {}), std::invalid_argument);
 }
+
+} // namespace test_levels

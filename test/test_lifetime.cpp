@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_lifetime {
+
 using namespace spectral_test;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 
@@ -199,3 +201,5 @@ TEST_CASE("What one of the tasks of a loop throws reaches the caller")
                                                                      }),
                     std::bad_alloc);
 }
+
+} // namespace test_lifetime

@@ -26,6 +26,8 @@
 #include <string>
 #include <vector>
 
+namespace test_local_operator {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 
@@ -585,3 +587,5 @@ TEST_CASE("What is wrong with coefficients is said of the first vertex")
   op.voronoi = true;
   CHECK_THROWS_WITH(SG::laplace_operator(mesh.V, mesh.T, op), ContainsSubstring("Voronoi"));
 }
+
+} // namespace test_local_operator

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+namespace test_mesh_diagnosis {
+
 namespace SG = CGAL::Spectral_geometry;
 using Catch::Matchers::ContainsSubstring;
 
@@ -265,3 +267,5 @@ TEST_CASE("A mesh is examined in the order of its vertices and faces, through it
       mesh.add_property_map<Mesh::Vertex_index, CGAL::Simple_cartesian<double>::Point_3>("v:flat").first;
   CHECK(SG::diagnose_mesh(mesh, CGAL::parameters::vertex_point_map(flat)).zero_area_faces.count == 11);
 }
+
+} // namespace test_mesh_diagnosis

@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+namespace test_one_call {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Result = SMS::Spectral_edge_collapse_result;
@@ -539,3 +541,5 @@ TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplif
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring(word));
   CHECK(count_vertices(mesh) == std::size_t(input.V.rows()));
 }
+
+} // namespace test_one_call

@@ -19,6 +19,8 @@
 #include <limits>
 #include <string>
 
+namespace test_operators {
+
 namespace SG = CGAL::Spectral_geometry;
 
 using Catch::Approx;
@@ -250,3 +252,5 @@ TEST_CASE("Bad meshes are refused by the name of the first offender")
     CHECK_THROWS_AS(SG::laplace_operator(mesh.V, mesh.T, 1.5), std::invalid_argument);
   }
 }
+
+} // namespace test_operators

@@ -19,6 +19,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_policies {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
@@ -553,3 +555,5 @@ TEST_CASE("Meshes that cannot be used are refused by the name of the first offen
     CHECK_THROWS_AS(Policies(empty, options_with(5)), std::invalid_argument);
   }
 }
+
+} // namespace test_policies

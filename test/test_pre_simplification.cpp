@@ -16,6 +16,8 @@
 #include <stdexcept>
 #include <vector>
 
+namespace test_pre_simplification {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 
@@ -213,3 +215,5 @@ TEST_CASE("The vertex where several fans of faces meet is named")
   CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, false, 4, [](std::size_t) {}),
                     ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
 }
+
+} // namespace test_pre_simplification

@@ -26,6 +26,8 @@
 #include <string>
 #include <vector>
 
+namespace test_readers {
+
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
@@ -349,3 +351,5 @@ TEST_CASE("No more threads are used than the machine runs at once")
   CHECK(usable_threads(1, true) == 1);
   CHECK(usable_threads(100000, true) == (std::max)(1, int(std::thread::hardware_concurrency())));
 }
+
+} // namespace test_readers

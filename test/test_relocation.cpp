@@ -26,6 +26,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_relocation {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Signals = SG::Relocation_options::Signals;
@@ -507,3 +509,5 @@ TEST_CASE("a relocation that is cancelled in the one-call form leaves what the c
   REQUIRE(result.warnings.size() == 1); // lumped
   CHECK_THAT(result.warnings[0], ContainsSubstring("averaged"));
 }
+
+} // namespace test_relocation

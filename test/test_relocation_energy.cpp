@@ -18,6 +18,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_relocation_energy {
+
 using namespace spectral_test;
 using Positions = SG::Relocation_energy::Positions;
 using Rows = SG::Position_dependent_signals::Rows;
@@ -209,3 +211,5 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   const double slope = (value(V + 1e-6 * direction) - value(V - 1e-6 * direction)) / 2e-6;
   CHECK(slope == Catch::Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
 }
+
+} // namespace test_relocation_energy

@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+namespace test_report {
+
 namespace {
 
 // Two simplifiers at two sizes, judged in one mass, with numbers that can be found again.
@@ -428,3 +430,5 @@ TEST_CASE("A plot of nothing, of one point and of zeros on a logarithmic axis is
   CHECK(count(svg(plot), "nan") == 0);
   CHECK(count(svg(plot), "<circle") == (plot.log_x ? 1 : 2));
 }
+
+} // namespace test_report

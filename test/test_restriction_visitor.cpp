@@ -28,6 +28,8 @@
 #include <string>
 #include <vector>
 
+namespace test_restriction_visitor {
+
 using namespace spectral_test;
 using Visitor = SMS::Restriction_visitor<Mesh>;
 
@@ -240,3 +242,5 @@ TEST_CASE("Another mesh is refused")
       Catch::Matchers::ContainsSubstring("another mesh"));
   CHECK(count_vertices(other) == 42);
 }
+
+} // namespace test_restriction_visitor

@@ -20,6 +20,8 @@
 #include <random>
 #include <vector>
 
+namespace test_shape_matching {
+
 using Catch::Approx;
 using Catch::Matchers::ContainsSubstring;
 
@@ -373,3 +375,5 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
   CHECK((slow - fast).norm() < 1e-6 * slow.norm());
   CHECK_THROWS_AS(SG::product_manifold_scores(wanted, x, y, -1.), std::invalid_argument);
 }
+
+} // namespace test_shape_matching

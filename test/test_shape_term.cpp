@@ -31,6 +31,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_shape_term {
+
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using SMS::Spectral_edge_collapse_options;
@@ -563,3 +565,5 @@ TEST_CASE("Faces that meet are those that CGAL finds")
   REQUIRE(expected.size() > 100);
   CHECK(SG::internal::self_intersecting_faces(input.V, input.T) == expected);
 }
+
+} // namespace test_shape_term

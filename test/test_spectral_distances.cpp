@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_spectral_distances {
+
 namespace SG = CGAL::Spectral_geometry;
 
 using Catch::Approx;
@@ -509,3 +511,5 @@ TEST_CASE("distances and signatures reject bad input")
   two.vectors = pairs.vectors.leftCols(2).eval();
   CHECK_THROWS_WITH(SG::wave_kernel_energies(two), ContainsSubstring("are equal"));
 }
+
+} // namespace test_spectral_distances

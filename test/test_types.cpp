@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+namespace test_types {
+
 using namespace spectral_test;
 using SMS::Spectral_edge_collapse_options;
 
@@ -175,3 +177,5 @@ TEST_CASE("A point map of the user's is read and written, the mesh's own points 
   CHECK(policies.prolongation().rows() == 642);
   CHECK(policies.prolongation().cols() == 100);
 }
+
+} // namespace test_types

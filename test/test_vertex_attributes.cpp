@@ -23,6 +23,8 @@
 #include <string>
 #include <vector>
 
+namespace test_vertex_attributes {
+
 using Values = std::vector<double>;
 using Catch::Matchers::ContainsSubstring;
 using Kind = Vertex_attribute::Kind;
@@ -450,3 +452,5 @@ TEST_CASE("Why there is no texture at corners is said")
   const Input_mesh plain = read_input_mesh(at_vertices.path, Mending::plain);
   CHECK((plain.texture.empty() && plain.attributes.known.empty()));
 }
+
+} // namespace test_vertex_attributes
