@@ -5,15 +5,16 @@
 #ifndef SPECTRAL_EXAMPLES_REPORT_PNG_IMAGE_H
 #define SPECTRAL_EXAMPLES_REPORT_PNG_IMAGE_H
 
-#include <boost/crc.hpp>
-
 #include <Eigen/Core>
+
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <string>
 
 // Images inside a page as PNG: pictures, and matrices with a palette.
@@ -29,91 +30,20 @@ inline std::string big_endian(std::uint32_t x)
 inline std::string chunk(const std::string& type, const std::string& data)
 {
   const std::string body = type + data;
-  boost::crc_32_type crc;
-  crc.process_bytes(body.data(), body.size());
-  return big_endian(static_cast<std::uint32_t>(data.size())) + body + big_endian(crc.checksum());
+  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  return big_endian(static_cast<std::uint32_t>(data.size())) + body +
+         big_endian(static_cast<std::uint32_t>(sum));
 }
 
-// Deflate with its fixed codes (RFC 1951, 3.2.6) and no matches but runs of one byte: enough for the empty ground
-// of pictures.
-class Deflated_runs
+inline std::string compressed(const std::string& data)
 {
-public:
-  explicit Deflated_runs(const std::string& data)
-  {
-    bits(3, 3); // the last block, and one of fixed codes
-    for(std::size_t i = 0; i < data.size();) {
-      std::size_t end = i + 1;
-      while(end < data.size() && data[end] == data[i])
-        ++end;
-      run(static_cast<unsigned char>(data[i]), end - i);
-      i = end;
-    }
-    symbol(256);
-    bits(0, (8 - m_count) % 8);
-  }
-
-  const std::string& bytes() const { return m_bytes; }
-
-private:
-  // Lengths that need no further bits: 258, and 3 to 10.
-  void run(unsigned byte, std::size_t length)
-  {
-    symbol(byte);
-    for(--length; length >= 3;) {
-      const unsigned n = length >= 258 ? 258 : static_cast<unsigned>((std::min)(length, std::size_t(10)));
-      symbol(n == 258 ? 285 : 254 + n);
-      code(0, 5); // one byte back
-      length -= n;
-    }
-    for(; length > 0; --length)
-      symbol(byte);
-  }
-
-  void symbol(unsigned s)
-  {
-    if(s < 144)
-      code(0x30 + s, 8);
-    else if(s < 256)
-      code(0x190 + s - 144, 9);
-    else if(s < 280)
-      code(s - 256, 7);
-    else
-      code(0xc0 + s - 280, 8);
-  }
-
-  void code(unsigned value, int length) // the highest bit first
-  {
-    while(length > 0)
-      bits(value >> --length & 1, 1);
-  }
-
-  void bits(unsigned value, int n) // the lowest bit first
-  {
-    for(int i = 0; i < n; ++i) {
-      m_byte |= (value >> i & 1) << m_count++;
-      if(m_count == 8) {
-        m_bytes += static_cast<char>(m_byte);
-        m_byte = 0;
-        m_count = 0;
-      }
-    }
-  }
-
-  std::string m_bytes;
-  unsigned m_byte = 0;
-  int m_count = 0;
-};
-
-// zlib's format.
-inline std::string zlib_compressed(const std::string& data)
-{
-  std::uint32_t a = 1, b = 0;
-  for(const char c : data) {
-    a = (a + static_cast<unsigned char>(c)) % 65521;
-    b = (b + a) % 65521;
-  }
-  return "\x78\x01" + Deflated_runs(data).bytes() + big_endian(b << 16 | a);
+  uLongf size = compressBound(static_cast<uLong>(data.size()));
+  std::string result(size, '\0');
+  if(compress(reinterpret_cast<Bytef*>(&result[0]), &size, reinterpret_cast<const Bytef*>(data.data()),
+              static_cast<uLong>(data.size())) != Z_OK)
+    throw std::bad_alloc();
+  result.resize(size);
+  return result;
 }
 
 inline std::string base64(const std::string& data)
@@ -169,7 +99,7 @@ inline std::string png_address(std::ptrdiff_t width, std::ptrdiff_t height, char
       '\x08' + type + std::string(3, '\0'); // 8 bits, no compression, filter or interlace but the usual
   const std::string png = std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", header) +
                           (palette.empty() ? "" : chunk("PLTE", palette)) +
-                          chunk("IDAT", zlib_compressed(pixels)) + chunk("IEND", "");
+                          chunk("IDAT", compressed(pixels)) + chunk("IEND", "");
   return "data:image/png;base64," + base64(png);
 }
 
