@@ -173,6 +173,10 @@ TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copi
   // Its corners on a line, but for one.
   const Input_mesh flat = read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4 5\n", Mending::full);
   CHECK(flat.mesh.number_of_faces() == 3);
+  // A corner on the edge of two others.
+  const Input_mesh touching =
+      read("v 0 0 0\nv 0 0 5\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4 5\n", Mending::full);
+  CHECK(touching.mesh.number_of_faces() >= 2);
 }
 
 } // namespace test_input_mesh

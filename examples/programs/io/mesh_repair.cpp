@@ -156,10 +156,25 @@ Exact_soup to_soup(const Exact_mesh& mesh)
   return soup;
 }
 
-// The triangles of one polygon as the minimal surface that it bounds, or as a fan: there is always something.
+// The triangles of one polygon in its plane; where it has none, of the minimal surface that it bounds, or a fan.
 std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
                                                    const std::vector<std::size_t>& polygon)
 {
+  std::vector<std::vector<std::size_t>> triangles;
+  Exact_mesh mesh;
+  std::vector<Exact_mesh::Vertex_index> corners;
+  for(const std::size_t v : polygon)
+    corners.push_back(mesh.add_vertex(soup.points[v]));
+  // Of corners on a line CGAL's function makes faces whose halfedges never come round.
+  if(PMP::triangulate_face(mesh.add_face(corners), mesh) && mesh.number_of_faces() == polygon.size() - 2 &&
+     CGAL::is_triangle_mesh(mesh)) {
+    for(const auto f : mesh.faces()) {
+      triangles.emplace_back();
+      for(const auto v : vertices_around_face(mesh.halfedge(f), mesh))
+        triangles.back().push_back(polygon[v]);
+    }
+    return triangles;
+  }
   std::vector<Exact_predicates::Point_3> boundary;
   for(const std::size_t v : polygon)
     boundary.push_back(soup.points[v]);
@@ -170,18 +185,14 @@ std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
     for(int i = 2; i < int(polygon.size()); ++i)
       triples.emplace_back(0, i - 1, i);
   }
-  std::vector<std::vector<std::size_t>> triangles;
   for(const auto& t : triples)
     triangles.push_back(
         {polygon[std::size_t(t.first)], polygon[std::size_t(t.second)], polygon[std::size_t(t.third)]});
   return triangles;
 }
 
-// Each polygon apart from the others, which may share diagonals with it.
 void triangulate(Exact_soup& soup, Repair_log& log)
 {
-  Exact_mesh mesh;
-  std::vector<std::size_t> vertex; // of the soup for each of the mesh
   std::vector<std::vector<std::size_t>> triangles;
   std::size_t polygons = 0;
   for(const std::vector<std::size_t>& polygon : soup.polygons) {
@@ -190,26 +201,11 @@ void triangulate(Exact_soup& soup, Repair_log& log)
       continue;
     }
     ++polygons;
-    std::vector<Exact_mesh::Vertex_index> corners;
-    for(const std::size_t v : polygon) {
-      corners.push_back(mesh.add_vertex(soup.points[v]));
-      vertex.push_back(v);
-    }
-    mesh.add_face(corners);
+    for(const auto& triangle : triangles_of(soup, polygon))
+      triangles.push_back(triangle);
   }
   if(polygons == 0)
     return;
-  PMP::triangulate_faces(mesh); // leaves some that are not plane
-  for(const auto f : mesh.faces()) {
-    std::vector<std::size_t> polygon;
-    for(const auto v : vertices_around_face(mesh.halfedge(f), mesh))
-      polygon.push_back(vertex[v]);
-    if(polygon.size() == 3)
-      triangles.push_back(polygon);
-    else
-      for(const auto& triangle : triangles_of(soup, polygon))
-        triangles.push_back(triangle);
-  }
   soup.polygons = std::move(triangles);
   log.add("polygon triangulated", "polygons triangulated", polygons);
   log.add("copy of a face removed", "copies of faces removed",
