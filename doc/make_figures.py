@@ -149,9 +149,18 @@ def render(mesh, name, size, wire):
     return image.halved()
 
 
+# Three modes whose eigenvalues are a tenth away from others: nearly equal ones may mix, whoever simplifies.
+def modes_apart(folder):
+    with open(os.path.join(folder, "all.json")) as file:
+        values = json.load(file)["fine"][0]["eigenvalues"]
+    apart = [k for k in range(2, 11) if all(abs(values[k - 1] - values[j]) > 0.1 * values[k - 1] for j in (k - 2, k))]
+    return apart[0], apart[len(apart) // 2], apart[-1]
+
+
 def eigenfunctions(folder, output):
     meshes = [("fine", False), ("spectral_best_free_averaged_metric_relocated_by_sampled_600", True), ("Garland_Heckbert_plane_optimal_600", True)]
-    modes, width, height = (2, 5, 10), 210, 200
+    modes, width, height = modes_apart(folder), 210, 200
+    print("eigenfunctions", *modes)
     picture = Image(width * len(modes), height * len(meshes))
     for j, (name, wire) in enumerate(meshes):
         mesh = read_ply(os.path.join(folder, "col", name + ".ply"))
