@@ -12,10 +12,11 @@ wrong=0
 # The anchors of a page, as a forge makes them of its headings.
 anchors()
 {
-  grep '^##* ' "$1" | sed 's/^#* //' | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9_ -]//g; s/ /-/g'
+  awk '/^ *```/ { code = !code; next } !code && /^##* /' "$1" | sed 's/^#* //' | tr '[:upper:]' '[:lower:]' | sed 's/[^a-z0-9_ -]//g; s/ /-/g'
 }
 
 for page in "$@"; do
+  [ -r "$page" ] || { echo "$page cannot be read"; exit 1; }
   folder=$(dirname "$page")
   # Links may be broken over lines; code is none.
   links=$(awk '/^ *```/ { code = !code; next } !code' "$page" | tr '\n' ' ' | sed 's/`[^`]*`//g' | grep -o '\](\([^)]*\))' | sed 's/^](//; s/)$//' |

@@ -322,7 +322,9 @@ printf "ply\nformat ascii 1.0\ncomment x\nelement vertex 4\nproperty short x\npr
 
 refuses "no arguments" "INPUT and OUTPUT"
 refuses "no output" "INPUT and OUTPUT" shape.off --vertices 100
-refuses "three files" "more arguments" shape.off a.off b.off --vertices 100
+refuses "three files" "'b.off' is one argument too many" shape.off a.off b.off --vertices 100
+refuses "an option of one letter" "'-n' is no option" shape.off out.off -n 100
+refuses "an empty value" "--restriction has an empty value" shape.off out.off --vertices 100 --restriction ""
 refuses "unknown option" "sideways" shape.off out.off --vertices 100 --sideways
 refuses "no target" "how far" shape.off out.off
 refuses "a target that is no number" "many" shape.off out.off --vertices many

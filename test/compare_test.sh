@@ -26,11 +26,12 @@ refuses "no arguments" "a mesh is needed"
 refuses "no size" "vertices is missing" shape.off
 refuses "a missing mesh" "cannot read 'none.off'" none.off --vertices 200
 refuses "a size that is no number" "'x'" shape.off --vertices 200,x
-refuses "a size that is too large" "vertices" shape.off --vertices 100000
+refuses "a size that is too large" "has [0-9]* vertices" shape.off --vertices 100000
 refuses "too many eigenvectors" "must be below" shape.off --vertices 200 --eigenvectors 100000 --report report.html
 refuses "an unknown mass" "heavy" shape.off --vertices 200 --judge heavy
 refuses "an operator without a mass" "NAME=L.mtx,M.mtx,P.mtx" shape.off --rival-operators x=shape.off
 refuses "a restriction that is none" "MatrixMarket" shape.off --rival x=shape.off,shape.off --eigenvectors 5
+refuses "a choice among no simplifiers" "choose among simplifiers" shape.off --rival x=shape.off --only spectral
 refuses "an unknown simplifier" "no simplifier" shape.off --vertices 200 --eigenvectors 10 --only nobody --report report.html
 refuses "a folder that does not exist" "folder" shape.off --vertices 200 --json none/out.json
 

@@ -48,7 +48,11 @@ if(TARGET make_demo_shape)
                              --help)
   set_tests_properties("examples-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 
-  # Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual.
+endif()
+
+# Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual. What nm prints
+# is that of ELF.
+if(TARGET make_demo_shape AND CMAKE_NM AND NOT APPLE)
   add_test(NAME "consumer-include-folder"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}" "${CMAKE_NM}"
                    "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${PROJECT_SOURCE_DIR}/examples/edge_collapse_spectral.cpp" "${shape}"

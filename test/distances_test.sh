@@ -55,6 +55,10 @@ fitted=$(awk -F '  +' '$1 == "biharmonic" { print $2 + 0 }' said)
 grep -q "operators fitted in" said && fail "operators are fitted with --operators mesh"
 own=$(awk -F '  +' '$1 == "biharmonic" { print $2 + 0 }' said)
 awk -v a="$fitted" -v b="$own" 'BEGIN { exit !(a < b) }' || fail "biharmonic error $fitted with fitted operators, $own without"
+"$program" "$shape" --vertices 20% --eigenvectors 30 --sources 2 --preset paper --mass voronoi --report paper.html --quiet >said 2>complained ||
+  fail "preset paper: $(cat complained)"
+[ ! -s said ] || fail "--quiet: $(cat said)"
+grep -q "30 eigenvectors, voronoi mass" paper.html || fail "the page does not name the mass"
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
 [ "$(grep -o "data:image/png" report.html | wc -l)" -eq 16 ] || fail "the page has not sixteen pictures"
 

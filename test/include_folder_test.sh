@@ -15,11 +15,11 @@ shift 6
 rm -rf "$folder"
 mkdir -p "$folder"
 cp -R "$include" "$folder/include"
-flags=""
 for directory in "$@"; do
+  shift
   case "$directory" in
     "" | /usr/include) ;; # where the compiler looks anyway
-    *) flags="$flags -isystem $directory" ;;
+    *) set -- "$@" -isystem "$directory" ;;
   esac
 done
 cd "$folder"
@@ -27,7 +27,7 @@ cd "$folder"
   find include -name '*.h' | grep -v '/internal/\|/compile[a-z_]*\.h$' | sort | sed 's/^include\/\(.*\)/#include <\1>/'
   echo "#include \"$source\""
 } >program.cpp
-"$compiler" -std=c++17 -O0 -I include $flags -c program.cpp
+"$compiler" -std=c++17 -O0 -I include "$@" -c program.cpp
 symbols=$("$nm" -C program.o)
 echo "$symbols" | grep -q ' W ' || { echo "there are no inline functions, so that nothing was tested"; exit 1; }
 strong=$(echo "$symbols" | sed -n 's/^[0-9a-f]* [TDBR] //p' | grep -v '^main$' || true)

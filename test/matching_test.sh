@@ -20,7 +20,7 @@ cp "$shape" X.off
 refuses "no arguments" "two meshes are needed"
 refuses "no output" "nothing is to be written" X.off Y.off
 refuses "a missing mesh" "cannot read 'none.off'" X.off none.off --output map.txt
-refuses "too many vertices" "vertices" X.off Y.off --output map.txt --vertices 100000
+refuses "too many vertices" "has [0-9]* vertices" X.off Y.off --output map.txt --vertices 100000
 refuses "more modes than vertices" "and --eigenvectors, which is 100" X.off Y.off --output map.txt --vertices 50
 refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
 refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --output map.txt --operators own
@@ -62,6 +62,9 @@ for operators in fitted mesh; do
     --output $operators.txt >said 2>complained || fail "--operators $operators: $(cat complained)"
   awk '$1 == "spectral" { exit !($(NF - 2) < 0.1) }' said || fail "--operators $operators: $(cat said)"
 done
+"$program" X.off Y.off --vertices 15% --eigenvectors 50 --fine-iterations 0 --preset paper --mass voronoi --ground-truth truth.txt \
+  --output paper.txt >said 2>complained || fail "--preset paper: $(cat complained)"
+awk '$1 == "spectral" { exit !($(NF - 2) < 0.1) }' said || fail "--preset paper: $(cat said)"
 cmp -s fitted.txt mesh.txt && fail "--operators makes no difference"
 
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"

@@ -382,7 +382,7 @@ int run(int argc, char* argv[])
   std::optional<long> seed;
   Command_line line("make_demo_shape OUTPUT [options]",
                     "Makes a closed surface of genus 1, an animal. OUTPUT ends in .off, .obj, .ply or .stl.");
-  line.argument("OUTPUT", output);
+  line.argument(output);
   line.group("Options");
   line.option("vertices", number_of_vertices, "N", "about how many vertices");
   line.choice("pose", pose_name, {"stand", "walk", "bend"}, "nearly isometric, with the same triangles");

@@ -11,13 +11,12 @@
 #include "io/program.h"
 #include "matching/geodesic_error.h"
 #include "matching/matching_arguments.h"
-#include "option_words.h"
 #include "matching/matching_report.h"
+#include "option_words.h"
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -33,7 +33,6 @@
 #include <memory>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -341,7 +340,7 @@ Command_line described(Distance_arguments& a)
   Command_line line(
       "spectral_distances_on_proxy MESH --vertices N [options]",
       "Computes spectral distances on a simplified mesh and says how far they are from those of MESH.");
-  line.argument("MESH", a.mesh);
+  line.argument(a.mesh);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%", "of the simplified mesh, such as 600 or 3%");
   line.group("Quality");
@@ -376,6 +375,8 @@ Distance_arguments parse(int argc, char* argv[])
   if(a.eigenvectors < 3)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be at least 3.");
+  if(a.quiet && a.report.empty())
+    throw std::runtime_error("nothing is to be said or written: give --report, or leave out --quiet.");
   if(a.sources < 1)
     throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
   return a;

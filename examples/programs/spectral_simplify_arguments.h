@@ -69,8 +69,8 @@ inline Command_line described(Arguments& a)
       "operator as well as it can (Lescoat et al., Spectral Mesh Simplification, 2020). INPUT and OUTPUT\n"
       "end in .off, .obj, .ply or .stl. Exit status: 0 all is written; 1 nothing is; 3 OUTPUT is, but the\n"
       "evaluation failed; 130 interrupted.");
-  line.argument("INPUT", a.input);
-  line.argument("OUTPUT", a.output);
+  line.argument(a.input);
+  line.argument(a.output);
 
   line.group("Size");
   line.option("vertices", a.vertices_word, "N|P%", "how many vertices OUTPUT has, such as 600 or 3%");

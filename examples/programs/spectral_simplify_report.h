@@ -7,6 +7,7 @@
 
 #include "io/mesh_repair.h"
 #include "io/program.h"
+#include "io/text_lines.h"
 #include "io/vertex_attributes.h"
 #include "report/run_json.h"
 

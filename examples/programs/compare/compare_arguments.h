@@ -49,7 +49,7 @@ inline Command_line described(Compare_arguments& a)
       "Simplifies MESH in every way there is, here and in CGAL, and judges each result by the same figures:\n"
       "norms of functional maps, eigenvalues, distances, shape, time. Beside them, or without --vertices\n"
       "alone, it judges what other tools made of MESH: meshes, or operators without one.");
-  line.argument("MESH", a.mesh);
+  line.argument(a.mesh);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%,...", "sizes of the simplified meshes, such as 600 or 3%");
   line.group("Quality");
@@ -90,6 +90,9 @@ inline void check(const Compare_arguments& a)
     refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows what there is.");
   if(a.rivals.empty() && a.vertices.empty())
     refuse("--vertices is missing: say how many vertices the simplified meshes are to have.");
+  if(a.vertices.empty() && !(a.only.empty() && a.without.empty()))
+    refuse("--only and --without choose among simplifiers: say with --vertices how far these go, or leave "
+           "them out.");
   if(!a.coloured.empty() && a.vertices.empty() &&
      std::all_of(a.rivals.begin(), a.rivals.end(), [](const Rival& r) { return r.mesh.empty(); }))
     refuse("--coloured needs a coarse mesh, an operator has none.");

@@ -5,6 +5,8 @@
 #ifndef SPECTRAL_EXAMPLES_IO_COMMAND_LINE_H
 #define SPECTRAL_EXAMPLES_IO_COMMAND_LINE_H
 
+#include "text_lines.h"
+
 #include <boost/program_options.hpp>
 
 #include <algorithm>
@@ -18,22 +20,26 @@
 
 // What the programs do alike with their command lines.
 
-// As it was typed.
+// As it could be typed again.
 inline std::string command_line(const char* program, const int argc, const char* const* argv)
 {
   std::string command = program;
-  for(int k = 1; k < argc; ++k)
-    command += std::string(" ") + argv[k];
+  for(int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool plain = !word.empty() &&
+                       word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                              "_./=,%+:@-") == std::string::npos;
+    command += ' ';
+    if(plain) {
+      command += word;
+      continue;
+    }
+    command += '\'';
+    for(const char c : word)
+      command += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    command += '\'';
+  }
   return command;
-}
-
-// The words with `between` between them.
-inline std::string joined(const std::vector<std::string>& words, const std::string& between)
-{
-  std::string list;
-  for(std::size_t i = 0; i < words.size(); ++i)
-    list += (i == 0 ? "" : between) + words[i];
-  return list;
 }
 
 // The arguments and options of a program, options in groups. One table is what is read, what --help says and what
@@ -50,12 +56,7 @@ public:
   {}
 
   // The next argument without a name.
-  void argument(const std::string& name, std::string& value)
-  {
-    m_arguments.add_options()(name.c_str(), boost::program_options::value(&value));
-    m_positions.add(name.c_str(), 1);
-    m_names.push_back(name);
-  }
+  void argument(std::string& value) { m_arguments.push_back(&value); }
 
   // Begins a group of options; --help leaves out the advanced ones, which only --help advanced shows.
   void group(const std::string& name) { m_groups.push_back({name, Options(name, 100, 60), false}); }
@@ -74,8 +75,14 @@ public:
     auto* semantic = boost::program_options::value(&value)->value_name(form);
     if constexpr(std::is_arithmetic_v<Value>)
       semantic->default_value(value);
-    else if(!value.empty())
-      semantic->default_value(value, joined_default(value));
+    if constexpr(std::is_same_v<Value, std::string>) {
+      if(!value.empty())
+        semantic->default_value(value);
+      semantic->notifier([name = std::string(name)](const std::string& given) {
+        if(given.empty())
+          throw std::runtime_error("--" + name + " has an empty value: say which, or leave it out.");
+      });
+    }
     put(name, semantic, description);
   }
   template <class Value>
@@ -122,27 +129,30 @@ public:
   std::string read(const int argc, const char* const* argv) const
   {
     namespace po = boost::program_options;
-    for(int k = 1; k < argc; ++k)
-      if(argv[k] == std::string("--help")) {
-        const std::string which = k + 1 < argc ? argv[k + 1] : "";
+    for(int k = 1; k < argc; ++k) {
+      const std::string word = argv[k];
+      if(word == "--help" || word.rfind("--help=", 0) == 0) {
+        const std::string which = word != "--help" ? word.substr(7) : k + 1 < argc ? argv[k + 1] : "";
         return which == "markdown" ? markdown() : text(which == "advanced");
       }
+    }
     Options all;
-    all.add(m_arguments);
     for(const Group& group : m_groups)
       all.add(group.options);
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short &
                       ~po::command_line_style::allow_guessing;
     try {
+      const po::parsed_options parsed = po::command_line_parser(argc, argv).options(all).style(style).run();
+      std::size_t arguments = 0;
+      for(const po::option& option : parsed.options)
+        if(option.string_key.empty())
+          for(const std::string& word : option.value)
+            take_argument(word, arguments++);
       po::variables_map values;
-      po::store(po::command_line_parser(argc, argv).options(all).positional(m_positions).style(style).run(),
-                values);
+      po::store(parsed, values);
       po::notify(values);
-    } catch(const po::too_many_positional_options_error&) {
-      throw std::runtime_error("there are more arguments than " + joined(m_names, " and ") +
-                               "; --help shows what there is.");
     } catch(const po::error& error) {
-      throw std::runtime_error(std::string(error.what()) + "; --help advanced shows every option.");
+      throw std::runtime_error(std::string(error.what()) + "; " + all_options() + " shows every option.");
     }
     return "";
   }
@@ -161,22 +171,33 @@ private:
     m_groups.back().options.add_options()(name, semantic, description.c_str());
   }
 
-  static std::string joined_default(const std::string& value) { return value; }
-  static std::string joined_default(const std::vector<std::string>& value) { return joined(value, ","); }
+  void take_argument(const std::string& word, const std::size_t number) const
+  {
+    if(word.size() > 1 && word[0] == '-')
+      throw std::runtime_error("'" + word + "' is no option, options begin with two dashes; " +
+                               all_options() + " shows every one.");
+    if(number >= m_arguments.size())
+      throw std::runtime_error("'" + word + "' is one argument too many; --help shows what there is.");
+    *m_arguments[number] = word;
+  }
+
+  std::string all_options() const
+  {
+    const bool some =
+        std::any_of(m_groups.begin(), m_groups.end(), [](const Group& g) { return g.advanced; });
+    return some ? "--help advanced" : "--help";
+  }
 
   std::string text(const bool advanced) const
   {
     Options shown(100, 60); // one for all groups: their columns agree
-    bool all = true;
     for(const Group& group : m_groups)
       if(advanced || !group.advanced)
         shown.add(group.options);
-      else
-        all = false;
     std::ostringstream stream;
-    stream << m_usage << "\n\n"
-           << m_about << "\n"
-           << shown << (all ? "" : "\n--help advanced shows the other options.\n");
+    stream << m_usage << "\n\n" << m_about << "\n" << shown;
+    if(!advanced && all_options() != "--help")
+      stream << "\n" << all_options() << " shows the other options.\n";
     return stream.str();
   }
 
@@ -206,9 +227,7 @@ private:
   }
 
   std::string m_usage, m_about;
-  Options m_arguments;
-  boost::program_options::positional_options_description m_positions;
-  std::vector<std::string> m_names;
+  std::vector<std::string*> m_arguments;
   std::vector<Group> m_groups;
 };
 

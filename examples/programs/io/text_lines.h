@@ -15,6 +15,15 @@
 #include <string>
 #include <vector>
 
+// "red, green, blue"
+inline std::string joined(const std::vector<std::string>& words, const std::string& between = ", ")
+{
+  std::string list;
+  for(std::size_t i = 0; i < words.size(); ++i)
+    list += (i == 0 ? "" : between) + words[i];
+  return list;
+}
+
 // The beginning of a word of a file, in quotation marks and fit for a message: damaged files hold anything.
 inline std::string quoted(std::string word)
 {

@@ -87,15 +87,6 @@ struct Vertex_attributes
   }
 };
 
-// "red, green, blue, label"
-inline std::string joined(const std::vector<std::string>& names)
-{
-  std::string list;
-  for(const std::string& name : names)
-    list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 // A number as a channel of a colour has it; 0 where it is none.
 inline double colour_channel(const double x)
 {

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -63,8 +64,8 @@ inline Command_line described(Matching_arguments& a)
       "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both\n"
       "to the same number of vertices, matches these (functional map from signatures, ZoomOut, Product\n"
       "Manifold Filter) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. 2020).");
-  line.argument("X", a.X);
-  line.argument("Y", a.Y);
+  line.argument(a.X);
+  line.argument(a.Y);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%", "of both simplified meshes; 3% is a part of X's");
   line.group("Quality");
@@ -144,9 +145,11 @@ inline Matching_arguments parse_matching_arguments(int argc, const char* const* 
   return a;
 }
 
-// The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices.
+// The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices; 0 where there are none.
 inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X, const std::size_t n_Y)
 {
+  if(a.kinds() == std::vector<Proxy_kind>{Proxy_kind::none})
+    return 0;
   const std::size_t N = a.target.of(n_X);
   const auto refuse = [N](const std::string& why) {
     throw std::runtime_error("--vertices asks for " + std::to_string(N) + ", but " + why + ".");
