@@ -216,4 +216,25 @@ TEST_CASE("The vertex where several fans of faces meet is named")
                     ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
 }
 
+TEST_CASE("Vertices that are fixed take no values from a border that is apart")
+{
+  const shapes::Matrices sheet = wavy_grid_matrices(6, 6);
+  const Mesh mesh = make_mesh(sheet);
+  const std::vector<char> border = SG::internal::border_vertices(sheet.T, sheet.V.rows());
+  for(std::size_t every = 2; every < 8; ++every) {
+    std::vector<char> fixed(border.size(), 0);
+    for(std::size_t v = 0; v < fixed.size(); v += every)
+      fixed[v] = !border[v];
+    const SMS::Collapse_log log = SMS::internal::quadric_collapses(
+        SMS::internal::triangle_arrays(mesh, sheet), fixed, true, 3, [](std::size_t) {});
+    const std::size_t N = log.number_of_vertices_left();
+    CHECK(N < border.size());
+    const std::vector<std::size_t> map = log.vertex_map(N);
+    const Eigen::SparseMatrix<double> P = log.restriction(N);
+    for(std::size_t v = 0; v < fixed.size(); ++v)
+      if(fixed[v])
+        CHECK(P.coeff(Eigen::Index(map[v]), Eigen::Index(v)) == 1);
+  }
+}
+
 } // namespace test_pre_simplification

@@ -229,7 +229,7 @@ private:
        m_state[at(opposite)] >= 0) // two edges have become one: its other entry stands for it
       return;
     const int u = source(c), v = target(c);
-    if(m_fixed[at(u)] && m_fixed[at(v)])
+    if(would_change(u, v) || would_change(v, u))
       return;
     const auto [cost, x] = placement(c);
     if((std::max)(m_changed[at(u)], m_changed[at(v)]) > computed && !m_queue.empty() &&
@@ -247,6 +247,13 @@ private:
       collapse(c, v, u, x);
     else
       collapse(c, u, v, x);
+  }
+
+  // The place or the values of a fixed vertex, for those of the other one.
+  bool would_change(const int fixed, const int other) const
+  {
+    return m_fixed[at(fixed)] &&
+           (m_fixed[at(other)] || (m_border_is_apart && is_border_vertex(other) && !is_border_vertex(fixed)));
   }
 
   // The link condition.
