@@ -29,11 +29,11 @@ class Flip_energy
 public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  /// One triangle with what L and B need of it, weighted by the coefficients.
+  /// One triangle in space, and with what L and B need of it, weighted by the coefficients.
   struct Triangle
   {
     std::array<int, 3> corners;
-    Triangle_cotangents shape;
+    Triangle_cotangents shape, weighted;
   };
 
   /// F and Z: the restricted signals, one row for each vertex; `op` has coefficients for the vertices, or none.
@@ -88,7 +88,8 @@ public:
 private:
   Triangle triangle(const std::array<int, 3>& corners) const
   {
-    return {corners, local_cotangents(m_V, {corners[0], corners[1], corners[2]}, m_op.coefficients)};
+    const int t[3] = {corners[0], corners[1], corners[2]};
+    return {corners, local_cotangents(m_V, t, {}), local_cotangents(m_V, t, m_op.coefficients)};
   }
 
   // E_w as it is, or with two triangles in the place of those of a quad.
@@ -115,12 +116,12 @@ private:
         continue;
       const int x = (k + 1) % 3, y = (k + 2) % 3;
       const int a = t.corners[std::size_t(x)], b = t.corners[std::size_t(y)];
-      const double area = t.shape.area, theta = m_op.theta,
-                   share = lumped_share(m_op.voronoi, t.shape.cot, k),
+      const double area = t.weighted.area, theta = m_op.theta,
+                   share = lumped_share(m_op.voronoi, t.weighted.cot, k),
                    on = ((1 - theta) * share + theta / 6) * area, off = theta / 12 * area;
       m_R += on * m_Z.row(w) + off * (m_Z.row(a) + m_Z.row(b)) +
-             0.5 * t.shape.cot(y) * (m_F.row(a) - m_F.row(w)) +
-             0.5 * t.shape.cot(x) * (m_F.row(b) - m_F.row(w));
+             0.5 * t.weighted.cot(y) * (m_F.row(a) - m_F.row(w)) +
+             0.5 * t.weighted.cot(x) * (m_F.row(b) - m_F.row(w));
       mass += ((1 - theta) * share + theta / 3) * area;
     }
   }

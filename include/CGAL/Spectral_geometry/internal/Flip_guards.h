@@ -64,11 +64,10 @@ public:
   {
     double smallest[2] = {CGAL_PI, CGAL_PI};
     for(std::size_t k = 0; k < 2; ++k) {
-      const Triangle_cotangents shape = shape_of(after[k]);
-      if(!(shape.area > 0) || !(shape.cot.cwiseAbs().maxCoeff() <= largest_cotangent))
+      if(!(after[k].shape.area > 0) || !(after[k].shape.cot.cwiseAbs().maxCoeff() <= largest_cotangent))
         return false;
-      smallest[0] = (std::min)(smallest[0], smallest_angle(shape_of(before[k])));
-      smallest[1] = (std::min)(smallest[1], smallest_angle(shape));
+      smallest[0] = (std::min)(smallest[0], smallest_angle(before[k]));
+      smallest[1] = (std::min)(smallest[1], smallest_angle(after[k]));
     }
     if(smallest[1] < m_angle_ratio * smallest[0])
       return false;
@@ -121,21 +120,14 @@ private:
     return a.cross(b);
   }
 
-  // In space, whatever the coefficients of the operator.
-  Triangle_cotangents shape_of(const Triangle& t) const
+  static double smallest_angle(const Triangle& t)
   {
-    return triangle_cotangents(m_V.row(t.corners[0]), m_V.row(t.corners[1]), m_V.row(t.corners[2]));
+    return t.shape.area > 0 ? std::atan2(1., t.shape.cot.maxCoeff()) : 0;
   }
 
-  static double smallest_angle(const Triangle_cotangents& shape)
+  static double area_change(const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after)
   {
-    return shape.area > 0 ? std::atan2(1., shape.cot.maxCoeff()) : 0;
-  }
-
-  double area_change(const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after) const
-  {
-    return shape_of(after[0]).area + shape_of(after[1]).area - shape_of(before[0]).area -
-           shape_of(before[1]).area;
+    return after[0].shape.area + after[1].shape.area - before[0].shape.area - before[1].shape.area;
   }
 
   // The tetrahedron between the old triangles (c,i,j), (d,j,i) and the new ones (c,i,d), (d,j,c).
