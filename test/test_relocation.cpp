@@ -489,7 +489,7 @@ TEST_CASE("a vertex of the border stays on that of its own component, whichever 
     strayed += std::abs(distance - up.norm()) < up.norm() / 4;
   }
   CHECK(on_border > 30);
-  CHECK(strayed <= 2); // by chance; thirty where the nearest border of any component is taken
+  CHECK(strayed <= 2); // by chance
 }
 
 TEST_CASE("a relocation that is cancelled in the one-call form leaves what the collapses made")
