@@ -152,7 +152,7 @@ sed 's,http://www.w3.org/2000/svg,,g' page.html | grep -q 'https\?:\|<link\|src=
 n=$(sed -n 2p shape.off | cut -d ' ' -f 1)
 [ "$(grep -o "<figcaption>[A-Z]*PUT, [0-9,]* vertices" page.html | tr -dc '0-9\n' | tr '\n' ' ')" = "$n 250 " ] ||
   fail "not the two meshes of $n and 250 vertices on the page"
-points_of() { sed -n "s/.*\"name\":\"$1\".*\"points\":\"\([^\"=]*\).*/\1/p" page.html | tr -d '\n' | wc -c; }
+points_of() { tr '{' '\n' <page.html | sed -n "s/^\"name\":\"$1\".*\"points\":\"\([^\"=]*\).*/\1/p" | tr -d '\n' | wc -c; }
 [ "$(points_of fine)" -eq $((8 * n)) ] && [ "$(points_of coarse)" -eq 2000 ] || fail "not all points are on the page"
 grep -q 'first 25 eigenvalues are off by [0-9.]* %' page.html || fail "no sentences on the page"
 rm 'a<b>&.off'

@@ -322,7 +322,7 @@ TEST_CASE("Indices beyond 65,536 vertices have 32 bits")
 {
   const shapes::Matrices mesh = shapes::grid_matrices(256, 256);
   REQUIRE(mesh.V.rows() > 65536);
-  const std::string data = shape_view_internal::mesh_data("fine", mesh, screen_frame(mesh.V), 2, {});
+  const std::string data = shape_view_internal::mesh_data("fine", mesh, screen_frame(mesh.V), 2, {}).dump();
   CHECK(count(data, "\"wide\":true") == 1);
   const auto triangles = array_on_page(data, "fine", "triangles", 4);
   REQUIRE(triangles.size() == static_cast<std::size_t>(mesh.T.size()));

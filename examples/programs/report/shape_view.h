@@ -18,6 +18,8 @@
 
 #include <Eigen/Core>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,16 +106,12 @@ inline void append(std::string& data, std::uint32_t x, int bytes)
     data += static_cast<char>(x >> 8 * i & 0xff);
 }
 
-inline std::string quoted(const std::string& text)
-{
-  return '"' + text + '"'; // what is quoted here holds nothing to be escaped
-}
-
 // A mesh as the script reads it: points of 16 bits, -`half_cube` to `half_cube` as they are seen; triangles of 16 or
 // 32 bits; for each function a byte at each vertex.
-inline std::string mesh_data(const std::string& name, const CGAL::Spectral_geometry::Mesh_matrices& mesh,
-                             const Screen_frame& frame, double half_cube,
-                             const std::vector<Eigen::VectorXd>& shades)
+inline nlohmann::ordered_json mesh_data(const std::string& name,
+                                        const CGAL::Spectral_geometry::Mesh_matrices& mesh,
+                                        const Screen_frame& frame, double half_cube,
+                                        const std::vector<Eigen::VectorXd>& shades)
 {
   const bool wide = mesh.V.rows() > 65536;
   std::string points, triangles, values;
@@ -128,9 +126,11 @@ inline std::string mesh_data(const std::string& name, const CGAL::Spectral_geome
     for(const double x : shade)
       append(values, static_cast<std::uint32_t>(std::lround(255 * x)), 1);
   using png_internal::base64;
-  return "{\"name\":" + quoted(name) + ",\"wide\":" + (wide ? "true" : "false") +
-         ",\"points\":" + quoted(base64(points)) + ",\"triangles\":" + quoted(base64(triangles)) +
-         ",\"values\":" + quoted(base64(values)) + "}";
+  return {{"name", name},
+          {"wide", wide},
+          {"points", base64(points)},
+          {"triangles", base64(triangles)},
+          {"values", base64(values)}};
 }
 
 inline std::string gradient(const Shown_function& f)
@@ -148,24 +148,16 @@ inline std::array<std::string, 3> ticks(const Shown_function& f)
   return {formatted(f.smallest()), formatted((f.smallest() + f.largest()) / 2), formatted(f.largest())};
 }
 
-inline std::string function_data(const Shown_function& f)
+inline nlohmann::ordered_json function_data(const Shown_function& f)
 {
   std::string colours;
   for(int i = 0; i < 256; ++i)
     for(const int c : f.colour(i / 255.))
       colours += static_cast<char>(c);
-  const auto t = ticks(f);
-  return "{\"name\":" + quoted(f.name) + ",\"ticks\":[" + quoted(t[0]) + "," + quoted(t[1]) + "," +
-         quoted(t[2]) + "],\"gradient\":" + quoted(gradient(f)) +
-         ",\"colours\":" + quoted(png_internal::base64(colours)) + "}";
-}
-
-inline std::string joined_data(const std::vector<std::string>& parts)
-{
-  std::string text;
-  for(const std::string& part : parts)
-    text += (text.empty() ? "" : ",\n") + part;
-  return "[" + text + "]";
+  return {{"name", f.name},
+          {"ticks", ticks(f)},
+          {"gradient", gradient(f)},
+          {"colours", png_internal::base64(colours)}};
 }
 
 // The element that the script puts a canvas in.
@@ -216,20 +208,20 @@ inline std::string shape_view(const Viewed_mesh& fine, const Viewed_mesh& coarse
   const std::vector<Shown_function> functions =
       shown_functions(fine.pairs, coarse.pairs, evaluation, fits(fine) ? 5 : 1);
   std::vector<Eigen::VectorXd> of_fine, of_coarse;
-  std::vector<std::string> functions_data;
+  nlohmann::ordered_json data;
   for(const Shown_function& f : functions) {
     of_fine.push_back(f.shade(f.fine));
     of_coarse.push_back(f.shade(f.coarse));
-    functions_data.push_back(function_data(f));
+    data["functions"].push_back(function_data(f));
   }
   const Screen_frame frame = screen_frame(fine.mesh.V);
   const double half_cube = (std::max)(frame.on_screen(fine.mesh.V).cwiseAbs().maxCoeff(),
                                       frame.on_screen(coarse.mesh.V).cwiseAbs().maxCoeff());
-  std::vector<std::string> meshes;
+  data["half"] = {frame.half_width / half_cube, frame.half_height / half_cube};
   if(fits(fine))
-    meshes.push_back(mesh_data("fine", fine.mesh, frame, half_cube, of_fine));
+    data["meshes"].push_back(mesh_data("fine", fine.mesh, frame, half_cube, of_fine));
   if(fits(coarse))
-    meshes.push_back(mesh_data("coarse", coarse.mesh, frame, half_cube, of_coarse));
+    data["meshes"].push_back(mesh_data("coarse", coarse.mesh, frame, half_cube, of_coarse));
 
   const Shown_function& first = functions.front();
   const auto t = ticks(first);
@@ -247,12 +239,10 @@ inline std::string shape_view(const Viewed_mesh& fine, const Viewed_mesh& coarse
       "</span></div></div>\n"
       "<p class='note'>One scale for both meshes, each at unit area. Nearly equal coarse modes were rotated "
       "to the fine ones.</p>\n";
-  if(meshes.empty())
+  if(data["meshes"].empty())
     return html;
-  return html + "<script type='application/json' id='shape-data'>\n{\"half\":[" +
-         std::to_string(frame.half_width / half_cube) + "," + std::to_string(frame.half_height / half_cube) +
-         "],\n\"functions\":" + joined_data(functions_data) + ",\n\"meshes\":" + joined_data(meshes) +
-         "}\n</script>\n<script>" + shape_view_script() + "</script>\n";
+  return html + "<script type='application/json' id='shape-data'>" + data.dump() + "</script>\n<script>" +
+         shape_view_script() + "</script>\n";
 }
 
 #endif // SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_H
