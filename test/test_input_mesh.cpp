@@ -122,6 +122,23 @@ TEST_CASE("Copies of faces go")
   CHECK(input.mesh.number_of_faces() == 2);
 }
 
+TEST_CASE("The full repair takes away fins, whose faces lie on each other, and keeps one side of a surface "
+          "that is there twice")
+{
+  const std::string octahedron = "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nv 1 1 1\nv 2 1 2\n"
+                                 "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
+  // A fin of two triangles on each other, and a second pair that hangs on it.
+  const Input_mesh fin = read(octahedron + "f 1 5 7\nf 5 1 7\nf 5 8 7\nf 7 8 5\n", Mending::full);
+  CHECK(fin.mesh.number_of_vertices() == 6);
+  CHECK(fin.mesh.number_of_faces() == 8);
+  CHECK(fin.numbering.mesh_vertex(6) == no_vertex);
+  CHECK(fin.numbering.mesh_vertex(7) == no_vertex);
+  CHECK_THAT(fin.changes_of("x.obj"), ContainsSubstring("4 faces removed that were folded onto each other"));
+  const Input_mesh twice = read(square + "f 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n", Mending::full);
+  CHECK(twice.mesh.number_of_faces() == 2);
+  CHECK_THAT(twice.changes_of("x.obj"), ContainsSubstring("2 copies of faces removed"));
+}
+
 TEST_CASE("Edges without length are closed, and their ends share")
 {
   // Vertex 5 lies on vertex 3 and has faces without area alone.

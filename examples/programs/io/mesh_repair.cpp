@@ -31,7 +31,9 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -104,15 +106,82 @@ bool without_repetitions(Exact_soup& soup, Repair_log& log)
   return simple;
 }
 
+// A polygon without its direction, its smallest vertex first, and whether it runs the other way.
+std::pair<std::vector<std::size_t>, bool> undirected(std::vector<std::size_t> polygon)
+{
+  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+  const bool turned = polygon[1] > polygon.back();
+  if(turned)
+    std::reverse(polygon.begin() + 1, polygon.end());
+  return {polygon, turned};
+}
+
+// Where a thin part of a closed surface has collapsed to a fin, each of its faces lies on one that runs the other way, and at its root
+// two faces of the rest meet: they meet still when both copies have gone, while one alone would be a third face of that edge. A
+// surface whose faces are all there twice has no such root, and keeps one of each.
+void remove_fins(Exact_soup& soup, Repair_log& log)
+{
+  std::map<std::vector<std::size_t>, std::array<bool, 2>> directions;
+  for(const auto& polygon : soup.polygons) {
+    const auto [face, turned] = undirected(polygon);
+    directions.emplace(face, std::array<bool, 2>{}).first->second[turned] = true;
+  }
+  struct Edge
+  {
+    int single = 0;
+    std::vector<const std::vector<std::size_t>*> folded;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Edge> edges;
+  const auto edge = [](const std::vector<std::size_t>& face, const std::size_t i) {
+    return std::minmax({face[i], face[(i + 1) % face.size()]});
+  };
+  for(const auto& [face, direction] : directions)
+    for(std::size_t i = 0; i < face.size(); ++i) {
+      Edge& e = edges[edge(face, i)];
+      if(direction[0] && direction[1])
+        e.folded.push_back(&face);
+      else
+        ++e.single;
+    }
+  std::set<std::vector<std::size_t>> fins;
+  std::vector<const std::vector<std::size_t>*> found;
+  const auto take = [&](const Edge& e) {
+    for(const auto* face : e.folded)
+      if(fins.insert(*face).second)
+        found.push_back(face);
+  };
+  for(const auto& [ends, e] : edges)
+    if(e.single == 2)
+      take(e);
+  while(!found.empty()) { // and what hangs on them
+    const std::vector<std::size_t>& face = *found.back();
+    found.pop_back();
+    for(std::size_t i = 0; i < face.size(); ++i)
+      if(const Edge& e = edges[edge(face, i)]; e.single == 0)
+        take(e);
+  }
+  if(fins.empty())
+    return;
+  const std::size_t before = soup.polygons.size();
+  soup.polygons.erase(
+      std::remove_if(soup.polygons.begin(), soup.polygons.end(),
+                     [&](const std::vector<std::size_t>& p) { return fins.count(undirected(p).first) > 0; }),
+      soup.polygons.end());
+  log.add("face removed that was folded onto another", "faces removed that were folded onto each other",
+          before - soup.polygons.size());
+}
+
 void clean(Exact_soup& soup, Repair_log& log)
 {
   log.add("isolated vertex removed", "isolated vertices removed",
           PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons));
   log.add("vertex merged that had the position of another", "vertices merged that had the same position",
           PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons));
-  if(without_repetitions(soup, log)) // a precondition of CGAL's
+  if(without_repetitions(soup, log)) { // a precondition of CGAL's
+    remove_fins(soup, log);
     log.add("copy of a face removed", "copies of faces removed",
             PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
+  }
   const std::size_t before = soup.polygons.size();
   PMP::repair_polygon_soup(soup.points, soup.polygons);
   if(soup.polygons.size() < before)
