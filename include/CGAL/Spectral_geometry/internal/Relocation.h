@@ -243,7 +243,7 @@ private:
     const Eigen::MatrixXd carried_F = P * F, carried_Z = P * Z;
     const double largest =
         std::sqrt((Z.colwise().squaredNorm().array() /
-                   F.colwise().squaredNorm().array().max(std::numeric_limits<double>::min()))
+                   F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
     if(m_options.signals != Relocation_options::Signals::carried) {
       m_fine_F = F;

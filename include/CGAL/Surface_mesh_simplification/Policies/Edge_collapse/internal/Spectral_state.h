@@ -267,7 +267,7 @@ public:
       return Optional_cost(largest_cost());
     const Spectral_candidate& c = answer(u, v);
     const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
-    if(!(value < double(std::numeric_limits<float>::max())))
+    if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
     return Optional_cost(FT(value));
   }
