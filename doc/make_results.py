@@ -3,7 +3,7 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Writes the tables of results.md, and the summary in it and in README.md:
+# Writes the tables of results.md and the summary in it:
 #   doc/make_results.py BUILD FOLDER MESH...
 # BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER where the meshes
 # are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text of both
@@ -196,7 +196,6 @@ def main():
     here = os.path.dirname(os.path.abspath(__file__))
     replace(os.path.join(here, "results.md"), "tables", tables(results))
     replace(os.path.join(here, "results.md"), "summary", summary(results))
-    replace(os.path.join(here, "..", "README.md"), "summary", summary(results))
 
 
 # What stands between the two marks of that name.

@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# The parts of run_rivals.sh that a shell cannot do:
+#   make_rivals.py --measure LIMIT FILE COMMAND...   runs it for at most LIMIT seconds; FILE gets its seconds and,
+#                                                    where there is /usr/bin/time, its peak MB
+#   make_rivals.py --unfold IN.off OUT.off           removes pairs of faces that lie on each other, and says so
+#   make_rivals.py --merge FOLDER N                  FOLDER.json from what run_rivals.sh left in FOLDER
+#   make_rivals.py --tables OUTPUT                   Markdown from all OUTPUT/*.json: means over all, and a table for each
+#   make_rivals.py --pages OUTPUT                    writes it into rivals.md, and the summary of it into README.md
+
+import contextlib
+import glob
+import io
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+from make_results import bold_smallest, norms, number, replace
+
+# Our rows, as they are called in the tables.
+OURS = {"spectral, best": "**this package**", "spectral, best, fitted operators": "the same, operators fitted",
+        "spectral, paper": "the same, preset `paper`",
+        "Garland-Heckbert plane": "CGAL: Garland-Heckbert, plane quadrics",
+        "Garland-Heckbert probabilistic plane, area 20000": "CGAL: Garland-Heckbert, probabilistic plane quadrics"}
+# The rows of the README, and what they are called there.
+SUMMARY = {**OURS, "rematching": "ReMatching", "meshoptimizer-regularized": "meshoptimizer, regularised",
+           "line-quadrics-0.1": "line quadrics", "published-program": "the authors' program of 2020"}
+# Title, value, digits, factor. A row without a closest point has the P of its own, as operators do.
+COLUMNS = [
+    ("C_L", lambda r: (r["closest_point_P"] or norms(r))["norm_L"], 1, 1),
+    ("C_D", lambda r: (r["closest_point_P"] or norms(r))["norm_D"], 2, 1),
+    ("λ %", lambda r: r["eigenvalue_error_mean"], 2, 100),
+    ("λ 2..K/5 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
+    ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
+    ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100),
+    ("s", lambda r: r["seconds_total"], 2, 1),
+    ("peak MB", lambda r: r.get("peak_megabytes"), 0, 1),
+]
+
+
+def measure(limit, path, command):
+    peak, start, status = path + ".peak", time.time(), "finished"
+    counted = os.access("/usr/bin/time", os.X_OK)
+    process = subprocess.Popen((["/usr/bin/time", "-q", "-f", "%M", "-o", peak] if counted else []) + command, start_new_session=True)
+    try:
+        if process.wait(timeout=float(limit)):
+            status = "failed"
+    except subprocess.TimeoutExpired:
+        status = f"took longer than {limit} s"
+        print(status, file=sys.stderr)
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+    kilobytes = text(peak)
+    if os.path.exists(peak):
+        os.remove(peak)
+    with open(path, "w") as file:
+        json.dump({"status": status, "wall_seconds": time.time() - start,
+                   "peak_megabytes": int(kilobytes) / 1024 if kilobytes.isdigit() else None}, file)
+    return 0 if status == "finished" else 1
+
+
+# A tube that collapsed to a fin: two faces of the same vertices, turned against each other. Without both, the surface is closed
+# where they were.
+def unfold(source, target):
+    with open(source) as file:
+        words = file.read().split()[1:]
+    n, m = int(words[0]), int(words[1])
+    points, faces = words[3:3 + 3 * n], words[3 + 3 * n:3 + 3 * n + 4 * m]
+    faces = [tuple(map(int, faces[4 * i + 1:4 * i + 4])) for i in range(m)]
+    removed, changed = 0, True
+    while changed:
+        changed = False
+        at = {}
+        for k, (a, b, c) in enumerate(faces):
+            least = min((a, b, c), (b, c, a), (c, a, b))
+            other = at.pop((least[0], least[2], least[1]), None)
+            if other is None:
+                at[least] = k
+            else:
+                faces[other] = faces[k] = None
+                removed, changed = removed + 2, True
+        faces = [f for f in faces if f]
+    used = sorted({v for f in faces for v in f})
+    index = {v: k for k, v in enumerate(used)}
+    with open(target, "w") as file:
+        file.write(f"OFF\n{len(used)} {len(faces)} 0\n")
+        file.writelines(" ".join(points[3 * v:3 * v + 3]) + "\n" for v in used)
+        file.writelines("3 " + " ".join(str(index[v]) for v in f) + "\n" for f in faces)
+    print(f"without {removed} faces that lie on each other")
+    return 0 if removed and faces else 1
+
+
+def text(path):
+    if not os.path.exists(path):
+        return ""
+    with open(path) as file:
+        return file.read().strip()
+
+
+def loaded(path):
+    return json.loads(text(path) or "null")
+
+
+def merge(folder, n):
+    ours = [loaded(path) for path in sorted(glob.glob(os.path.join(glob.escape(folder), "ours-[0-9].json")))]
+    ours = [x for x in ours if x]
+    if not ours:
+        sys.exit(f"make_rivals.py: there are no results of our own in '{folder}'")
+    result = {**ours[0], "rows": [r for x in ours for r in x["rows"]], "notes": sorted({t for x in ours for t in x["notes"]}),
+              "requested_vertices": n, "rivals": []}
+    del result["command"]
+    for row in result["rows"]:
+        alone = {"spectral, best": "", "spectral, best, fitted operators": "fitted"}.get(row["simplifier"])
+        if alone is not None:
+            measured = loaded(os.path.join(folder, f"ours-alone{alone}.measured"))
+            row["peak_megabytes"] = measured and measured["peak_megabytes"]
+    for path in sorted(glob.glob(os.path.join(glob.escape(folder), "*", "made.measured"))):
+        prefix = path[:-len(".measured")]
+        version, licence, flags = (text(prefix + ".about") + ";;").split(";")[:3]
+        rival = {"name": os.path.basename(os.path.dirname(prefix)), "version": version.strip(), "licence": licence.strip(), "flags": flags.strip(),
+                 **loaded(path), "note": text(prefix + ".note")}
+        rival["seconds"] = float(text(prefix + ".seconds") or rival["wall_seconds"])
+        judged = [x for x in (loaded(prefix + ".json"), loaded(prefix + ".lumped.json")) if x]
+        if text(prefix + ".refused"):
+            rival["refused"] = text(prefix + ".refused")
+        if not judged and rival["status"] == "finished":
+            rival["status"] = "cannot be judged"
+        for row in (r for x in judged for r in x["rows"]):
+            result["rows"].append({**row, "requested_vertices": n, "seconds_total": rival["seconds"],
+                                   "peak_megabytes": rival["peak_megabytes"], "note": rival["note"] or row["note"]})
+        result["rivals"].append(rival)
+    with open(folder + ".json", "w") as file:
+        json.dump(result, file, indent=1)
+    return 0
+
+
+# The rows of that mass: each has a name, a count of vertices and the cells of COLUMNS, or what went wrong.
+def rows_of(result, mass):
+    rows = [(OURS[r["simplifier"]], r) for r in result["rows"] if r["judged_mass"] == mass and r["simplifier"] in OURS]
+    for rival in result["rivals"]:
+        found = [r for r in result["rows"] if r["judged_mass"] == mass and r["simplifier"] == rival["name"]]
+        rows.append((rival["name"] + (" †" if found and rival["note"] else ""), found[0] if found else rival["status"]))
+    return rows
+
+
+def table(rows):
+    lines = ["| | N | " + " | ".join(c[0] for c in COLUMNS) + " |", "|---|---|" + "---|" * len(COLUMNS)]
+    judged = [r for _, r in rows if not isinstance(r, str)]
+    cells = [bold_smallest_present(judged, value, digits, factor) for _, value, digits, factor in COLUMNS]
+    for name, row in rows:
+        if isinstance(row, str):
+            lines.append(f"| {name} | {row} |" + " – |" * len(COLUMNS))
+        else:
+            k = next(i for i, r in enumerate(judged) if r is row)
+            lines.append(f"| {name} | {row['vertices']} | " + " | ".join(c[k] for c in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def bold_smallest_present(rows, value, digits, factor):
+    words = [number(value(r), digits, factor) for r in rows]
+    return words if all(value(r) is None for r in rows) else bold_smallest(rows, value, words)
+
+
+# Geometric means over all pairs of a mesh and a size, of those that have a result for each; of the names of `wanted` alone, if given.
+def means(results, mass, columns=COLUMNS, wanted=None):
+    found = {}
+    for result in results:
+        for name, row in rows_of(result, mass):
+            if not isinstance(row, str):
+                found.setdefault(name.removesuffix(" †"), []).append(row)
+    complete = {name: rows for name, rows in found.items() if len(rows) == len(results)}
+    if wanted:
+        complete = {title: complete[name] for name, title in wanted.items() for name in (OURS.get(name, name),) if name in complete}
+
+    def mean(rows, value):
+        values = [value(r) for r in rows]
+        return None if None in values else math.exp(sum(math.log(max(v, 1e-12)) for v in values) / len(values))
+
+    lines = [f"| {len(results)} pairs of a mesh and a size | " + " | ".join(c[0] for c in columns) + " |",
+             "|---|" + "---|" * len(columns)]
+    cells = [bold_smallest_present(list(complete.values()), lambda rows, value=value: mean(rows, value), digits, factor)
+             for _, value, digits, factor in columns]
+    for k, name in enumerate(complete):
+        lines.append(f"| {name} | " + " | ".join(c[k] for c in cells) + " |")
+    names = dict.fromkeys(name.removesuffix(" †") for result in results for name, _ in rows_of(result, mass))
+    for name in names if not wanted else []:
+        if name not in complete:
+            lines.append(f"| {name}: {len(found.get(name, []))} of {len(results)} |" + " – |" * len(COLUMNS))
+    return "\n".join(lines) + "\n"
+
+
+def results_in(output):
+    results = [loaded(path) for path in sorted(glob.glob(os.path.join(glob.escape(output), "*.json")))]
+    if not results:
+        sys.exit(f"make_rivals.py: there is no result in '{output}'")
+    return results
+
+
+def pages(output):
+    here, page = os.path.dirname(os.path.abspath(__file__)), io.StringIO()
+    with contextlib.redirect_stdout(page):
+        tables(output)
+    replace(os.path.join(here, "rivals.md"), "tables", page.getvalue())
+    titles = ["C_L", "C_D", "eigenvalues %", "modes 2 to 20 %", "biharmonic distance %", "Hausdorff %"]
+    columns = [(title, *column[1:]) for title, column in zip(titles, COLUMNS)]
+    replace(os.path.join(here, "..", "README.md"), "summary", means(results_in(output), "averaged", columns, SUMMARY))
+    return 0
+
+
+def tables(output):
+    results = results_in(output)
+    print(f"K = {results[0]['K']}. C_L and C_D are with the P of the closest points, those of operators with their own. Seconds are without "
+          "files where a program says so itself, peak MB are of the whole process. A dagger (†) marks a mesh that could not be judged as it "
+          "was: below the table is why. The best of a column is bold.\n\n"
+          "| rival | version | licence | flags |\n|---|---|---|---|")
+    rivals = {rival["name"]: rival for result in results for rival in result["rivals"]}
+    for name, rival in sorted(rivals.items()):
+        print(f"| {name} | {rival['version']} | {rival['licence']} | {rival['flags']} |")
+    for mass in ("averaged", "lumped"):
+        print(f"\n## Geometric means, judged in the {mass} mass\n\n" + means(results, mass), end="")
+    for result in results:
+        print(f"\n## {result['mesh']}, {result['vertices']} vertices, N = {result['requested_vertices']}")
+        for mass in ("averaged", "lumped"):
+            print(f"\nJudged in the {mass} mass:\n\n" + table(rows_of(result, mass)), end="")
+        for rival in result["rivals"]:
+            words = [t for t in (rival.get("refused"), rival["note"]) if t]
+            if words:
+                print(f"\n{rival['name']}: {'; '.join(words)}")
+    return 0
+
+
+def main():
+    actions = {"--measure": lambda a: measure(a[0], a[1], a[2:]), "--unfold": lambda a: unfold(*a),
+               "--merge": lambda a: merge(a[0], int(a[1])), "--tables": lambda a: tables(*a), "--pages": lambda a: pages(*a)}
+    if len(sys.argv) < 3 or sys.argv[1] not in actions:
+        sys.exit("usage: make_rivals.py --measure|--unfold|--merge|--tables|--pages ..., see its head")
+    sys.exit(actions[sys.argv[1]](sys.argv[2:]))
+
+
+if __name__ == "__main__":
+    main()
