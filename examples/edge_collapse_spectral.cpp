@@ -24,9 +24,10 @@ int main(int argc, char* argv[])
     std::cerr << "usage: edge_collapse_spectral INPUT OUTPUT N, INPUT being a triangle mesh\n";
     return EXIT_FAILURE;
   }
+  const std::size_t N = std::strtoul(argv[3], nullptr, 10);
   //! [policies]
   SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(std::strtoul(argv[3], nullptr, 10), mesh),
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor()));
