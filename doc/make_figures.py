@@ -18,6 +18,8 @@ import subprocess
 import sys
 import zlib
 
+from make_results import name, norms
+
 K = 100
 SIZES = [100, 150, 200, 300, 450, 600, 900, 1400, 2000]
 COLOURS = {"spectral": "#01508c", "relocated": "#56a4d8", "isotropic": "#c8501e", "floor": "#888888"}
@@ -158,10 +160,10 @@ def teaser(folder, output):
                 "probabilistic quadrics, 600"),
                ("Garland_Heckbert_plane_optimal_600", "Garland-Heckbert plane", "plane quadrics, 600")]
     maps, rows, body = images_of_maps(folder), rows_of(folder), ""
-    for i, (name, simplifier, title) in enumerate(columns):
+    for i, (stem, simplifier, title) in enumerate(columns):
         x = 10 + (side + 10) * i
-        picture = os.path.join(folder, name + ".png")
-        render(read_ply(os.path.join(folder, "col", name + ".ply")), f"eigenvector_{mode}", (2 * side, 2 * side), i > 0).write(picture)
+        picture = os.path.join(folder, stem + ".png")
+        render(read_ply(os.path.join(folder, "col", stem + ".ply")), f"eigenvector_{mode}", (2 * side, 2 * side), i > 0).write(picture)
         with open(picture, "rb") as file:
             data = "data:image/png;base64," + base64.b64encode(file.read()).decode()
         body += text(x + side / 2, 18, title, 13) + f'<image x="{x}" y="24" width="{side}" height="{side}" xlink:href="{data}"/>\n'
@@ -172,7 +174,7 @@ def teaser(folder, output):
             continue
         row = next(r for r in rows if r["simplifier"] == simplifier and r["placement"] != "midpoint")
         y = 24 + side + 6
-        body += (f'<image x="{x + 15}" y="{y}" width="{side - 30}" height="{side - 30}" xlink:href="{maps[map_name(row)]}" '
+        body += (f'<image x="{x + 15}" y="{y}" width="{side - 30}" height="{side - 30}" xlink:href="{maps[name(row)]}" '
                  f'style="image-rendering:pixelated"/>\n<rect x="{x + 15}" y="{y}" width="{side - 30}" height="{side - 30}" '
                  f'fill="none" stroke="#888"/>\n')
         body += text(x + side / 2, y + side - 12, f"|C|_L {norms(row)['norm_L']:.1f}, eigenvalues {100 * row['eigenvalue_error_mean']:.2f} % off", 13)
@@ -225,16 +227,6 @@ def rows_of(folder):
         return json.load(file)["rows"]
 
 
-def map_name(row):
-    return ", ".join([row["simplifier"]] + ([row["placement"]] if row["placement"] not in ("", "none") else []) +
-                     ([f"{row['metric_mass']} metric"] if row["metric_mass"] != "none" else []) +
-                     ([f"relocated by {row['relocation']}"] if row["relocation"] != "none" else []))
-
-
-def norms(row):
-    return row["carried_P"] or row["closest_point_P"]
-
-
 def functional_maps(folder, output):
     images, rows = images_of_maps(folder), rows_of(folder)
     wanted = [("spectral, best, free, averaged metric, relocated by sampled", "spectral, best", "spectral, best"),
@@ -242,11 +234,11 @@ def functional_maps(folder, output):
               ("edge length, midpoint", "edge length", "edge length, midpoint"),
               ("Garland-Heckbert plane, optimal", "Garland-Heckbert plane", "Garland-Heckbert, plane")]
     body = ""
-    for i, (name, simplifier, title) in enumerate(wanted):
+    for i, (title_of_map, simplifier, title) in enumerate(wanted):
         row = next(r for r in rows if r["simplifier"] == simplifier and r["placement"] != "midpoint" or
                    r["simplifier"] == simplifier == "edge length")
         x = 10 + 205 * i
-        body += (f'<image x="{x}" y="26" width="195" height="195" xlink:href="{images[name]}" '
+        body += (f'<image x="{x}" y="26" width="195" height="195" xlink:href="{images[title_of_map]}" '
                  f'style="image-rendering:pixelated"/>\n<rect x="{x}" y="26" width="195" height="195" fill="none" stroke="#888"/>\n')
         body += text(x + 97, 18, title)
         body += text(x + 97, 238, f"|C|_L {norms(row)['norm_L']:.1f}, |C|_D {norms(row)['norm_D']:.2f}")

@@ -6,7 +6,7 @@
 # Writes the tables of results.md and the summary in it:
 #   doc/make_results.py BUILD FOLDER MESH...
 # BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER where the meshes
-# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text of both
+# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text
 # outside of the marks stays.
 
 import json

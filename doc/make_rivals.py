@@ -6,7 +6,6 @@
 # The parts of run_rivals.sh that a shell cannot do:
 #   make_rivals.py --measure LIMIT FILE COMMAND...   runs it for at most LIMIT seconds; FILE gets its seconds and,
 #                                                    where there is /usr/bin/time, its peak MB
-#   make_rivals.py --unfold IN.off OUT.off           removes pairs of faces that lie on each other, and says so
 #   make_rivals.py --merge FOLDER N                  FOLDER.json from what run_rivals.sh left in FOLDER
 #   make_rivals.py --tables OUTPUT                   Markdown from all OUTPUT/*.json: means over all, and a table for each
 #   make_rivals.py --pages OUTPUT                    writes it into rivals.md, and the summary of it into README.md
@@ -68,37 +67,6 @@ def measure(limit, path, command):
     return 0 if status == "finished" else 1
 
 
-# A tube that collapsed to a fin: two faces of the same vertices, turned against each other. Without both, the surface is closed
-# where they were.
-def unfold(source, target):
-    with open(source) as file:
-        words = file.read().split()[1:]
-    n, m = int(words[0]), int(words[1])
-    points, faces = words[3:3 + 3 * n], words[3 + 3 * n:3 + 3 * n + 4 * m]
-    faces = [tuple(map(int, faces[4 * i + 1:4 * i + 4])) for i in range(m)]
-    removed, changed = 0, True
-    while changed:
-        changed = False
-        at = {}
-        for k, (a, b, c) in enumerate(faces):
-            least = min((a, b, c), (b, c, a), (c, a, b))
-            other = at.pop((least[0], least[2], least[1]), None)
-            if other is None:
-                at[least] = k
-            else:
-                faces[other] = faces[k] = None
-                removed, changed = removed + 2, True
-        faces = [f for f in faces if f]
-    used = sorted({v for f in faces for v in f})
-    index = {v: k for k, v in enumerate(used)}
-    with open(target, "w") as file:
-        file.write(f"OFF\n{len(used)} {len(faces)} 0\n")
-        file.writelines(" ".join(points[3 * v:3 * v + 3]) + "\n" for v in used)
-        file.writelines("3 " + " ".join(str(index[v]) for v in f) + "\n" for f in faces)
-    print(f"without {removed} faces that lie on each other")
-    return 0 if removed and faces else 1
-
-
 def text(path):
     if not os.path.exists(path):
         return ""
@@ -130,8 +98,6 @@ def merge(folder, n):
                  **loaded(path), "note": text(prefix + ".note")}
         rival["seconds"] = float(text(prefix + ".seconds") or rival["wall_seconds"])
         judged = [x for x in (loaded(prefix + ".json"), loaded(prefix + ".lumped.json")) if x]
-        if text(prefix + ".refused"):
-            rival["refused"] = text(prefix + ".refused")
         if not judged and rival["status"] == "finished":
             rival["status"] = "cannot be judged"
         for row in (r for x in judged for r in x["rows"]):
@@ -194,7 +160,7 @@ def means(results, mass, columns=COLUMNS, wanted=None):
     names = dict.fromkeys(name.removesuffix(" †") for result in results for name, _ in rows_of(result, mass))
     for name in names if not wanted else []:
         if name not in complete:
-            lines.append(f"| {name}: {len(found.get(name, []))} of {len(results)} |" + " – |" * len(COLUMNS))
+            lines.append(f"| {name}: {len(found.get(name, []))} of {len(results)} |" + " – |" * len(columns))
     return "\n".join(lines) + "\n"
 
 
@@ -219,8 +185,8 @@ def pages(output):
 def tables(output):
     results = results_in(output)
     print(f"K = {results[0]['K']}. C_L and C_D are with the P of the closest points, those of operators with their own. Seconds are without "
-          "files where a program says so itself, peak MB are of the whole process. A dagger (†) marks a mesh that could not be judged as it "
-          "was: below the table is why. The best of a column is bold.\n\n"
+          "files where a program says so itself, peak MB are of the whole process. A dagger (†) marks a mesh that could not be judged before "
+          "--repair: below the table is why. The best of a column is bold.\n\n"
           "| rival | version | licence | flags |\n|---|---|---|---|")
     rivals = {rival["name"]: rival for result in results for rival in result["rivals"]}
     for name, rival in sorted(rivals.items()):
@@ -232,17 +198,15 @@ def tables(output):
         for mass in ("averaged", "lumped"):
             print(f"\nJudged in the {mass} mass:\n\n" + table(rows_of(result, mass)), end="")
         for rival in result["rivals"]:
-            words = [t for t in (rival.get("refused"), rival["note"]) if t]
-            if words:
-                print(f"\n{rival['name']}: {'; '.join(words)}")
+            if rival["note"]:
+                print(f"\n{rival['name']}: {rival['note']}")
     return 0
 
 
 def main():
-    actions = {"--measure": lambda a: measure(a[0], a[1], a[2:]), "--unfold": lambda a: unfold(*a),
-               "--merge": lambda a: merge(a[0], int(a[1])), "--tables": lambda a: tables(*a), "--pages": lambda a: pages(*a)}
+    actions = {"--measure": lambda a: measure(a[0], a[1], a[2:]), "--merge": lambda a: merge(a[0], int(a[1])), "--tables": lambda a: tables(*a), "--pages": lambda a: pages(*a)}
     if len(sys.argv) < 3 or sys.argv[1] not in actions:
-        sys.exit("usage: make_rivals.py --measure|--unfold|--merge|--tables|--pages ..., see its head")
+        sys.exit("usage: make_rivals.py --measure|--merge|--tables|--pages ..., see its head")
     sys.exit(actions[sys.argv[1]](sys.argv[2:]))
 
 

@@ -5,8 +5,8 @@
 #
 # On many meshes, the default beside the best of CGAL's quadrics:
 #   doc/make_survey.py BUILD N MESH...
-# takes each to N vertices, after --repair, and writes how often which is better and where the default is not, as Markdown, to
-# standard output. One JSON file per run goes to BUILD/survey and is used again; a mesh that is refused is listed with the reason.
+# takes each to N vertices, after --repair, and writes into rivals.md how often which is better, and the errors of both on every mesh. One JSON file
+# per run goes to BUILD/survey and is used again; a mesh that is refused is listed with the reason.
 
 import json
 import math
@@ -14,11 +14,15 @@ import os
 import subprocess
 import sys
 
+from make_results import replace
+
 NAMES = ["spectral, best", "Garland-Heckbert probabilistic plane, area 20000"]
-COLUMNS = [("C_L", lambda r: r["closest_point_P"]["norm_L"]), ("C_D", lambda r: r["closest_point_P"]["norm_D"]),
-           ("eigenvalues", lambda r: r["eigenvalue_error_mean"]), ("modes 2 to K/5", lambda r: r["eigenvalue_error_low_mean"]),
-           ("biharmonic distance", lambda r: r["distance_errors"]["biharmonic"]),
-           ("Hausdorff", lambda r: r["hausdorff_over_diagonal"])]
+# Title, value, digits, factor.
+COLUMNS = [("C_L", lambda r: r["closest_point_P"]["norm_L"], 1, 1), ("C_D", lambda r: r["closest_point_P"]["norm_D"], 2, 1),
+           ("eigenvalues %", lambda r: r["eigenvalue_error_mean"], 2, 100),
+           ("modes 2 to K/5 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
+           ("biharmonic distance %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
+           ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100)]
 
 
 # The row of that simplifier, or the sentence why there is none.
@@ -29,9 +33,10 @@ def judged(build, n, mesh, name):
         run = subprocess.run([os.path.join(build, "examples", "spectral_compare"), mesh, "--vertices", n, "--only", name, "--judge", "averaged",
                               "--repair", "--quiet", "--json", output], stderr=subprocess.PIPE, text=True)
         if run.returncode:
-            return run.stderr.strip().splitlines()[-1]
+            return (run.stderr.strip().splitlines() or [f"ended with status {run.returncode}"])[-1]
     with open(output) as file:
-        return next(r for r in json.load(file)["rows"] if r["simplifier"].startswith(name))
+        result = json.load(file)
+    return {**next(r for r in result["rows"] if r["simplifier"].startswith(name)), "fine_vertices": result["vertices"]}
 
 
 def main():
@@ -46,20 +51,25 @@ def main():
         if sentences:
             refused.append(f"{os.path.basename(mesh)}: {sentences[0]}")
         else:
-            pairs.append((os.path.basename(mesh), *rows))
-    print(f"| {len(pairs)} meshes, N = {n} | " + " | ".join(c[0] for c in COLUMNS) + " |\n|---|" + "---|" * len(COLUMNS))
-    ratio, better, worse = [], [], []
-    for title, value in COLUMNS:
-        both = [(mesh, value(a), value(b)) for mesh, a, b in pairs if value(a) is not None and value(b) is not None]
-        ratio.append(f"{math.exp(sum(math.log(max(a, 1e-12) / max(b, 1e-12)) for _, a, b in both) / len(both)):.2f}")
-        lost = [mesh for mesh, a, b in both if a > b]
-        better.append(f"{len(both) - len(lost)} of {len(both)}")
-        if lost and title != "Hausdorff":
-            worse.append(f"{title}: {', '.join(lost)}")
-    print("| ratio, geometric mean | " + " | ".join(ratio) + " |\n| the default is better | " + " | ".join(better) + " |")
-    print("\nIt is worse in " + "; ".join(worse) + "." if worse else "")
-    if refused:
-        print("\nRefused: " + "; ".join(refused))
+            pairs.append((os.path.join(*os.path.abspath(mesh).split(os.sep)[-2:]), *rows))
+    lines = []
+    ratios, better, cells = [], [], {mesh: [] for mesh, _, _ in pairs}
+    for _, value, digits, factor in COLUMNS:
+        both = [(value(a), value(b)) for _, a, b in pairs if value(a) is not None and value(b) is not None]
+        ratios.append(f"{math.exp(sum(math.log(max(a, 1e-12) / max(b, 1e-12)) for a, b in both) / len(both)):.2f}")
+        better.append(f"{sum(a < b for a, b in both)} of {len(both)}")
+        for mesh, a, b in pairs:
+            words = ["–" if value(r) is None else f"{factor * value(r):.{digits}f}" for r in (a, b)]
+            worse = value(a) is not None and value(b) is not None and value(a) > value(b)
+            cells[mesh].append(f"{words[0]} / {words[1]}" if not worse else f"{words[0]} / **{words[1]}**")
+    titles = " | ".join(c[0] for c in COLUMNS)
+    lines += [f"| {len(pairs)} meshes, N = {n} | {titles} |", "|---|" + "---|" * len(COLUMNS),
+                    "| ratio, geometric mean | " + " | ".join(ratios) + " |", "| the default is better | " + " | ".join(better) + " |", "",
+                    f"| mesh | vertices | {titles} |", "|---|---|" + "---|" * len(COLUMNS)]
+    for mesh, row, _ in pairs:
+        lines.append(f"| {mesh} | {row['fine_vertices']} | " + " | ".join(cells[mesh]) + " |")
+    lines += ["", "Refused: " + "; ".join(refused)] if refused else []
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "rivals.md"), "survey", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

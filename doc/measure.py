@@ -18,6 +18,8 @@ import sys
 import tempfile
 import time
 
+from make_rivals import OURS, SUMMARY
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, "measured.json")
 PRESETS = ("best", "fast", "paper")
@@ -64,7 +66,7 @@ def measured(build, nefertiti):
         for preset in PRESETS:
             data["nefertiti"][preset] = {key: statistics.median(r[key] for r in runs[preset])
                                          for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")}
-    return {"commit": subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], capture_output=True, text=True, check=True).stdout.strip(),
+    return {"commit": subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty"], capture_output=True, text=True, check=True).stdout.strip(),
             "processors": os.cpu_count(), "machine": platform.machine(), **data}
 
 
@@ -72,6 +74,12 @@ def measured(build, nefertiti):
 def written(value, quoted):
     digits = len(quoted.partition(".")[2])
     return f"{value:,.{digits}f}"
+
+
+# The cells of each row of a table, without bold, by the first.
+def cells(table):
+    rows = [[cell.strip(" *") for cell in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("| ")]
+    return {row[0]: row[1:] for row in rows}
 
 
 def check():
@@ -90,16 +98,20 @@ def check():
                 value = value[part]
             if written(value, quoted) != quoted:
                 wrong.append(f"{name} says {quoted} for {key}, which is {value}")
-    # The table of the README is a part of that in rivals.md.
+    # The table of the README is a part of that of the averaged mass in rivals.md, and what it says of further meshes stands there.
     with open(os.path.join(HERE, "rivals.md")) as file:
-        figures = {tuple(cell.strip(" *") for cell in line.split("|")[2:8]) for line in file if line.startswith("| ")}
+        rivals = file.read()
     with open(os.path.join(HERE, "..", "README.md")) as file:
-        table = file.read().split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0].strip().splitlines()[2:]
-    for line in table:
-        if tuple(cell.strip(" *") for cell in line.split("|")[2:8]) not in figures:
-            wrong.append(f"README.md has a row that rivals.md has not: {line}")
-    if not table:
-        wrong.append("README.md has no summary")
+        readme = file.read()
+    rows = cells(rivals.split("## Geometric means, judged in the averaged mass")[1].split("\n## ")[0])
+    table = cells(readme.split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0])
+    for name, title in SUMMARY.items():
+        if table.get(title.strip("*")) != rows[OURS.get(name, name).strip("*")][:6]:
+            wrong.append(f"README.md and rivals.md differ in {title}")
+    survey = rivals.split("<!-- survey: begin -->")[1]
+    found = re.search(r"On (\d+) further meshes \|C\|_L is ([\d.]+) times that of the probabilistic quadrics on the average, and lower on (\d+)\.", readme)
+    if not found or (found[2], f"{found[3]} of {found[1]}") != tuple(cells(survey)[k][0] for k in ("ratio, geometric mean", "the default is better")):
+        wrong.append("README.md does not say of further meshes what rivals.md says")
     sys.exit("\n".join(wrong) or None)
 
 

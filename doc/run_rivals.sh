@@ -22,7 +22,7 @@
 #           An exit status other than 0 says that it failed, its last line of standard error why.
 #
 # A rival that fails, or takes longer than RIVAL_SECONDS (900), has a row that says so. A mesh that spectral_compare refuses is judged
-# once more without pairs of faces that lie on each other, and then with --repair as well; its row has a mark, and no P of its own.
+# once more with --repair; its row has a mark, and no P of its own.
 
 set -u
 if [ $# -lt 4 ]; then
@@ -62,10 +62,8 @@ judge()
     P=
     [ ! -s "$prefix.P.mtx" ] || P=$prefix.P.mtx
     judge_mesh "$prefix.off" "$P" && return
-    complaint >"$prefix.refused"
-    tables --unfold "$prefix.off" "$prefix.unfolded.off" >"$prefix.note" && judge_mesh "$prefix.unfolded.off" && return
-    echo "then repaired by --repair" >>"$prefix.note"
-    judged --rival "$name=$prefix.unfolded.off" --repair --json "$prefix.json" && return
+    complaint >"$prefix.note"
+    judged --rival "$name=$prefix.off" --repair --json "$prefix.json" && return
   elif [ -s "$prefix.M.lumped.mtx" ]; then
     judge_operator "$prefix.M.mtx" averaged "$prefix.json" &&
       judge_operator "$prefix.M.lumped.mtx" lumped "$prefix.lumped.json" && return

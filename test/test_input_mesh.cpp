@@ -122,18 +122,26 @@ TEST_CASE("Copies of faces go")
   CHECK(input.mesh.number_of_faces() == 2);
 }
 
-TEST_CASE("The full repair takes away fins, whose faces lie on each other, and keeps one side of a surface "
-          "that is there twice")
+TEST_CASE(
+    "The full repair takes away fins, whose faces lie on each other, and keeps one side of larger sheets")
 {
-  const std::string octahedron = "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nv 1 1 1\nv 2 1 2\n"
-                                 "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
-  // A fin of two triangles on each other, and a second pair that hangs on it.
-  const Input_mesh fin = read(octahedron + "f 1 5 7\nf 5 1 7\nf 5 8 7\nf 7 8 5\n", Mending::full);
-  CHECK(fin.mesh.number_of_vertices() == 6);
-  CHECK(fin.mesh.number_of_faces() == 8);
-  CHECK(fin.numbering.mesh_vertex(6) == no_vertex);
-  CHECK(fin.numbering.mesh_vertex(7) == no_vertex);
-  CHECK_THAT(fin.changes_of("x.obj"), ContainsSubstring("4 faces removed that were folded onto each other"));
+  const std::string octahedron = "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
+  const std::string closed = "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
+  // A fin of two triangles on each other, and a second pair that hangs on it; as triangles, and as a quadrangle folded onto two.
+  const std::string small = octahedron + "v 0.5 0.01 0.51\nv 0.49 0.02 0.52\n" + closed;
+  const std::string fins[] = {"f 1 5 7\nf 5 1 7\nf 5 8 7\nf 7 8 5\n", "f 1 5 8 7\nf 7 8 5 1\n"};
+  for(const std::string& fin : fins) {
+    const Input_mesh input = read(small + fin, Mending::full);
+    CHECK(input.mesh.number_of_vertices() == 6);
+    CHECK(input.mesh.number_of_faces() == 8);
+    CHECK(input.numbering.mesh_vertex(6) == no_vertex);
+    CHECK(input.numbering.mesh_vertex(7) == no_vertex);
+    CHECK_THAT(input.changes_of("x.obj"),
+               ContainsSubstring("faces removed that were folded onto each other"));
+  }
+  // A sheet of some size on a body, and a surface that is there twice: one side stays.
+  const Input_mesh sheet = read(octahedron + "v 1 1 1\n" + closed + "f 1 5 7\nf 5 1 7\n", Mending::full);
+  CHECK(sheet.mesh.number_of_faces() == 9);
   const Input_mesh twice = read(square + "f 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n", Mending::full);
   CHECK(twice.mesh.number_of_faces() == 2);
   CHECK_THAT(twice.changes_of("x.obj"), ContainsSubstring("2 copies of faces removed"));

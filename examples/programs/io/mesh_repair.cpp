@@ -31,7 +31,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -116,59 +115,106 @@ std::pair<std::vector<std::size_t>, bool> undirected(std::vector<std::size_t> po
   return {polygon, turned};
 }
 
+double area(const Exact_soup& soup, const std::vector<std::size_t>& polygon)
+{
+  double sum = 0;
+  for(std::size_t i = 2; i < polygon.size(); ++i)
+    sum += std::sqrt(
+        CGAL::squared_area(soup.points[polygon[0]], soup.points[polygon[i - 1]], soup.points[polygon[i]]));
+  return sum;
+}
+
 // Where a thin part of a closed surface has collapsed to a fin, each of its faces lies on one that runs the other way, and at its root
-// two faces of the rest meet: they meet still when both copies have gone, while one alone would be a third face of that edge. A
-// surface whose faces are all there twice has no such root, and keeps one of each.
+// two faces of the rest meet, which run along it in opposite directions: they meet still when both copies have gone, while one alone
+// would be a third face of that edge. What hangs on such faces goes with them. Larger fins, above a hundredth of the area, may be meant: of
+// them, and of a surface whose faces are all there twice, one copy stays.
 void remove_fins(Exact_soup& soup, Repair_log& log)
 {
-  std::map<std::vector<std::size_t>, std::array<bool, 2>> directions;
-  for(const auto& polygon : soup.polygons) {
-    const auto [face, turned] = undirected(polygon);
-    directions.emplace(face, std::array<bool, 2>{}).first->second[turned] = true;
+  using Vertices = std::vector<std::size_t>;
+  std::vector<std::pair<Vertices, std::size_t>> faces; // each with the place of its polygon
+  std::vector<bool> turned(soup.polygons.size());
+  for(std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    auto [vertices, is_turned] = undirected(soup.polygons[i]);
+    turned[i] = is_turned;
+    faces.emplace_back(std::move(vertices), i);
   }
+  std::sort(faces.begin(), faces.end());
+  std::vector<Vertices> folded;
+  for(std::size_t i = 0, j; i < faces.size(); i = j) {
+    bool differ = false;
+    for(j = i + 1; j < faces.size() && faces[j].first == faces[i].first; ++j)
+      differ = differ || turned[faces[j].second] != turned[faces[i].second];
+    if(differ)
+      folded.push_back(faces[i].first);
+  }
+  if(folded.empty())
+    return;
+
   struct Edge
   {
-    int single = 0;
-    std::vector<const std::vector<std::size_t>*> folded;
+    std::array<int, 2> single{}; // faces that are not folded, by their direction
+    std::vector<std::size_t> folded;
   };
-  std::map<std::pair<std::size_t, std::size_t>, Edge> edges;
-  const auto edge = [](const std::vector<std::size_t>& face, const std::size_t i) {
-    return std::minmax({face[i], face[(i + 1) % face.size()]});
+  std::map<std::pair<std::size_t, std::size_t>, Edge> edges; // those of the folded faces
+  const auto ends = [](const Vertices& face, const std::size_t i) {
+    return std::make_pair(face[i], face[(i + 1) % face.size()]);
   };
-  for(const auto& [face, direction] : directions)
-    for(std::size_t i = 0; i < face.size(); ++i) {
-      Edge& e = edges[edge(face, i)];
-      if(direction[0] && direction[1])
-        e.folded.push_back(&face);
-      else
-        ++e.single;
+  const auto sorted = [](const std::pair<std::size_t, std::size_t>& e) {
+    return e.first < e.second ? e : std::make_pair(e.second, e.first);
+  };
+  for(std::size_t f = 0; f < folded.size(); ++f)
+    for(std::size_t i = 0; i < folded[f].size(); ++i)
+      edges[sorted(ends(folded[f], i))].folded.push_back(f);
+  double whole = 0;
+  for(const auto& [vertices, place] : faces) {
+    const Vertices& polygon = soup.polygons[place];
+    whole += area(soup, polygon);
+    if(std::binary_search(folded.begin(), folded.end(), vertices))
+      continue;
+    for(std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto e = ends(polygon, i);
+      const auto found = edges.find(sorted(e));
+      if(found != edges.end())
+        ++found->second.single[e.first < e.second];
     }
-  std::set<std::vector<std::size_t>> fins;
-  std::vector<const std::vector<std::size_t>*> found;
-  const auto take = [&](const Edge& e) {
-    for(const auto* face : e.folded)
-      if(fins.insert(*face).second)
-        found.push_back(face);
-  };
-  for(const auto& [ends, e] : edges)
-    if(e.single == 2)
-      take(e);
-  while(!found.empty()) { // and what hangs on them
-    const std::vector<std::size_t>& face = *found.back();
-    found.pop_back();
-    for(std::size_t i = 0; i < face.size(); ++i)
-      if(const Edge& e = edges[edge(face, i)]; e.single == 0)
-        take(e);
   }
-  if(fins.empty())
-    return;
+
+  std::vector<bool> seen(folded.size(), false), goes(folded.size(), false);
+  for(const auto& [e, root] : edges) {
+    if(root.single[0] != 1 || root.single[1] != 1)
+      continue;
+    std::vector<std::size_t> fin;
+    const auto take = [&](const Edge& edge) {
+      for(const std::size_t f : edge.folded)
+        if(!seen[f]) {
+          seen[f] = true;
+          fin.push_back(f);
+        }
+    };
+    take(root);
+    double size = 0;
+    for(std::size_t k = 0; k < fin.size(); ++k) {
+      const Vertices& face = folded[fin[k]];
+      size += area(soup, face);
+      for(std::size_t i = 0; i < face.size(); ++i)
+        if(const Edge& edge = edges[sorted(ends(face, i))]; edge.single[0] + edge.single[1] == 0)
+          take(edge);
+    }
+    if(size <= 0.01 * whole)
+      for(const std::size_t f : fin)
+        goes[f] = true;
+  }
   const std::size_t before = soup.polygons.size();
-  soup.polygons.erase(
-      std::remove_if(soup.polygons.begin(), soup.polygons.end(),
-                     [&](const std::vector<std::size_t>& p) { return fins.count(undirected(p).first) > 0; }),
-      soup.polygons.end());
-  log.add("face removed that was folded onto another", "faces removed that were folded onto each other",
-          before - soup.polygons.size());
+  soup.polygons.erase(std::remove_if(soup.polygons.begin(), soup.polygons.end(),
+                                     [&](const Vertices& polygon) {
+                                       const auto found = std::lower_bound(folded.begin(), folded.end(),
+                                                                           undirected(polygon).first);
+                                       return found != folded.end() && *found == undirected(polygon).first &&
+                                              goes[std::size_t(found - folded.begin())];
+                                     }),
+                      soup.polygons.end());
+  const char* words = "faces removed that were folded onto each other"; // never one alone
+  log.add(words, words, before - soup.polygons.size());
 }
 
 void clean(Exact_soup& soup, Repair_log& log)
@@ -177,11 +223,11 @@ void clean(Exact_soup& soup, Repair_log& log)
           PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons));
   log.add("vertex merged that had the position of another", "vertices merged that had the same position",
           PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons));
-  if(without_repetitions(soup, log)) { // a precondition of CGAL's
-    remove_fins(soup, log);
+  const bool simple = without_repetitions(soup, log);
+  remove_fins(soup, log);
+  if(simple) // a precondition of CGAL's
     log.add("copy of a face removed", "copies of faces removed",
             PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
-  }
   const std::size_t before = soup.polygons.size();
   PMP::repair_polygon_soup(soup.points, soup.polygons);
   if(soup.polygons.size() < before)
@@ -277,6 +323,7 @@ void triangulate(Exact_soup& soup, Repair_log& log)
     return;
   soup.polygons = std::move(triangles);
   log.add("polygon triangulated", "polygons triangulated", polygons);
+  remove_fins(soup, log);
   log.add("copy of a face removed", "copies of faces removed",
           PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
 }
