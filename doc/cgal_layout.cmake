@@ -402,8 +402,8 @@ set(titles_left "Introduction" "Other operators" "Restriction, prolongation, fun
 manual_sections(sections_Spectral_geometry figures_Spectral_geometry sec_SG_ ${titles_Spectral_geometry})
 manual_sections(sections_Surface_mesh_simplification figures_Surface_mesh_simplification sec_SMS_spectral_
                 ${titles_Surface_mesh_simplification})
-list(APPEND figures_Spectral_geometry fig/eigenfunctions.png fig/operators.png fig/functional_maps.svg)
-list(APPEND figures_Surface_mesh_simplification fig/eigenfunctions.png)
+list(APPEND figures_Spectral_geometry fig/operators.png fig/functional_maps.svg)
+list(APPEND figures_Surface_mesh_simplification fig/teaser.svg)
 foreach(package IN LISTS packages)
   foreach(figure IN LISTS figures_${package})
     file(COPY "${root}/doc/${figure}" DESTINATION "${output}/${package}/doc/${package}/fig")

@@ -39,6 +39,8 @@ def run_all(build, folder):
     for only, output in (("spectral", "curve.json"), ("isotropic", "curve_iso.json")):
         run(build, folder, output, "spectral_compare", "shape.ply", "--vertices", sizes, "--only", only, "--judge",
             "lumped,averaged", "--json", output, "--quiet")
+    run(build, folder, "sizes.json", "spectral_compare", "shape.ply", "--vertices", "150,300,2000", "--only", "spectral, best", "--judge",
+        "averaged", "--coloured", "sizes", "--json", "sizes.json", "--quiet")
 
 
 # --- PNG -------------------------------------------------------------------------------------------------------------
@@ -52,11 +54,6 @@ class Image:
     def set(self, x, y, colour):
         k = 3 * (y * self.width + x)
         self.pixels[k:k + 3] = bytes(colour)
-
-    def paste(self, other, x0, y0):
-        for y in range(other.height):
-            k = 3 * ((y0 + y) * self.width + x0)
-            self.pixels[k:k + 3 * other.width] = other.pixels[3 * y * other.width:3 * (y + 1) * other.width]
 
     def halved(self):
         half = Image(self.width // 2, self.height // 2)
@@ -151,7 +148,7 @@ def render(mesh, name, size, wire):
     return image.halved()
 
 
-# The first picture of the README: a mode on the input and on what two simplifiers made of it, their functional maps below.
+# The first picture of README and manual: a mode on the input and on what two simplifiers made of it, their functional maps below.
 def teaser(folder, output):
     mode, side = modes_apart(folder)[1], 230
     columns = [("fine", "", "the input, 10,039 vertices"),
@@ -162,10 +159,7 @@ def teaser(folder, output):
     maps, rows, body = images_of_maps(folder), rows_of(folder), ""
     for i, (stem, simplifier, title) in enumerate(columns):
         x = 10 + (side + 10) * i
-        picture = os.path.join(folder, stem + ".png")
-        render(read_ply(os.path.join(folder, "col", stem + ".ply")), f"eigenvector_{mode}", (2 * side, 2 * side), i > 0).write(picture)
-        with open(picture, "rb") as file:
-            data = "data:image/png;base64," + base64.b64encode(file.read()).decode()
+        data = pictured(os.path.join(folder, "col", stem + ".ply"), mode, side, i > 0)
         body += text(x + side / 2, 18, title, 13) + f'<image x="{x}" y="24" width="{side}" height="{side}" xlink:href="{data}"/>\n'
         if not simplifier:
             body += "".join(text(x + side / 2, 24 + 1.35 * side + 18 * k, line) for k, line in enumerate(
@@ -190,16 +184,45 @@ def modes_apart(folder):
     return apart[0], apart[len(apart) // 2], apart[-1]
 
 
-def eigenfunctions(folder, output):
-    meshes = [("fine", False), ("spectral_best_free_averaged_metric_relocated_by_sampled_600", True), ("Garland_Heckbert_plane_optimal_600", True)]
-    modes, width, height = modes_apart(folder), 210, 200
-    print("eigenfunctions", *modes)
-    picture = Image(width * len(modes), height * len(meshes))
-    for j, (name, wire) in enumerate(meshes):
-        mesh = read_ply(os.path.join(folder, "col", name + ".ply"))
-        for i, mode in enumerate(modes):
-            picture.paste(render(mesh, f"eigenvector_{mode}", (2 * width, 2 * height), wire), i * width, j * height)
-    picture.write(os.path.join(output, "eigenfunctions.png"))
+# The mesh in a PLY file with a mode of it, as data for an SVG.
+def pictured(path, mode, side, wire):
+    picture = path[:-len(".ply")] + ".png"
+    render(read_ply(path), f"eigenvector_{mode}", (2 * side, 2 * side), wire).write(picture)
+    with open(picture, "rb") as file:
+        return "data:image/png;base64," + base64.b64encode(file.read()).decode()
+
+
+# Meshes side by side, (PLY file, what stands above it, the row of its figures or none).
+def strip(folder, output, columns):
+    mode, side, body = modes_apart(folder)[1], 200, ""
+    for i, (path, title, row) in enumerate(columns):
+        x = 10 + (side + 10) * i
+        body += text(x + side / 2, 16, title) + f'<image x="{x}" y="22" width="{side}" height="{side}" ' \
+            f'xlink:href="{pictured(os.path.join(folder, path), mode, side, i > 0)}"/>\n'
+        if row:
+            body += text(x + side / 2, side + 38, f"|C|_L {norms(row)['norm_L']:.1f}, eigenvalues {100 * row['eigenvalue_error_mean']:.1f} % off")
+    with open(output, "w") as file:
+        file.write(svg(10 + (side + 10) * len(columns), side + 48, body))
+
+
+# What each step of the preset brings: the paper's metric, the shape term, relocation.
+def steps(folder, output):
+    wanted = [("spectral", "none", "the paper's metric"), ("spectral with shape term", "none", "with the shape term"),
+              ("spectral, best", "sampled", "relocated: the preset best")]
+    columns = [("col/fine.ply", "the input", None)]
+    for simplifier, relocation, title in wanted:
+        row = next(r for r in rows_of(folder) if r["simplifier"] == simplifier and r["placement"] == "free" and r["relocation"] == relocation)
+        columns.append((f"col/{re.sub('[^A-Za-z0-9]+', '_', name(row))}_600.ply", title, row))
+    strip(folder, os.path.join(output, "steps.svg"), columns)
+
+
+# K = 100 modes on fewer and fewer vertices.
+def sizes(folder, output):
+    with open(os.path.join(folder, "sizes.json")) as file:
+        rows = [r for r in json.load(file)["rows"] if r["simplifier"] == "spectral, best"]
+    stem = re.sub("[^A-Za-z0-9]+", "_", name(rows[0]))
+    strip(folder, os.path.join(output, "sizes.svg"), [("sizes/fine.ply", "the input", None)] + [
+        (f"sizes/{stem}_{r['vertices']}.ply", f"N = {r['vertices']}", r) for r in sorted(rows, key=lambda r: -r["vertices"])])
 
 
 # --- charts ----------------------------------------------------------------------------------------------------------
@@ -327,7 +350,8 @@ def main():
     os.makedirs(output, exist_ok=True)
     functional_maps(folder, output)
     teaser(folder, output)
-    eigenfunctions(folder, output)
+    steps(folder, output)
+    sizes(folder, output)
     curve(folder, output)
     timings(output)
 
