@@ -43,12 +43,6 @@ judged() { "$programs/spectral_compare" "$mesh" --quiet "$@" 2>"$prefix.complain
 # What spectral_compare says of a mesh, without its option and its folder.
 complaint() { sed "s/^spectral_compare: *//; s|'[^']*/|'|g; s/--rival[a-z-]* [^:]*: //; s/, or add --repair//; 1q" "$prefix.complained"; }
 
-# Judges the mesh $1 of a rival, with its P if it stands in $2.
-judge_mesh()
-{
-  judged --rival "$name=$1${2:+,$2}" --json "$prefix.json"
-}
-
 # Judges the operator of a rival: the mass $1 against that of INPUT in the masses $2, into $3.
 judge_operator()
 {
@@ -61,7 +55,7 @@ judge()
   if [ -s "$prefix.off" ]; then
     P=
     [ ! -s "$prefix.P.mtx" ] || P=$prefix.P.mtx
-    judge_mesh "$prefix.off" "$P" && return
+    judged --rival "$name=$prefix.off${P:+,$P}" --json "$prefix.json" && return
     complaint >"$prefix.note"
     judged --rival "$name=$prefix.off" --repair --json "$prefix.json" && return
   elif [ -s "$prefix.M.lumped.mtx" ]; then

@@ -10,10 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <vector>
-#include <numeric>
 
 namespace test_functional_map {
 
