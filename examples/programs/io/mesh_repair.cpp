@@ -139,13 +139,18 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
     faces.emplace_back(std::move(vertices), i);
   }
   std::sort(faces.begin(), faces.end());
+  constexpr std::size_t none = std::size_t(-1);
+  std::vector<std::size_t> fold_of(soup.polygons.size(), none); // of each polygon that lies on another
   std::vector<Vertices> folded;
   for(std::size_t i = 0, j; i < faces.size(); i = j) {
     bool differ = false;
     for(j = i + 1; j < faces.size() && faces[j].first == faces[i].first; ++j)
       differ = differ || turned[faces[j].second] != turned[faces[i].second];
-    if(differ)
-      folded.push_back(faces[i].first);
+    if(!differ)
+      continue;
+    for(std::size_t k = i; k < j; ++k)
+      fold_of[faces[k].second] = folded.size();
+    folded.push_back(faces[i].first);
   }
   if(folded.empty())
     return;
@@ -166,12 +171,10 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
     for(std::size_t i = 0; i < folded[f].size(); ++i)
       edges[sorted(ends(folded[f], i))].folded.push_back(f);
   double whole = 0;
-  for(const auto& [vertices, place] : faces) {
-    const Vertices& polygon = soup.polygons[place];
+  for(std::size_t f = 0; f < fold_of.size(); ++f) {
+    const Vertices& polygon = soup.polygons[f];
     whole += area(soup, polygon);
-    if(std::binary_search(folded.begin(), folded.end(), vertices))
-      continue;
-    for(std::size_t i = 0; i < polygon.size(); ++i) {
+    for(std::size_t i = 0; i < polygon.size() && fold_of[f] == none; ++i) {
       const auto e = ends(polygon, i);
       const auto found = edges.find(sorted(e));
       if(found != edges.end())
@@ -204,17 +207,13 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
       for(const std::size_t f : fin)
         goes[f] = true;
   }
-  const std::size_t before = soup.polygons.size();
-  soup.polygons.erase(std::remove_if(soup.polygons.begin(), soup.polygons.end(),
-                                     [&](const Vertices& polygon) {
-                                       const auto found = std::lower_bound(folded.begin(), folded.end(),
-                                                                           undirected(polygon).first);
-                                       return found != folded.end() && *found == undirected(polygon).first &&
-                                              goes[std::size_t(found - folded.begin())];
-                                     }),
-                      soup.polygons.end());
+  std::vector<Vertices> left;
+  for(std::size_t f = 0; f < fold_of.size(); ++f)
+    if(fold_of[f] == none || !goes[fold_of[f]])
+      left.push_back(std::move(soup.polygons[f]));
   const char* words = "faces removed that were folded onto each other"; // never one alone
-  log.add(words, words, before - soup.polygons.size());
+  log.add(words, words, soup.polygons.size() - left.size());
+  soup.polygons = std::move(left);
 }
 
 void clean(Exact_soup& soup, Repair_log& log)
