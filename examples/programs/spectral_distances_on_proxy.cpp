@@ -16,13 +16,13 @@
 #include "option_words.h"
 #include "report/html_report.h"
 #include "report/mesh_picture.h"
+#include "simplification.h"
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/spectral_distances.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <cmath>
 #include <cstdio>
@@ -162,7 +162,7 @@ Pair simplify(const Distance_arguments& a)
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
-  const SMS::Spectral_edge_collapse_result result = SMS::spectral_edge_collapse(mesh, N, options);
+  const SMS::Spectral_edge_collapse_result result = simplify_mesh(mesh, N, options);
   stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);

@@ -21,6 +21,7 @@
 #include "report/judgement.h"
 #include "report/plain_words.h"
 #include "report/shape_view.h"
+#include "simplification.h"
 #include "spectral_simplify_arguments.h"
 #include "spectral_simplify_report.h"
 
@@ -30,7 +31,7 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -545,7 +546,7 @@ int run(Arguments a)
   if(!a.no_evaluation || !a.prolongation.empty())
     meshes.fine = SG::mesh_matrices(mesh);
 
-  report.result = SMS::spectral_edge_collapse(mesh, target, options);
+  report.result = simplify_mesh(mesh, target, options);
   if(interrupted && a.on_interrupt != "write")
     throw SG::Cancelled();
   const std::vector<std::string> warnings =

@@ -14,7 +14,8 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 
 #include <nlohmann/json.hpp>
 

@@ -5,21 +5,18 @@
 #ifndef SPECTRAL_PYTHON_MESHES_H
 #define SPECTRAL_PYTHON_MESHES_H
 
-#include "../programs/io/polygon_soup.h"
+#include "../programs/io/mesh_io.h"
 #include "arguments.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 // The library speaks of a mesh; here there may be two.
 template <class Function>

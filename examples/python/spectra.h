@@ -14,7 +14,7 @@
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <algorithm>
 #include <memory>

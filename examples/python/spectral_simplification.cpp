@@ -14,12 +14,12 @@
 
 #include "../programs/option_words.h"
 #include "../programs/report/run_json.h"
+#include "../programs/simplification.h"
 #ifdef SPECTRAL_PYTHON_MATCH
 #include "match.h"
 #endif
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <pybind11/eval.h>
 #include <pybind11/stl.h>
@@ -209,7 +209,7 @@ Simplification simplify(const Arguments& a)
   Run run = watch.run([&] {
     Run run;
     Mesh mesh = surface_mesh(*fine);
-    run.result = SMS::spectral_edge_collapse(mesh, std::size_t(n), options);
+    run.result = simplify_mesh(mesh, std::size_t(n), options);
     run.coarse = SG::mesh_matrices(mesh);
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
       run.op = std::make_shared<SG::Laplace_operator>(operator_of(*fine, options, "V, F"));

@@ -9,6 +9,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include "../simplification.h"
 #include "coarse_mesh.h"
 
 #include <CGAL/Real_timer.h>
@@ -21,10 +22,9 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -116,7 +116,7 @@ Coarse_mesh simplify_spectrally(const Mesh& fine, std::size_t N, const Options& 
   Mesh mesh = fine;
   CGAL::Real_timer timer;
   timer.start();
-  result.carried = SMS::spectral_edge_collapse(mesh, N, options).restriction;
+  result.carried = simplify_mesh(mesh, N, options).restriction;
   result.seconds = timer.time();
   result.note = note_on_size(mesh, N);
   // Without garbage, in the order of P; collect_garbage() has an order of its own.
@@ -189,12 +189,14 @@ std::vector<Simplifier> spectral_simplifiers(const Mesh& fine, const Basis& basi
 
 Basis spectral_basis(const Mesh& fine, Eigen::Index K, SG::Mass mass)
 {
-  Mesh mesh = fine;
   SMS::Spectral_options options;
   options.number_of_eigenvectors = K;
   options.mass = mass;
-  const SMS::Spectral_policies<Mesh> policies(mesh, options);
-  return {mass, policies.eigenpairs(), policies.state().seconds_basis()};
+  CGAL::Real_timer timer;
+  timer.start();
+  const SG::Mesh_matrices matrices = SG::mesh_matrices(fine);
+  auto pairs = SMS::internal::spectral_basis(matrices.V, matrices.T, options).eigenpairs;
+  return {mass, std::move(pairs), timer.time()};
 }
 
 std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases, int threads)

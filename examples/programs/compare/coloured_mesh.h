@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_COMPARE_COLOURED_MESH_H
 
 #include "../io/mesh_io.h"
+#include "../io/output_files.h"
 #include "../report/png_image.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>

@@ -9,6 +9,8 @@
 
 #include "mesh_repair.h"
 
+#include "silence.h"
+
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -5,6 +5,7 @@
 #include "proxy.h"
 
 #include "../compare/heaviest_vertices.h"
+#include "../simplification.h"
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
@@ -12,7 +13,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, s
   pairs.vectors /= std::sqrt(fine.area);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
   options.progress = [&](const SMS::Spectral_progress&) { return keep_going(); };
-  const auto result = SMS::spectral_edge_collapse(mesh, vertices, options);
+  const auto result = simplify_mesh(mesh, vertices, options);
   if(!result.explanation.empty() && keep_going())
     throw std::runtime_error(result.explanation);
   proxy.vertex_map = result.vertex_map;

@@ -7,7 +7,8 @@
 
 #include "json_text.h"
 
-#include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 
 #include <nlohmann/json.hpp>
 

@@ -14,6 +14,7 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 
 #include <CGAL/Spectral_geometry/internal/closest_point_interpolation_impl.h>
 #include <CGAL/Spectral_geometry/internal/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/curvature_coefficients_impl.h>
 #include <CGAL/Spectral_geometry/internal/edge_flips_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
 #include <CGAL/Spectral_geometry/internal/fitted_operators_impl.h>

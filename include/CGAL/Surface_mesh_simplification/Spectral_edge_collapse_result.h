@@ -1,0 +1,116 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_RESULT_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_RESULT_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
+
+#include <CGAL/Spectral_geometry/Edge_flip_options.h>
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_geometry/local_operator.h>
+
+#include <Eigen/SparseCore>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+/// What `spectral_edge_collapse()` returns.
+struct Spectral_edge_collapse_result
+{
+  /// Why the loop ended.
+  enum class Stop_reason {
+    target_reached,  ///< the mesh has the number of vertices that was asked for
+    queue_exhausted, ///< no edge is left that may be collapsed; see `explanation`
+    cancelled,       ///< by the progress callback or `Spectral_options::cancel`
+    error_reached ///< one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
+  };
+
+  /// Candidates that were given up when their turn came, by cause. One edge may be counted several times:
+  /// it comes back whenever something near it has changed.
+  struct Refusals
+  {
+    std::size_t topology = 0; ///< CGAL's link condition and the like
+    std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;   ///< the `filter` named parameter
+    std::size_t placement =
+        0; ///< no position without a degenerate triangle, or without a crossing that is refused
+  };
+
+  std::size_t input_vertices = 0;  ///< number of vertices before
+  std::size_t output_vertices = 0; ///< and after
+  std::size_t collapses = 0;       ///< merges of two vertices, those of edges without length included
+  Stop_reason stop_reason = Stop_reason::target_reached; ///< why it stopped
+  /// one sentence if the run ended neither at the target nor at the error bound, else empty
+  std::string explanation;
+  std::vector<std::string> warnings; ///< one sentence each: what was done, but is not advised
+  Refusals refusals;                 ///< candidates that were given up, by cause
+  std::size_t evaluations = 0;       ///< how often an edge was costed
+
+  double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_edge_collapse_options::pre_simplify`
+  double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
+  double seconds_first_costs = 0;        ///< evaluating every edge once
+  double seconds_collapse = 0;           ///< first costs and the collapse loop
+  double seconds_flips = 0;              ///< wall seconds of `Spectral_edge_collapse_options::flips`
+  double seconds_relocation = 0;         ///< wall seconds of `Spectral_edge_collapse_options::relocate`
+  double seconds_operator_fit = 0;       ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
+  double seconds_total = 0;              ///< the whole call
+
+  std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
+  double E = 0;              ///< Eq. 2 of these signals, for the input scaled to unit area
+  double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
+
+  /// what `Spectral_edge_collapse_options::flips` did: vertices by their rows of P, E in the scale of the input
+  Spectral_geometry::Edge_flip_result flips;
+  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
+  Spectral_geometry::Relocation_result relocation;
+  /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P; empty where it was not asked
+  /// for, or failed, which a warning says
+  std::optional<Spectral_geometry::Operator_fit_result> fitted;
+
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input.
+  /// `Surface_mesh::collect_garbage()` changes that order: write or copy the mesh without it, which keeps the order, or
+  /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
+  Eigen::SparseMatrix<double> restriction;
+  std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
+  /// those of the operator of the coarse mesh, `Spectral_options::coefficients` merged by the collapses: means of what went into
+  /// a vertex, wherever relocation moves it, and the P that this brings reads functions off. Rows as in P; empty without
+  Spectral_geometry::Operator_coefficients coefficients;
+  /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
+  Collapse_log log;
+  /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input without
+  std::size_t pre_simplified_vertices = 0;
+  /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again; null with signals
+  /// of the user's
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
+
+  /// the reason in words
+  const char* stop_reason_name() const
+  {
+    return stop_reason == Stop_reason::target_reached    ? "target reached"
+           : stop_reason == Stop_reason::queue_exhausted ? "no collapsible edge left"
+           : stop_reason == Stop_reason::error_reached   ? "error bound reached"
+                                                         : "cancelled";
+  }
+};
+
+/// @}
+
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_RESULT_H
