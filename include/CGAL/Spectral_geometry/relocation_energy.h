@@ -31,7 +31,7 @@ The rows of the residual are combinations of few rows of F and Z,
 \f[ R_w = \sum_j B_{wj} Z_j - \sum_j L_{wj} (F_j - F_w), \f]
 j over w and its neighbours, so that \f$ \|R_w\|^2 \f$ is a quadratic form in 2 d + 1 coefficients, d the
 degree of w, whose matrix of inner products does not depend on V. It is computed once. After that a value
-or a gradient costs \f$ O(\sum_w d_w^2) \f$, whatever K is. The differences F_j - F_w keep the small
+or a gradient costs \f$ O(\sum_w d_w \min(d_w, K)) \f$: rows of more than K terms stay as they are. The differences F_j - F_w keep the small
 residual of smooth signals from being lost in the rounding of large inner products.
 
 The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each triangle into
@@ -92,7 +92,7 @@ public:
   const Eigen::VectorXd& values_by_vertex() const { return m_E; }
 
 private:
-  // The inner products of Z_w, Z_j and F_j - F_w, j over the neighbours.
+  // Of Z_w, Z_j and F_j - F_w, j over the neighbours, the inner products, or where there are more of them than signals the rows.
   void make_products(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
   {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> panel;
@@ -107,7 +107,10 @@ private:
         panel.row(1 + i) = Z.row(j);
         panel.row(1 + d + i) = F.row(j) - F.row(w);
       }
-      m_products[std::size_t(w)].noalias() = panel * panel.transpose();
+      if(2 * d + 1 > F.cols())
+        m_products[std::size_t(w)] = panel;
+      else
+        m_products[std::size_t(w)].noalias() = panel * panel.transpose();
     }
   }
 
@@ -125,7 +128,13 @@ private:
         m_coefficients(1 + i) = m_entries.B(row[std::size_t(i)].edge);
         m_coefficients(1 + d + i) = -m_entries.L(row[std::size_t(i)].edge);
       }
-      m_image.noalias() = m_products[std::size_t(w)] * m_coefficients;
+      const Eigen::MatrixXd& products = m_products[std::size_t(w)];
+      if(products.cols() == products.rows())
+        m_image.noalias() = products * m_coefficients;
+      else {
+        m_row.noalias() = products.transpose() * m_coefficients;
+        m_image.noalias() = products * m_row;
+      }
       const double mass = m_entries.mass(w);
       m_E(w) = m_coefficients.dot(m_image) / mass;
       if(derivatives == nullptr)
@@ -144,7 +153,7 @@ private:
   internal::Operator_geometry m_geometry;
   internal::Operator_geometry::Entries m_entries;
   std::vector<Eigen::MatrixXd> m_products;
-  Eigen::VectorXd m_E, m_coefficients, m_image;
+  Eigen::VectorXd m_E, m_coefficients, m_image, m_row;
 };
 
 /// @}
