@@ -283,11 +283,13 @@ def strip(folder, output, columns):
 def steps(folder, output):
     wanted = [("spectral", "none", "the paper's metric"), ("spectral with shape term", "none", "with the shape term"),
               ("spectral, best", "sampled", "relocated: the preset best")]
-    columns = [("col/fine.ply", "the input", None)]
+    columns, data = [("col/fine.ply", "the input", None)], []
     for simplifier, relocation, title in wanted:
         row = next(r for r in rows_of(folder) if r["simplifier"] == simplifier and r["placement"] == "free" and r["relocation"] == relocation)
         columns.append((f"col/{re.sub('[^A-Za-z0-9]+', '_', name(row))}_600.ply", title, row))
+        data.append(norms(row)["norm_L"])
     strip(folder, os.path.join(output, "steps.svg"), columns)
+    return data
 
 
 # K = 100 modes on fewer and fewer vertices.
@@ -561,14 +563,13 @@ def main():
     os.makedirs(output, exist_ok=True)
     functional_maps(folder, output)
     teaser(folder, output)
-    steps(folder, output)
     sizes(folder, output)
     modes(folder, output)
     curve(folder, output)
     scaling(output)
     degree(output)
     data = {"norms_over_n": [{"mass": mass, "line": line, "points": points} for (mass, line), points in lines_over_n(folder).items()],
-            "masses": masses(folder, output), "relocation": relocation(folder, output), "border": borders(folder, output)}
+            "steps": steps(folder, output), "masses": masses(folder, output), "relocation": relocation(folder, output), "border": borders(folder, output)}
     with open(os.path.join(HERE, "figures.json"), "w") as file:
         json.dump(data, file, indent=1)
         file.write("\n")

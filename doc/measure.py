@@ -38,13 +38,22 @@ QUOTED = [
     ("user_manual.md", r"nefertiti to 1,000 vertices takes ([\d.]+) s from file to file with best: ([\d.]+) s of it for the eigenpairs, ([\d.]+) s for\s+"
      r"the collapses and ([\d.]+) s for relocation",
      tuple("measured.nefertiti.best." + key for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation"))),
-    ("user_manual.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000 vertices\s+to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
-    ("user_manual.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100,\s+([\d.]+) s of them for the eigenpairs; with K = 400 "
-     r"([\d.]+) s, ([\d.]+) of them for the\s+eigenpairs, and ([\d.]+) GB",
+    ("user_manual.md", r"A collapse takes ([\d.]+) to ([\d.]+) times as long as with Garland-Heckbert's", ("over_quadrics.least", "over_quadrics.most")),
+    ("user_manual.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000\s+vertices to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
+    ("user_manual.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100,\s+([\d.]+) s of them for the eigenpairs; with K = 400 it took "
+     r"([\d.]+) s, ([\d.]+) of them for the eigenpairs, and ([\d.]+) GB",
      tuple(f"scaling.998562.{K}.{key}" for K, keys in ((100, ("seconds_total", "gigabytes", "seconds_eigenpairs")),
                                                       (400, ("seconds_total", "seconds_eigenpairs", "gigabytes"))) for key in keys)),
     ("user_manual.md", r"lumped \| 5\.1 K²/N \| 0 \| ([\d.]+) \|\n\| averaged \| 2\.2 K³/N² \| 0\.52 K\^1\.5/N \| ([\d.]+) and ([\d.]+) \|",
      ("over_n.lumped.floor.600.L", "over_n.averaged.floor.600.L", "over_n.averaged.floor.600.D")),
+    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+), and relocation to ([\d.]+):", ("figures.steps.0", "figures.steps.1", "figures.steps.2")),
+    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+)\.\*", ("figures.relocation.before", "figures.relocation.after")),
+    ("user_manual.md", r"‖C‖_L of the preset best is ([\d.]+) to ([\d.]+) times that of isotropic\s+remeshing, whose even triangles are a good use of "
+     r"too few vertices, and ‖C‖_D ([\d.]+) to ([\d.]+) times; from there on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+)\s+times",
+     tuple(f"over_isotropic.{part}.{norm}.{end}" for part in ("below", "above") for norm in ("L", "D") for end in ("least", "most"))),
+    ("user_manual.md", r"by ([\d.]+) % in the mean; the averaged mass is off by\s+([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
+     r"([\d.]+) % with one on the edges", tuple("figures.masses." + key for key in ("lumped", "averaged", "lumped_fitted", "averaged_fitted"))),
+    ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
     ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
     ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
      ("results.mountain 768.best", "results.mountain 768.preserved")),
@@ -185,6 +194,15 @@ def data_of():
     for line in data["figures"]["norms_over_n"]:
         data["over_n"].setdefault(line["mass"], {})[line["line"]] = {
             str(point[0]): dict(zip(("L", "D", "percent"), point[1:])) for point in line["points"]}
+    over = [row["ratio_garland_heckbert"] for mesh in data["measured"].get("benchmark", {}).values() for row in mesh.values()]
+    data["over_quadrics"] = {"least": min(over), "most": max(over)}
+    data["border_loss"] = -data["figures"]["border"]["paper"]["area_percent"]
+    best, even = ([p for line in data["figures"]["norms_over_n"] if (line["mass"], line["line"]) == ("averaged", name) for p in line["points"]]
+                  for name in ("best", "isotropic"))
+    data["over_isotropic"] = {}
+    for part, wanted in (("below", lambda n: n < 300), ("above", lambda n: n >= 300)):
+        over = {norm: [a[k] / b[k] for a, b in zip(best, even) if wanted(a[0])] for k, norm in ((1, "L"), (2, "D"))}
+        data["over_isotropic"][part] = {norm: {"least": min(r), "most": max(r)} for norm, r in over.items()}
     for row in table_of("scaling.csv"):
         row.update(ratio=row["us_per_collapse"] / row["us_per_collapse_garland_heckbert"], gigabytes=row["peak_rss_mb"] / 1000)
         data["scaling"].setdefault(f"{row['vertices']:.0f}", {})[f"{row['eigenvectors']:.0f}"] = row

@@ -57,7 +57,7 @@ inline const char* style()
          "linear-gradient(90deg,#0000,#0003) 100% 0/12px 100% no-repeat scroll}"
          "td.n{white-space:normal;min-width:8em}"
          "td.n,th.l:first-child{position:sticky;left:0;background:#fff}"
-         "svg[role=img]{font-size:17px}.bars>svg[role=img]{max-width:none;flex:none;font-size:12px}"
+         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:none;font-size:12px}"
          ".legend{columns:1}.shapes{grid-template-columns:1fr}}"
          "@media print{#shape-controls{display:none}body{margin:0;max-width:none;font-size:10pt}"
          "table{font-size:7.5pt}th,td{padding:1px 4px}h2{break-after:avoid}"
