@@ -281,6 +281,7 @@ void measure_scaling(const Arguments& a)
     setting.paper = a.preset == "paper";
     setting.pre_simplify = a.pre_simplify;
     setting.all_in_metric = true; // the series is to show what K costs
+    setting.loop_alone = fans;    // and that of fans what their collapses cost
     for(const long K : numbers(a.scaling_eigenvectors)) {
       setting.eigenvectors = K;
       const double needed = estimated_memory(size.vertices, setting), available = available_memory();
