@@ -128,7 +128,10 @@ PARTS = {"demo": demo, "nefertiti": nefertiti,
 
 
 def measure(build, meshes, parts):
-    commit = subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty"], capture_output=True, text=True, check=True).stdout.strip()
+    # Parts measured one after the other change this file alone.
+    commit, changes = (subprocess.run(["git", "-C", HERE, *words], capture_output=True, text=True, check=True).stdout.strip()
+                       for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":!measured.json"]))
+    commit += "-dirty" if changes else ""
     with open(DATA) as file:
         data = json.load(file)
     for part in parts:
