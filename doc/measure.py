@@ -35,10 +35,13 @@ QUOTED = [
     ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\s+cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
      ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
     ("user_manual.md", r"What best costs: ([\d.]+) times the time of paper's", ("best_over_paper",)),
-    ("user_manual.md", r"nefertiti to 1,000 vertices takes ([\d.]+) s from file to file with best: ([\d.]+) s of it for the eigenpairs, ([\d.]+) s for\s+"
-     r"the collapses and ([\d.]+) s for relocation",
-     tuple("measured.nefertiti.best." + key for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation"))),
-    ("user_manual.md", r"A collapse takes ([\d.]+) to ([\d.]+) times as long as with Garland-Heckbert's", ("over_quadrics.least", "over_quadrics.most")),
+    ("user_manual.md", r"A collapse of rocker-arm takes ([\d.]+) µs,\s+first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
+     ("measured.benchmark.us_per_collapse", "measured.benchmark.ratio_garland_heckbert")),
+    ("user_manual.md", r"everything ([\d.]+) s and\s+([\d.]+) MB", ("measured.benchmark.seconds_total", "measured.benchmark.peak_rss_mb")),
+    ("user_manual.md", r"late cost keeps its old place in the queue and is evaluated when its turn comes: ([\d.]+) evaluations",
+     ("measured.benchmark.evaluations_per_collapse",)),
+    ("user_manual.md", r"takes ([\d,]+) µs with 1,000 neighbours, where Garland-Heckbert's takes ([\d,]+), and ([\d,]+) with 3,000, where that takes ([\d,]+)",
+     tuple(f"degree.{d}.{key}" for d in (1000, 3000) for key in ("us_per_collapse", "us_per_collapse_garland_heckbert"))),
     ("user_manual.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000\s+vertices to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
     ("user_manual.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100,\s+([\d.]+) s of them for the eigenpairs; with K = 400 it took "
      r"([\d.]+) s, ([\d.]+) of them for the eigenpairs, and ([\d.]+) GB",
@@ -65,12 +68,9 @@ TABLES = {"‖C‖_L, averaged, best": [f"over_n.averaged.best.{N}.L" for N in (
           "‖C‖_D, averaged, best": [f"over_n.averaged.best.{N}.D" for N in (100, 200, 300, 600, 1400)],
           "mean eigenvalue error, averaged, best": [f"over_n.averaged.best.{N}.percent" for N in (100, 200, 300, 600, 1400)],
           "‖C‖_L, lumped, policies": [f"over_n.lumped.policies.{N}.L" for N in (100, 200, 300, 600, 1400)]}
-for title, key in (("per collapse, first costs included, µs", "us_per_collapse"),
-                   ("the same for Garland-Heckbert (plane), µs", "us_per_collapse_garland_heckbert"),
-                   ("one of the first costs, with its preparation, µs", "us_per_evaluation"),
-                   ("evaluations for each collapse", "evaluations_per_collapse"), ("eigenpairs, block Lanczos, s", "seconds_eigenpairs"),
-                   ("everything, s", "seconds_total"), ("peak memory, MB", "peak_rss_mb")):
-    TABLES[title] = [f"measured.benchmark.{mesh}.{preset}.{key}" for mesh in ("rocker-arm", "nefertiti") for preset in ("best", "paper")]
+for title, key in (("from file to file", "seconds"), ("eigenpairs", "seconds_eigenpairs"), ("collapses", "seconds_collapse"),
+                   ("relocation", "seconds_relocation")):
+    TABLES[title] = [f"measured.nefertiti.{preset}.{key}" for preset in PRESETS]
 
 
 # --- measuring -------------------------------------------------------------------------------------------------------
@@ -112,19 +112,16 @@ def nefertiti(build, meshes):
                         for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")} for preset in PRESETS}}
 
 
-def benchmark(mesh, preset):
-    def measured(build, meshes):
-        with tempfile.TemporaryDirectory() as folder:
-            output = os.path.join(folder, "benchmark.json")
-            run([os.path.join(build, "test", "benchmark", "spectral_benchmark"), os.path.join(meshes, mesh + ".obj"), "--vertices", "1000",
-                 "--preset", preset, "--no-spectra", "--json", output])
-            with open(output) as file:
-                return json.load(file)[mesh + ".obj"]
-    return measured
+def benchmark(build, meshes):
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "benchmark.json")
+        run([os.path.join(build, "test", "benchmark", "spectral_benchmark"), os.path.join(meshes, "rocker-arm.obj"), "--vertices", "1000",
+             "--no-spectra", "--json", output])
+        with open(output) as file:
+            return json.load(file)["rocker-arm.obj"]
 
 
-PARTS = {"demo": demo, "nefertiti": nefertiti,
-         **{f"benchmark.{mesh}.{preset}": benchmark(mesh, preset) for mesh in ("rocker-arm", "nefertiti") for preset in ("best", "paper")}}
+PARTS = {"demo": demo, "nefertiti": nefertiti, "benchmark": benchmark}
 
 
 def measure(build, meshes, parts):
@@ -135,11 +132,7 @@ def measure(build, meshes, parts):
     with open(DATA) as file:
         data = json.load(file)
     for part in parts:
-        *path, last = part.split(".")
-        inner = data
-        for name in path:
-            inner = inner.setdefault(name, {})
-        inner[last] = {"commit": commit, "processors": os.cpu_count(), "machine": platform.machine(), **PARTS[part](os.path.abspath(build), meshes)}
+        data[part] = {"commit": commit, "processors": os.cpu_count(), "machine": platform.machine(), **PARTS[part](os.path.abspath(build), meshes)}
     with open(DATA, "w") as file:
         json.dump(data, file, indent=1)
         file.write("\n")
@@ -197,8 +190,7 @@ def data_of():
     for line in data["figures"]["norms_over_n"]:
         data["over_n"].setdefault(line["mass"], {})[line["line"]] = {
             str(point[0]): dict(zip(("L", "D", "percent"), point[1:])) for point in line["points"]}
-    over = [row["ratio_garland_heckbert"] for mesh in data["measured"].get("benchmark", {}).values() for row in mesh.values()]
-    data["over_quadrics"] = {"least": min(over), "most": max(over)}
+    data["degree"] = {f"{row['vertices'] - 1:.0f}": row for row in table_of("degree.csv")}
     data["border_loss"] = -data["figures"]["border"]["paper"]["area_percent"]
     best, even = ([p for line in data["figures"]["norms_over_n"] if (line["mass"], line["line"]) == ("averaged", name) for p in line["points"]]
                   for name in ("best", "isotropic"))
