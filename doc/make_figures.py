@@ -20,7 +20,7 @@ import subprocess
 import sys
 import zlib
 
-from charts import GREY, Axis, Curve, label, legend, panel, svg, text
+from charts import GREY, Axis, Curve, legend, panel, svg, text
 from make_results import name, norms
 
 HERE = os.path.dirname(os.path.abspath(__file__))
