@@ -4,10 +4,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # The numbers that README.md and user_manual.md quote:
-#   doc/measure.py BUILD NEFERTITI    measures them into measured.json, on a machine without other work
-#   doc/measure.py --check            stops at a number in the text that is not the one in measured.json
-# NEFERTITI is nefertiti.obj of common-3d-test-models, to 1,000 vertices three times with each preset.
+#   doc/measure.py BUILD FOLDER [PART...]  measures them, or parts of them, into measured.json, on a machine without other work
+#   doc/measure.py --check                 stops at a number in the text that is not the one of the data in this folder
+# FOLDER has nefertiti.obj and rocker-arm.obj of common-3d-test-models. The data are measured.json, figures.json (make_figures.py),
+# scaling.csv and degree.csv (spectral_benchmark --scaling), rivals.md and results.md.
 
+import csv
 import json
 import os
 import platform
@@ -25,16 +27,53 @@ DATA = os.path.join(HERE, "measured.json")
 PRESETS = ("best", "fast", "paper")
 # A file, what stands in it (a group for each number), and what the numbers are.
 QUOTED = [
-    ("../README.md", r"makes a shape of ([\d,]+) vertices, simplifies it to ([\d,]+), prints", ("demo.input_vertices", "demo.output_vertices")),
-    ("../README.md", r"\|C\|_L +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("demo.norm_L", "demo.floor_norm_L")),
-    ("../README.md", r"\|C\|_D +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("demo.norm_D", "demo.floor_norm_D")),
-    ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("demo.eigenvalue_error_percent",)),
-    ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\ncores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
-     ("nefertiti.vertices", "nefertiti.best.seconds", "nefertiti.fast.seconds", "nefertiti.paper.seconds")),
-    ("user_manual.md", r"nefertiti to 1,000 vertices takes ([\d.]+) s with best: ([\d.]+) s of it for the eigenpairs, ([\d.]+) s for the "
-     r"collapses and\n([\d.]+) s for relocation",
-     ("nefertiti.best.seconds", "nefertiti.best.seconds_eigenpairs", "nefertiti.best.seconds_collapse", "nefertiti.best.seconds_relocation")),
+    ("../README.md", r"makes a shape of ([\d,]+) vertices, simplifies it to ([\d,]+), prints",
+     ("measured.demo.input_vertices", "measured.demo.output_vertices")),
+    ("../README.md", r"\|C\|_L +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_L", "measured.demo.floor_norm_L")),
+    ("../README.md", r"\|C\|_D +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_D", "measured.demo.floor_norm_D")),
+    ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("measured.demo.eigenvalue_error_percent",)),
+    ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\s+cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
+     ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
+    ("user_manual.md", r"What best costs: ([\d.]+) times the time of paper's", ("best_over_paper",)),
+    ("user_manual.md", r"A collapse of rocker-arm takes ([\d.]+) µs,\s+first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
+     ("measured.benchmark.us_per_collapse", "measured.benchmark.ratio_garland_heckbert")),
+    ("user_manual.md", r"everything ([\d.]+) s and\s+([\d.]+) MB", ("measured.benchmark.seconds_total", "measured.benchmark.peak_rss_mb")),
+    ("user_manual.md", r"late cost keeps its old place in the queue and is evaluated when its turn comes: ([\d.]+) evaluations",
+     ("measured.benchmark.evaluations_per_collapse",)),
+    ("user_manual.md", r"takes ([\d,]+) µs with 1,000 neighbours, where Garland-Heckbert's takes ([\d,]+), and ([\d,]+) with 3,000, where that takes ([\d,]+)",
+     tuple(f"degree.{d}.{key}" for d in (1000, 3000) for key in ("us_per_collapse", "us_per_collapse_garland_heckbert"))),
+    ("user_manual.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000\s+vertices to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
+    ("user_manual.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100,\s+([\d.]+) s of them for the eigenpairs; with K = 400 it took "
+     r"([\d.]+) s, ([\d.]+) of them for the eigenpairs, and ([\d.]+) GB",
+     tuple(f"scaling.998562.{K}.{key}" for K, keys in ((100, ("seconds_total", "gigabytes", "seconds_eigenpairs")),
+                                                      (400, ("seconds_total", "seconds_eigenpairs", "gigabytes"))) for key in keys)),
+    ("user_manual.md", r"lumped \| 5\.1 K²/N \| 0 \| ([\d.]+) \|\n\| averaged \| 2\.2 K³/N² \| 0\.52 K\^1\.5/N \| ([\d.]+) and ([\d.]+) \|",
+     ("over_n.lumped.floor.600.L", "over_n.averaged.floor.600.L", "over_n.averaged.floor.600.D")),
+    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+), and relocation to ([\d.]+):", ("figures.steps.0", "figures.steps.1", "figures.steps.2")),
+    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+)\.\*", ("figures.relocation.before", "figures.relocation.after")),
+    ("user_manual.md", r"‖C‖_L of the preset best is ([\d.]+) to ([\d.]+) times that of isotropic\s+remeshing, whose even triangles are a good use of "
+     r"too few vertices, and ‖C‖_D ([\d.]+) to ([\d.]+) times; from there on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+)\s+times",
+     tuple(f"over_isotropic.{part}.{norm}.{end}" for part in ("below", "above") for norm in ("L", "D") for end in ("least", "most"))),
+    ("user_manual.md", r"by ([\d.]+) % in the mean; the averaged mass is off by\s+([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
+     r"([\d.]+) % with one on the edges", tuple("figures.masses." + key for key in ("lumped", "averaged", "lumped_fitted", "averaged_fitted"))),
+    ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
+    ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
+    ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
+     ("results.mountain 768.best", "results.mountain 768.preserved")),
+    ("user_manual.md", r"edges \|C\|_L falls to ([\d.]+) to ([\d.]+) times the mesh's own, \|C\|_D hardly at all: to ([\d.]+) to\s+([\d.]+) times",
+     ("fitted.0.least", "fitted.0.most", "fitted.1.least", "fitted.1.most")),
 ]
+# The tables of the manual, by the first cell of a row: what its other cells are.
+TABLES = {"‖C‖_L, averaged, best": [f"over_n.averaged.best.{N}.L" for N in (100, 200, 300, 600, 1400)],
+          "‖C‖_D, averaged, best": [f"over_n.averaged.best.{N}.D" for N in (100, 200, 300, 600, 1400)],
+          "mean eigenvalue error, averaged, best": [f"over_n.averaged.best.{N}.percent" for N in (100, 200, 300, 600, 1400)],
+          "‖C‖_L, lumped, policies": [f"over_n.lumped.policies.{N}.L" for N in (100, 200, 300, 600, 1400)]}
+for title, key in (("from file to file", "seconds"), ("eigenpairs", "seconds_eigenpairs"), ("collapses", "seconds_collapse"),
+                   ("relocation", "seconds_relocation")):
+    TABLES[title] = [f"measured.nefertiti.{preset}.{key}" for preset in PRESETS]
+
+
+# --- measuring -------------------------------------------------------------------------------------------------------
 
 
 def run(command):
@@ -43,66 +82,176 @@ def run(command):
     return time.time() - start
 
 
-def measured(build, nefertiti):
-    programs = os.path.join(os.path.abspath(build), "examples")
-    simplify = os.path.join(programs, "spectral_simplify")
+def simplified(build, *arguments):
     with tempfile.TemporaryDirectory() as folder:
-        shape, coarse, output = (os.path.join(folder, name) for name in ("shape.ply", "coarse.off", "run.json"))
+        output = os.path.join(folder, "run.json")
+        seconds = run([os.path.join(build, "examples", "spectral_simplify"), arguments[0], os.path.join(folder, "coarse.off"), *arguments[1:],
+                       "--quiet", "--json", output])
+        with open(output) as file:
+            return {**json.load(file), "seconds": seconds}
 
-        def result(*arguments):
-            seconds = run([simplify, *arguments, "--quiet", "--json", output])
-            with open(output) as file:
-                return {**json.load(file), "seconds": seconds}
 
-        run([os.path.join(programs, "make_demo_shape"), shape])
-        demo = result(shape, coarse, "--vertices", "3%")
-        data = {"demo": {**{key: demo[key] for key in ("input_vertices", "output_vertices", "norm_L", "norm_D", "floor_norm_L", "floor_norm_D")},
-                         "eigenvalue_error_percent": 100 * demo["eigenvalue_error_mean"]}, "nefertiti": {}}
-        runs = {preset: [] for preset in PRESETS}
-        for _ in range(3):
-            for preset in PRESETS:
-                runs[preset].append(result(nefertiti, coarse, "--vertices", "1000", "--preset", preset, "--no-evaluation"))
-        data["nefertiti"]["vertices"] = runs["best"][0]["input_vertices"]
+def demo(build, _):
+    with tempfile.TemporaryDirectory() as folder:
+        shape = os.path.join(folder, "shape.ply")
+        run([os.path.join(build, "examples", "make_demo_shape"), shape])
+        result = simplified(build, shape, "--vertices", "3%")
+    return {**{key: result[key] for key in ("input_vertices", "output_vertices", "norm_L", "norm_D", "floor_norm_L", "floor_norm_D")},
+            "eigenvalue_error_percent": 100 * result["eigenvalue_error_mean"]}
+
+
+# To 1,000 vertices three times with each preset.
+def nefertiti(build, meshes):
+    runs = {preset: [] for preset in PRESETS}
+    for _ in range(3):
         for preset in PRESETS:
-            data["nefertiti"][preset] = {key: statistics.median(r[key] for r in runs[preset])
-                                         for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")}
-    return {"commit": subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty"], capture_output=True, text=True, check=True).stdout.strip(),
-            "processors": os.cpu_count(), "machine": platform.machine(), **data}
+            runs[preset].append(simplified(build, os.path.join(meshes, "nefertiti.obj"), "--vertices", "1000", "--preset", preset,
+                                           "--no-evaluation"))
+    return {"vertices": runs["best"][0]["input_vertices"],
+            **{preset: {key: statistics.median(r[key] for r in runs[preset])
+                        for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")} for preset in PRESETS}}
+
+
+def benchmark(build, meshes):
+    with tempfile.TemporaryDirectory() as folder:
+        output = os.path.join(folder, "benchmark.json")
+        run([os.path.join(build, "test", "benchmark", "spectral_benchmark"), os.path.join(meshes, "rocker-arm.obj"), "--vertices", "1000",
+             "--no-spectra", "--json", output])
+        with open(output) as file:
+            return json.load(file)["rocker-arm.obj"]
+
+
+PARTS = {"demo": demo, "nefertiti": nefertiti, "benchmark": benchmark}
+
+
+def measure(build, meshes, parts):
+    # Parts measured one after the other change this file alone.
+    commit, changes = (subprocess.run(["git", "-C", HERE, *words], capture_output=True, text=True, check=True).stdout.strip()
+                       for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":!measured.json"]))
+    commit += "-dirty" if changes else ""
+    with open(DATA) as file:
+        data = json.load(file)
+    for part in parts:
+        data[part] = {"commit": commit, "processors": os.cpu_count(), "machine": platform.machine(), **PARTS[part](os.path.abspath(build), meshes)}
+    with open(DATA, "w") as file:
+        json.dump(data, file, indent=1)
+        file.write("\n")
+
+
+# --- checking --------------------------------------------------------------------------------------------------------
 
 
 # The number as it stands in the text, with as many digits.
 def written(value, quoted):
     digits = len(quoted.partition(".")[2])
-    return f"{value:,.{digits}f}"
+    return value if isinstance(value, str) else f"{value:,.{digits}f}"
 
 
 # The cells of each row of a table, without bold, by the first.
 def cells(table):
-    rows = [[cell.strip(" *") for cell in line.split("|")[1:-1]] for line in table.splitlines() if line.startswith("| ")]
+    rows = [[cell.strip(" *") for cell in re.split(r"(?<!\\)\|", line)[1:-1]] for line in table.splitlines() if line.startswith("| ")]
     return {row[0]: row[1:] for row in rows}
 
 
+def read(name):
+    with open(os.path.join(HERE, name)) as file:
+        return file.read()
+
+
+# |C|_L, |C|_D, error of the eigenvalues and of the biharmonic distance in a part of rivals.md: of the preset best and with fitted operators.
+def ours(part):
+    rows = cells(part)
+    # The tables of single meshes have a column with N before.
+    columns = [[row[i] for i in ((0, 1, 2, 4) if len(row) == 8 else (1, 2, 3, 5))]
+               for row in (rows["this package"], rows["the same, operators fitted"])]
+    return dict(zip(("own", "fitted"), columns))
+
+
+# Both masses of each part of rivals.md, by the name of the mesh and N, and the means.
+def rivals_by_mesh():
+    text, result = read("rivals.md"), {}
+    for title, part in re.findall(r"\n## ([^\n]*)\n(.*?)(?=\n## |\Z)", text, re.S):
+        mesh = re.fullmatch(r"([a-z-]+)\.[a-z]+, \d+ vertices, N = (\d+)", title)
+        if mesh:
+            averaged, lumped = part.split("Judged in the lumped mass:")
+            result[f"{mesh[1]}, {mesh[2]}"] = {"averaged": ours(averaged), "lumped": ours(lumped)}
+    means = {mass: ours(text.split(f"## Geometric means, judged in the {mass} mass")[1].split("\n## ")[0]) for mass in ("averaged", "lumped")}
+    return result, means
+
+
+def table_of(name):
+    with open(os.path.join(HERE, name), newline="") as file:
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+
+
+def data_of():
+    data = {"measured": json.loads(read("measured.json")), "figures": json.loads(read("figures.json")), "over_n": {}, "scaling": {}}
+    data["best_over_paper"] = data["measured"]["nefertiti"]["best"]["seconds"] / data["measured"]["nefertiti"]["paper"]["seconds"]
+    for line in data["figures"]["norms_over_n"]:
+        data["over_n"].setdefault(line["mass"], {})[line["line"]] = {
+            str(point[0]): dict(zip(("L", "D", "percent"), point[1:])) for point in line["points"]}
+    data["degree"] = {f"{row['vertices'] - 1:.0f}": row for row in table_of("degree.csv")}
+    data["border_loss"] = -data["figures"]["border"]["paper"]["area_percent"]
+    best, even = ([p for line in data["figures"]["norms_over_n"] if (line["mass"], line["line"]) == ("averaged", name) for p in line["points"]]
+                  for name in ("best", "isotropic"))
+    data["over_isotropic"] = {}
+    for part, wanted in (("below", lambda n: n < 300), ("above", lambda n: n >= 300)):
+        over = {norm: [a[k] / b[k] for a, b in zip(best, even) if wanted(a[0])] for k, norm in ((1, "L"), (2, "D"))}
+        data["over_isotropic"][part] = {norm: {"least": min(r), "most": max(r)} for norm, r in over.items()}
+    for row in table_of("scaling.csv"):
+        row.update(ratio=row["us_per_collapse"] / row["us_per_collapse_garland_heckbert"], gigabytes=row["peak_rss_mb"] / 1000)
+        data["scaling"].setdefault(f"{row['vertices']:.0f}", {})[f"{row['eigenvectors']:.0f}"] = row
+    meshes, data["rivals"] = rivals_by_mesh()
+    ratios = [[float(m["averaged"]["fitted"][k]) / float(m["averaged"]["own"][k]) for m in meshes.values()] for k in (0, 1)]
+    data["fitted"] = [{"least": min(r), "most": max(r)} for r in ratios]
+    norms = read("results.md").split("C_L, judged in the averaged mass:")[1].split("\n\n")[1]
+    titles, rows = cells(norms)["simplifier"], cells(norms)
+    data["results"] = {title: {"best": rows["spectral, best, free, averaged metric, relocated by sampled"][k],
+                               "preserved": rows["spectral, best, border preserved, free, averaged metric, relocated by sampled"][k]}
+                       for k, title in enumerate(titles)}
+    return data, meshes
+
+
 def check():
-    with open(DATA) as file:
-        data = json.load(file)
     wrong = []
+    data, meshes = data_of()
+
+    def value_of(key):
+        value = data
+        for part in key.split("."):
+            value = value[int(part) if isinstance(value, list) else part]
+        return value
+
+    def compare(name, quoted, key):
+        value = value_of(key)
+        if written(value, quoted) != quoted:
+            wrong.append(f"{name} says {quoted} for {key}, which is {value}")
+
     for name, pattern, keys in QUOTED:
-        with open(os.path.join(HERE, name)) as file:
-            found = re.search(pattern, file.read())
+        found = re.search(pattern, read(name))
         if not found:
             wrong.append(f"{name} does not say: {pattern}")
             continue
         for quoted, key in zip(found.groups(), keys):
-            value = data
-            for part in key.split("."):
-                value = value[part]
-            if written(value, quoted) != quoted:
-                wrong.append(f"{name} says {quoted} for {key}, which is {value}")
+            compare(name, quoted, key)
+    manual = read("user_manual.md")
+    rows = cells(manual)
+    for title, keys in TABLES.items():
+        if len(rows.get(title, [])) != len(keys):
+            wrong.append(f"user_manual.md has no row of {len(keys)} numbers '{title}'")
+            continue
+        for quoted, key in zip(rows[title], keys):
+            compare("user_manual.md", quoted.removesuffix(" %"), key)
+    # Its table of fitted operators is a part of rivals.md.
+    for title, both in list(meshes.items()) + [("geometric mean", data["rivals"])]:
+        wanted = [" / ".join(both[mass][which]) for mass in ("averaged", "lumped") for which in ("own", "fitted")]
+        if rows.get(title) != wanted:
+            wrong.append(f"user_manual.md and rivals.md differ in the row {title}: {' | '.join(wanted)}")
+    numbers = [int(n) for n in re.findall(r"^\*Figure (\d+)\. ", manual, re.M)]
+    if numbers != list(range(1, manual.count("](fig/") + 1)):
+        wrong.append(f"The figures of user_manual.md are numbered {numbers}")
     # The table of the README is a part of that of the averaged mass in rivals.md, and what it says of further meshes stands there.
-    with open(os.path.join(HERE, "rivals.md")) as file:
-        rivals = file.read()
-    with open(os.path.join(HERE, "..", "README.md")) as file:
-        readme = file.read()
+    rivals, readme = read("rivals.md"), read("../README.md")
     rows = cells(rivals.split("## Geometric means, judged in the averaged mass")[1].split("\n## ")[0])
     table = cells(readme.split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0])
     for name, title in SUMMARY.items():
@@ -118,12 +267,9 @@ def check():
 def main():
     if sys.argv[1:] == ["--check"]:
         check()
-    if len(sys.argv) != 3:
-        sys.exit("usage: measure.py BUILD NEFERTITI, or --check")
-    data = measured(*sys.argv[1:])
-    with open(DATA, "w") as file:
-        json.dump(data, file, indent=1)
-        file.write("\n")
+    if len(sys.argv) < 3 or not set(sys.argv[3:]) <= set(PARTS):
+        sys.exit("usage: measure.py BUILD FOLDER [PART...], or --check; parts: " + " ".join(PARTS))
+    measure(sys.argv[1], sys.argv[2], sys.argv[3:] or PARTS)
 
 
 if __name__ == "__main__":

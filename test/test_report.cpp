@@ -113,7 +113,8 @@ struct Two_meshes
     fine_pairs = SG::eigenpairs(L, K);
     coarse_pairs = SG::eigenpairs(coarse_L, K);
     Eigen::SparseMatrix<double> P(coarse.V.rows(), fine.V.rows());
-    P.setIdentity();
+    for(Eigen::Index v = 0; v < P.rows(); ++v)
+      P.insert(v, v) = 1;
     for(Eigen::Index k = 0; k < K; ++k)
       if(fine_pairs.vectors.col(k).head(162).dot(coarse_pairs.vectors.col(k)) > 0)
         coarse_pairs.vectors.col(k) *= -1;

@@ -302,16 +302,15 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
 {
   using namespace html_internal;
   const std::string name = std::filesystem::path(a.mesh).filename().string();
-  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-                     "<meta name='viewport' content='width=device-width'><title>Distances on a proxy: " +
-                     escaped(name) + "</title>\n<style>" + style() +
-                     "figure.wide{width:402px}figure.wide img{width:400px;height:290px;image-rendering:auto}"
-                     "</style></head><body>\n<h1>Spectral distances on a proxy: " +
-                     escaped(name) + "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) +
-                     " vertices, proxy " + std::to_string(pair.coarse.op.mass.size()) + " vertices, " +
-                     std::to_string(a.eigenvectors) + " eigenvectors, " + SG::mass_name(pair.mass) +
-                     " mass, operators: " + escaped(a.operators) + ", " + std::to_string(a.sources) +
-                     " sources. <code>" + escaped(a.command) + "</code></p>\n";
+  std::string html =
+      "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+      "<meta name='viewport' content='width=device-width'><title>Distances on a proxy: " +
+      escaped(name) + "</title>\n<style>" + style() +
+      "figure.wide{width:400px}</style></head><body>\n<h1>Spectral distances on a proxy: " + escaped(name) +
+      "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) + " vertices, proxy " +
+      std::to_string(pair.coarse.op.mass.size()) + " vertices, " + std::to_string(a.eigenvectors) +
+      " eigenvectors, " + SG::mass_name(pair.mass) + " mass, operators: " + escaped(a.operators) + ", " +
+      std::to_string(a.sources) + " sources. <code>" + escaped(a.command) + "</code></p>\n";
   html += "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
           heading_row({"distance", ways[0], ways[1], ways[2], "fine, s", "coarse, s", "speed-up"}, 1);
   for(const Distance_row& row : s.rows)

@@ -53,6 +53,7 @@ SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int
   options.threads = threads;
   if(setting.all_in_metric)
     options.metric_eigenvectors = setting.eigenvectors;
+  options.relocate = options.relocate && !setting.loop_alone;
   return options;
 }
 

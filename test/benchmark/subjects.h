@@ -19,6 +19,7 @@ struct Setting
   std::size_t pre_simplify = 0;
   bool paper = false;         // the preset
   bool all_in_metric = false; // all eigenvectors, however few vertices remain
+  bool loop_alone = false;    // no relocation afterwards
 };
 
 struct Mesh_size

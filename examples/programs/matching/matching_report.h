@@ -152,9 +152,8 @@ inline std::string matching_page(const Matching_comparison& c)
   std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
                      "<meta name='viewport' content='width=device-width'><title>Matching " +
                      escaped(c.X) + " and " + escaped(c.Y) + "</title>\n<style>" + html_internal::style() +
-                     "figure.wide{width:462px}figure.wide img{width:460px;height:330px;image-rendering:auto}"
-                     "</style></head><body>\n<h1>Matching of " +
-                     escaped(c.X) + " and " + escaped(c.Y) + "</h1>\n<table>\n";
+                     "</style></head><body>\n<h1>Matching of " + escaped(c.X) + " and " + escaped(c.Y) +
+                     "</h1>\n<table>\n";
   const auto fact = [&](const std::string& name, const std::string& value) {
     html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
   };

@@ -107,7 +107,7 @@ inline std::string norm_bars(const Comparison& c, const std::string& mass)
     L.label = "|C|_L (unit area)";
     D.title = "Orthonormality" + at;
     D.label = "|C|_D (unit area)";
-    html += "<div class='figures'>" + svg(L) + svg(D) + "</div>\n";
+    html += "<div class='figures bars'>" + svg(L) + svg(D) + "</div>\n";
   }
   return html;
 }

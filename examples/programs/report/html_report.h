@@ -33,8 +33,11 @@ inline const char* style()
          "th.l,td.l{text-align:left}tr.floor td{font-style:italic;border-bottom:1.5px solid #999}"
          "td.n{white-space:nowrap}td.best{font-weight:bold}"
          ".figures{display:flex;flex-wrap:wrap;gap:14px 18px;align-items:flex-start}"
-         "figure{margin:0;width:190px;break-inside:avoid}figcaption{font-size:12.5px;line-height:1.35}"
+         "figure{margin:0;width:190px;max-width:100%;break-inside:avoid}"
+         "figcaption{font-size:12.5px;line-height:1.35}"
          "figure img{width:188px;height:188px;border:1px solid #999;image-rendering:pixelated;display:block}"
+         "figure.wide{width:460px}"
+         "figure.wide img{box-sizing:border-box;width:100%;height:auto;image-rendering:auto}"
          ".legend{max-width:none;columns:3;column-gap:2em;font-size:13px;list-style:none;padding:0;margin:."
          "4em 0}"
          ".legend li{break-inside:avoid;display:block}.legend svg{vertical-align:middle;margin-right:.5em}"
@@ -48,7 +51,13 @@ inline const char* style()
          ".scale{max-width:36em;margin:.6em 0;font-size:13px}#shape-bar{height:14px;border:1px solid #999}"
          "#shape-ticks{display:flex}#shape-ticks span{flex:1}#shape-ticks span+span{text-align:center}"
          "#shape-ticks span+span+span{text-align:right}"
-         "@media(max-width:700px){body{margin:1em auto;padding:0 .8em}table{display:block;overflow-x:auto}"
+         "@media(max-width:700px){body{margin:1em auto;padding:0 .8em}table{display:block}"
+         "table,.bars{overflow-x:auto;"
+         "background:linear-gradient(90deg,#fff0,#fff 60%) 100% 0/40px 100% no-repeat local,"
+         "linear-gradient(90deg,#0000,#0003) 100% 0/12px 100% no-repeat scroll}"
+         "td.n{white-space:normal;min-width:8em}"
+         "td.n,th.l:first-child{position:sticky;left:0;background:#fff}"
+         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:none;font-size:12px}"
          ".legend{columns:1}.shapes{grid-template-columns:1fr}}"
          "@media print{#shape-controls{display:none}body{margin:0;max-width:none;font-size:10pt}"
          "table{font-size:7.5pt}th,td{padding:1px 4px}h2{break-after:avoid}"
@@ -269,7 +278,8 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
     html += "<p class='note'>" + escaped(note) + "</p>\n";
   for(const Fine_spectrum& f : c.fine) {
     html += "<h2>Judged in the " + escaped(f.mass) + " mass</h2>\n" + spectrum_tables(c, f.mass);
-    html += "<h3>Norms (dashed: ideal linear elements)</h3>\n" + norm_bars(c, f.mass);
+    if(c.results.size() > 1)
+      html += "<h3>Norms (dashed: ideal linear elements)</h3>\n" + norm_bars(c, f.mass);
     html += "<h3>Functional maps</h3>\n" + functional_maps(c, f.mass);
     html += "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) + eigenvalue_plots(c, f);
     if(sizes(c).size() > 1)
