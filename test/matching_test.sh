@@ -25,6 +25,8 @@ refuses "more modes than vertices" "and --eigenvectors, which is 100" X.off Y.of
 refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
 refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --output map.txt --operators own
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
+refuses "an unknown matcher" "'icp', it must be product_manifold_filter or bcicp" X.off Y.off --output map.txt --matcher icp
+refuses "BCICP without a proxy" "and --proxy has 'none'" X.off Y.off --output map.txt --matcher bcicp --proxy spectral,none
 echo "1 2 3" >three.txt
 echo "1" >one.txt
 refuses "landmarks of three vertices" "'1 2 3' in line 1" X.off Y.off --output map.txt --landmarks three.txt
@@ -65,6 +67,12 @@ done
 "$program" X.off Y.off --vertices 15% --eigenvectors 50 --fine-iterations 0 --preset paper --mass voronoi --ground-truth truth.txt \
   --output paper.txt >said 2>complained || fail "--preset paper: $(cat complained)"
 awk '$1 == "spectral" { exit !($(NF - 2) < 0.1) }' said || fail "--preset paper: $(cat said)"
+# So does the other matcher, by another map.
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --fine-iterations 0 --matcher bcicp --ground-truth truth.txt \
+  --output bcicp.txt --report bcicp.html >said 2>complained || fail "--matcher bcicp: $(cat complained)"
+awk '$1 == "spectral" { exit !($(NF - 2) < 0.1) }' said || fail "--matcher bcicp: $(cat said)"
+grep -q ">bcicp<" bcicp.html || fail "the page does not name the matcher"
+cmp -s fitted.txt bcicp.txt && fail "--matcher makes no difference"
 cmp -s fitted.txt mesh.txt && fail "--operators makes no difference"
 
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"

@@ -394,16 +394,20 @@ class Results(Shapes):
         try:
             found = ss.match(V, F, V[order], place[F], 150, 30, fine_iterations=10)
             own = ss.match(V, F, V[order], place[F], 150, 30, fine_iterations=10, operators="mesh")
+            bcicp = ss.match(V, F, V[order], place[F], 150, 30, fine_iterations=10, matcher="bcicp")
         except RuntimeError as error:
             self.assertRegex(str(error), "LEMON was not found")
             self.skipTest("LEMON was not found")
         self.assertGreater(np.mean(order[found.map] == np.arange(len(V))), 0.9)
+        self.assertGreater(np.mean(order[bcicp.map] == np.arange(len(V))), 0.9)
         self.assertEqual(found.C.shape, (30, 30))
         self.assertNotEqual(found.condition, own.condition)
         with self.assertRaises(ss.Cancelled):
             ss.match(V, F, V, F, 150, 30, progress=lambda phase, _: phase != "proxies")
         with self.assertRaisesRegex(ValueError, r"landmarks\[1, 1\] is 9999, but VY has 642 vertices"):
             ss.match(V, F, V, F, 150, 30, landmarks=[[0, 0], [1, 9999]])
+        with self.assertRaisesRegex(ValueError, "matcher is 'bcicp'.* proxy is 'none'"):
+            ss.match(V, F, V, F, 150, 30, matcher="bcicp", proxy="none")
 
 
 class Control(Shapes):

@@ -69,6 +69,7 @@ public:
     c.X = std::filesystem::path(m_arguments.X).filename().string();
     c.Y = std::filesystem::path(m_arguments.Y).filename().string();
     c.mass = SG::mass_name(m_options.mass);
+    c.matcher = m_arguments.matcher;
     c.modes = m_arguments.eigenvectors;
     c.landmarks = m_landmarks.size();
     c.shape_X = &m_shape_X;
@@ -125,6 +126,7 @@ private:
   Matching_result match(Proxy_kind kind) const
   {
     Matching_options options;
+    options.matcher = m_arguments.matcher == "bcicp" ? Matcher::bcicp : Matcher::product_manifold_filter;
     options.initial_modes = m_arguments.initial_modes;
     options.modes = m_arguments.eigenvectors;
     options.filter_iterations = static_cast<int>(m_arguments.filter_iterations);

@@ -234,11 +234,11 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
 
 def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
           mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
-          operators: str = 'fitted', initial: int = 20,
+          operators: str = 'fitted', initial: int = 20, matcher: str = 'product_manifold_filter',
           filter_iterations: int = 5, fine_iterations: int = 18, local_weight: float = 4, threads: int | None = None,
           progress: Progress | None = None) -> 'Match':
     """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
-    simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter.
+    simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter or BCICP.
 
     VX, FX, VY, FY
                two meshes, nearly isometric, as of simplify()
@@ -249,8 +249,9 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
     proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
     operators  'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own
     initial    modes of the functional map from signatures, from 4 to 60
+    matcher    'product_manifold_filter' or 'bcicp' (Ren et al. 2018): what makes the map between the simplified meshes bijective
     filter_iterations
-               of the Product Manifold Filter; 0: none
+               of the matcher; 0: none
     fine_iterations
                of bending X onto Y in space, at the end; 0: none
     local_weight

@@ -32,6 +32,9 @@ inline Matched match(const Arguments& a)
   SMS::Spectral_edge_collapse_options simplification;
   simplification.mass = a.mass();
   Matching_options options;
+  options.matcher = a.word("matcher", {"product_manifold_filter", "bcicp"}) == "bcicp"
+                        ? Matcher::bcicp
+                        : Matcher::product_manifold_filter;
   options.modes = a.integer("k", 10, n, ", which is n");
   options.initial_modes = a.integer("initial", 4, 60);
   options.filter_iterations = int(a.integer("filter_iterations", 0, 1000));
@@ -39,6 +42,8 @@ inline Matched match(const Arguments& a)
   options.local_weight = a.number("local_weight", 0, true, 100);
   options.threads = a.threads();
   const std::string proxy = a.word("proxy", {"spectral", "garland_heckbert", "none"});
+  if(options.matcher == Matcher::bcicp && proxy == "none")
+    refuse("matcher is 'bcicp', which refines the match of simplified meshes, and proxy is 'none'.");
   const auto operators =
       a.word("operators", {"fitted", "mesh"}) == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
   Landmarks landmarks;

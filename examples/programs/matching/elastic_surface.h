@@ -58,13 +58,17 @@ public:
     return Eigen::MatrixXd(solver.solve(right)).transpose();
   }
 
-  // The rotation of each vertex that takes its edges at rest nearest to those of P, one column per vertex.
-  void fit_rotations(const Eigen::MatrixXd& P)
+  // The rotation of each vertex that takes its edges at rest nearest to those of P, one column per vertex, and with `likeness` also to
+  // where the last rotations of its neighbours take them (Levi and Gotsman 2015): shells then resist twists.
+  void fit_rotations(const Eigen::MatrixXd& P, double likeness = 0)
   {
     for(Eigen::Index i = 0; i < P.cols(); ++i) {
       Eigen::Matrix3d S = Eigen::Matrix3d::Zero();
-      for(Eigen::SparseMatrix<double>::InnerIterator it(m_weights, i); it; ++it)
-        S += it.value() * (P.col(i) - P.col(it.row())) * (m_rest.V.row(i) - m_rest.V.row(it.row()));
+      for(Eigen::SparseMatrix<double>::InnerIterator it(m_weights, i); it; ++it) {
+        const Eigen::RowVector3d edge = m_rest.V.row(i) - m_rest.V.row(it.row());
+        S += it.value() * (P.col(i) - P.col(it.row())) * edge;
+        S += likeness * it.value() * edge.squaredNorm() * m_rotations[static_cast<std::size_t>(it.row())];
+      }
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
       Eigen::Matrix3d U = svd.matrixU();
       if((U * svd.matrixV().transpose()).determinant() < 0)

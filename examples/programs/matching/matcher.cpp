@@ -4,6 +4,7 @@
 
 #include "matcher.h"
 
+#include "bcicp.h"
 #include "linear_assignment.h"
 #include "registration.h"
 #include "starts.h"
@@ -24,8 +25,8 @@ namespace SG = CGAL::Spectral_geometry;
 namespace {
 
 // Permutations of largest score under ever narrower kernels.
-Eigen::MatrixXd filtered(Eigen::MatrixXd C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
-                         const Matching_options& options, const Keep_going& keep_going)
+Eigen::MatrixXd of_permutations(Eigen::MatrixXd C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
+                                const Matching_options& options, const Keep_going& keep_going)
 {
   // From a twentieth of the shape to the distance of neighbouring vertices.
   const double widest = 0.05 * 0.05 / 2, narrowest = 0.5 / static_cast<double>(X.op.B.rows()) / 2;
@@ -38,11 +39,34 @@ Eigen::MatrixXd filtered(Eigen::MatrixXd C, const SG::Spectral_shape& X, const S
     C = SG::functional_map_of_vertex_map(Y.pairs.vectors.leftCols(C.cols()),
                                          X.pairs.vectors.leftCols(C.rows()), X.op.B, permutation);
   }
-  // Its bijection rounds to vertices, which costs the upper modes: up-sample once more.
+  return C;
+}
+
+Eigen::MatrixXd of_bcicp(const Eigen::MatrixXd& C, const Shape& X, const Shape& Y,
+                         const Matching_options& options, const Keep_going& keep_going)
+{
+  const SG::Spectral_shape &x = X.spectral, &y = Y.spectral;
+  const Eigen::MatrixXd phi = x.pairs.vectors.leftCols(C.rows()), psi = y.pairs.vectors.leftCols(C.cols());
+  const Vertex_maps maps =
+      bcicp(X, Y, {SG::target_to_source_map(C, psi, phi), SG::target_to_source_map(C.transpose(), phi, psi)},
+            C.rows(), options.filter_iterations, options.threads, keep_going);
+  return (SG::functional_map_of_vertex_map(psi, phi, x.op.B, maps.X_to_Y) +
+          SG::functional_map_of_vertex_map(phi, psi, y.op.B, maps.Y_to_X).transpose()) /
+         2;
+}
+
+Eigen::MatrixXd filtered(Eigen::MatrixXd C, const Shape& X, const Shape& Y, const Matching_options& options,
+                         const Keep_going& keep_going)
+{
+  if(options.filter_iterations == 0)
+    return C;
+  C = options.matcher == Matcher::bcicp
+          ? of_bcicp(C, X, Y, options, keep_going)
+          : of_permutations(std::move(C), X.spectral, Y.spectral, options, keep_going);
+  // A bijection rounds to vertices, which costs the upper modes: up-sample once more.
   const Eigen::Index half = C.rows() / 2;
-  return options.filter_iterations > 0 ? SG::zoom_out(C.topLeftCorner(half, half), Y, X, C.rows(),
-                                                      2 * options.zoom_step, options.threads)
-                                       : C;
+  return SG::zoom_out(C.topLeftCorner(half, half), Y.spectral, X.spectral, C.rows(), 2 * options.zoom_step,
+                      options.threads);
 }
 
 // One step of ZoomOut between the levels, from the map C of fine Y to fine X to k modes: the vertices of the coarse X look
@@ -109,7 +133,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
                                   coarse_Y.vertex_map[static_cast<std::size_t>(y)]);
   const SG::Spectral_shape &x = coarse_X.shape.spectral, &y = coarse_Y.shape.spectral;
   Eigen::MatrixXd C = map_of_many_starts(x, y, coarse_landmarks, options, keep_going);
-  C = filtered(std::move(C), x, y, options, keep_going);
+  C = filtered(std::move(C), coarse_X.shape, coarse_Y.shape, options, keep_going);
   match.seconds_coarse = timer.time();
 
   timer.reset();

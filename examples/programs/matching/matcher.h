@@ -13,12 +13,16 @@
 #include <utility>
 #include <vector>
 
+// What makes the map between the proxies a bijection, as nearly as it can: linear assignments (Vestner et al. 2017), or bcicp().
+enum class Matcher { product_manifold_filter, bcicp };
+
 struct Matching_options
 {
+  Matcher matcher = Matcher::product_manifold_filter;
   Eigen::Index initial_modes = 20; // of the map from descriptors
   Eigen::Index modes = 100;        // of the maps after up-sampling
   Eigen::Index zoom_step = 4;
-  int filter_iterations = 5; // of the Product Manifold Filter; 0: none
+  int filter_iterations = 5; // of the matcher; 0: none
   int fine_iterations = 18;  // of the registration in space; 0: none
   double local_weight = 4;   // of a band of curvature there, at most; 0: positions alone
   int threads = 1;

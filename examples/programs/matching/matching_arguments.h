@@ -25,9 +25,9 @@
 struct Matching_arguments
 {
   std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
-  std::string proxies = "spectral", preset = "best", mass,
-              operators = "fitted"; // mass empty: as the preset has it
-  std::string vertices = "600";     // as it was typed
+  std::string proxies = "spectral", preset = "best", mass, operators = "fitted",
+              matcher = "product_manifold_filter"; // mass empty: as the preset has it
+  std::string vertices = "600";                    // as it was typed
   Vertex_target target;
   long eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
   long samples = 300;
@@ -63,7 +63,8 @@ inline Command_line described(Matching_arguments& a)
       "shape_matching X Y --output map.txt [options]",
       "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both\n"
       "to the same number of vertices, matches these (functional map from signatures, ZoomOut, Product\n"
-      "Manifold Filter) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. 2020).");
+      "Manifold Filter or BCICP) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. "
+      "2020).");
   line.argument(a.X);
   line.argument(a.Y);
   line.group("Size");
@@ -88,15 +89,17 @@ inline Command_line described(Matching_arguments& a)
   line.flag("quiet", a.quiet, "no table");
   line.advanced_group("Stages of the match (advanced)");
   line.option("proxy", a.proxies, "NAME,...",
-              "how to simplify: spectral, garland_heckbert or none (no filter then); several are compared, "
+              "how to simplify: spectral, garland_heckbert or none (no matcher then); several are compared, "
               "the first is written");
   line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
               "of the simplified meshes: fitted to the spectra of X and Y, or their own");
   line.option("initial", a.initial_modes, "k", "modes of the functional map from signatures");
-  line.option("filter-iterations", a.filter_iterations, "I",
-              "of the Product Manifold Filter; 0 leaves it out");
+  line.choice("matcher", a.matcher, {"product_manifold_filter", "bcicp"},
+              "what makes the map between the simplified meshes bijective: assignments, or bijective and "
+              "continuous ICP (Ren et al. 2018)");
+  line.option("filter-iterations", a.filter_iterations, "I", "of the matcher; 0 leaves it out");
   line.option("fine-iterations", a.fine_iterations, "I",
               "of bending X onto Y in space, at the end; 0 leaves it out");
   line.option("local-weight", a.local_weight, "w", "of curvature in these, at most; 0: positions alone");
@@ -127,7 +130,10 @@ inline void check(const Matching_arguments& a)
   if(a.initial_modes > 60)
     throw std::runtime_error("--initial is " + std::to_string(a.initial_modes) +
                              ", it must be at most 60: memory grows with its fourth power.");
-  a.kinds();
+  const std::vector<Proxy_kind> kinds = a.kinds();
+  if(a.matcher == "bcicp" && std::find(kinds.begin(), kinds.end(), Proxy_kind::none) != kinds.end())
+    throw std::runtime_error(
+        "--matcher bcicp refines the match of simplified meshes, and --proxy has 'none'.");
 }
 
 } // namespace matching_arguments_internal

@@ -50,7 +50,7 @@ struct Matching_result
 
 struct Matching_comparison
 {
-  std::string command, X, Y, mass;
+  std::string command, X, Y, mass, matcher;
   long modes = 0;
   std::size_t landmarks = 0;
   const Shape *shape_X = nullptr, *shape_Y = nullptr;
@@ -160,6 +160,7 @@ inline std::string matching_page(const Matching_comparison& c)
   fact("X, Y", std::to_string(c.shape_X->matrices.V.rows()) + " and " +
                    std::to_string(c.shape_Y->matrices.V.rows()) + " vertices");
   fact("Eigenvectors, mass", std::to_string(c.modes) + ", " + escaped(c.mass));
+  fact("Matcher", escaped(c.matcher));
   fact("Landmarks", std::to_string(c.landmarks));
   fact("Command", "<code>" + escaped(c.command) + "</code>");
   html += "</table>\n<h2>Times and geodesic errors</h2>\n" + result_table(c);

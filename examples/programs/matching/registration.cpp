@@ -152,9 +152,9 @@ public:
 
   // Hardly any where the surfaces face opposite ways.
   void add(Eigen::Index i, const Eigen::Vector3d& normal, const Eigen::Vector3d& at,
-           const Eigen::Vector3d& at_normal, double stiffness)
+           const Eigen::Vector3d& at_normal, double stiffness, double along_surface = 0.3)
   {
-    constexpr double along_surface = 0.3, least_agreement = 0.01;
+    constexpr double least_agreement = 0.01;
     const double agreement = (std::max)(normal.dot(at_normal), least_agreement);
     const Eigen::Matrix3d spring = stiffness * agreement *
                                    ((1 - along_surface) * at_normal * at_normal.transpose() +
@@ -287,9 +287,11 @@ std::vector<Eigen::Index> Registration::refine(const Eigen::MatrixXd& C, int ite
   if(iterations == 0)
     return SG::target_to_source_map(C, psi, phi, m_threads);
 
-  // Where the modes put the control vertices, smoothed and then made as rigid as possible.
-  constexpr double smoothing_time = 1e-3, first_stiffness = 1e3;
-  constexpr int first_iterations = 10;
+  // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they are long. The surface is
+  // first drawn with both smoothed, which leaves limbs free to turn with what they grow out of, then at the vertices that face
+  // where their images do.
+  constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10;
+  constexpr int first_iterations = 20, second_iterations = 10;
   Elastic_surface elastic(m_X.control);
   const Eigen::Index n = m_X.control.V.rows();
   constexpr int settling_iterations = 8;
@@ -299,14 +301,25 @@ std::vector<Eigen::Index> Registration::refine(const Eigen::MatrixXd& C, int ite
   Eigen::MatrixXd targets(3, n);
   for(Eigen::Index i = 0; i < n; ++i)
     targets.col(i) = m_Y.V.col(images[static_cast<std::size_t>(i)]);
-  Eigen::MatrixXd P = elastic.smoothed(targets, m_X.areas / smoothing_time);
+  const Eigen::VectorXd smoothing = m_X.areas / smoothing_time,
+                        first_stiffnesses = first_stiffness * m_X.areas;
+  const Eigen::MatrixXd smooth_targets = elastic.smoothed(targets, smoothing);
+  Eigen::MatrixXd P = smooth_targets;
   Springs springs(n);
-  for(Eigen::Index i = 0; i < n; ++i) {
-    springs.D[static_cast<std::size_t>(i)] = first_stiffness * m_X.areas(i) * Eigen::Matrix3d::Identity();
-    springs.f.col(i) = first_stiffness * m_X.areas(i) * targets.col(i);
+  for(Eigen::Index i = 0; i < n; ++i)
+    springs.D[static_cast<std::size_t>(i)] = first_stiffnesses(i) * Eigen::Matrix3d::Identity();
+  for(int iteration = 0; iteration < first_iterations; ++iteration) {
+    elastic.fit_rotations(P, likeness);
+    springs.f = (smooth_targets + P - elastic.smoothed(P, smoothing)) * first_stiffnesses.asDiagonal();
+    P = elastic.solve(springs.D, springs.f);
   }
-  for(int i = 0; i < first_iterations; ++i) {
-    elastic.fit_rotations(P);
+  for(int iteration = 0; iteration < second_iterations; ++iteration) {
+    const Eigen::MatrixXd normals = vertex_normals(P, m_X.control.T);
+    springs = Springs(n);
+    for(Eigen::Index i = 0; i < n; ++i)
+      springs.add(i, normals.col(i), targets.col(i), m_Y.normals.col(images[static_cast<std::size_t>(i)]),
+                  second_stiffness * m_X.areas(i), 1.);
+    elastic.fit_rotations(P, likeness);
     P = elastic.solve(springs.D, springs.f);
   }
 
