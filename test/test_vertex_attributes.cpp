@@ -5,6 +5,7 @@
 // What mesh files have at their vertices beside positions: read, carried to a coarse mesh, and written.
 
 #include "../examples/programs/io/input_mesh.h"
+#include "../examples/programs/io/text_lines.h"
 #include "../examples/programs/io/texture_seams.h"
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
