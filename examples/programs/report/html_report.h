@@ -174,6 +174,14 @@ inline std::string spectrum_tables(const Comparison& c, const std::string& mass)
   return html;
 }
 
+inline std::string refused_rivals(const Comparison& c)
+{
+  std::string html = "<table>\n" + heading_row({"refused", "why"}, 2);
+  for(const Refused& r : c.refused)
+    html += "<tr>" + cell(escaped(r.name), "td", "l n") + cell(escaped(r.reason), "td", "l") + "</tr>\n";
+  return html + "</table>\n";
+}
+
 inline std::string shape_table(const Comparison& c)
 {
   return table(c, c.fine.front().mass,
@@ -265,6 +273,8 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
                      "</style></head><body>\n";
   html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
   html += facts(c);
+  if(!c.refused.empty())
+    html += refused_rivals(c);
   for(const std::string& note : all_notes(c))
     html += "<p class='note'>" + escaped(note) + "</p>\n";
   for(const Fine_spectrum& f : c.fine) {
