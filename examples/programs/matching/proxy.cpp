@@ -80,6 +80,33 @@ const char* proxy_name(Proxy_kind kind)
                                                 : "none";
 }
 
+Mesh mesh_of(const SG::Mesh_matrices& matrices)
+{
+  Mesh mesh;
+  for(Eigen::Index v = 0; v < matrices.V.rows(); ++v)
+    mesh.add_vertex(Kernel::Point_3(matrices.V(v, 0), matrices.V(v, 1), matrices.V(v, 2)));
+  const auto vertex = [](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
+  for(Eigen::Index t = 0; t < matrices.T.rows(); ++t)
+    mesh.add_face(vertex(matrices.T(t, 0)), vertex(matrices.T(t, 1)), vertex(matrices.T(t, 2)));
+  return mesh;
+}
+
+Reduced_mesh reduced_by_quadrics(Mesh mesh, const std::size_t vertices, const Eigen::Index modes,
+                                 const std::function<bool()>& keep_going)
+{
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = modes;
+  options.pre_simplify = vertices;
+  options.progress = [&](const SMS::Spectral_progress&) { return keep_going(); };
+  const SMS::internal::Pre_simplification first = SMS::internal::pre_simplify(
+      mesh, mesh.number_of_vertices(), vertices, options, CGAL::parameters::default_values());
+  Reduced_mesh result;
+  result.vertex_map = first.log.forest().vertex_map(first.slots);
+  result.mesh =
+      mesh_of(SG::mesh_matrices(mesh)); // without what was removed, in the order of the vertices left
+  return result;
+}
+
 Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going,
                  const std::function<void(SG::Laplace_operator&)>& fit)
 {
