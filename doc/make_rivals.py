@@ -82,7 +82,9 @@ def merge(folder, n):
     ours = loaded(os.path.join(folder, "ours.json"))
     if not ours:
         sys.exit(f"make_rivals.py: there are no results of our own in '{folder}'")
-    result = {**ours, "requested_vertices": n, "rivals": []}
+    order = list(OURS)
+    rows = sorted(ours["rows"], key=lambda r: order.index(r["simplifier"]) if r["simplifier"] in order else len(order))
+    result = {**ours, "rows": rows, "requested_vertices": n, "rivals": []}
     del result["command"]
     for row in result["rows"]:
         alone = {"spectral, best": "", "spectral, best, fitted operators": "fitted"}.get(row["simplifier"])
