@@ -5,21 +5,28 @@
 #
 # Makes the shapes, tables and pictures of applications.md:
 #   doc/make_applications.py BUILD [FOLDER]
+#   doc/make_applications.py --large BUILD [FOLDER]
 # BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
-# there. Pictures go to doc/fig, tables to standard output. Needs nothing but Python 3.
+# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, and writes
+# it into the page; where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
+# Needs nothing but Python 3.
 
 import base64
 import collections
+import json
 import math
 import os
 import random
 import re
+import shlex
 import struct
 import subprocess
 import sys
 import zlib
 
 from make_figures import Image
+from make_results import replace
+from make_spectra import machine
 
 PAIRS = [("walk", "walk.off", "walk.txt"), ("bend", "bend.off", "bend.txt"),
          ("wave 3", "wave3.off", "same.txt"), ("walk, other triangles", "other_walk.off", "other.txt"),
@@ -27,11 +34,11 @@ PAIRS = [("walk", "walk.off", "walk.txt"), ("bend", "bend.off", "bend.txt"),
          ("wave 2, other triangles", "other_wave2.off", "other.txt")]
 
 
-def run(build, folder, output, program, *arguments):
+def run(build, folder, output, program, *arguments, by=""):
     if os.path.exists(os.path.join(folder, output)):
         return
     program = os.path.abspath(os.path.join(build, "examples", program))
-    said = subprocess.run([program, *arguments], check=True, cwd=folder, stdout=subprocess.PIPE, text=True).stdout
+    said = subprocess.run([*shlex.split(by), program, *arguments], check=True, cwd=folder, stdout=subprocess.PIPE, text=True).stdout
     if output.endswith(".out"):
         with open(os.path.join(folder, output), "w") as file:
             file.write(said)
@@ -117,6 +124,43 @@ def run_all(build, folder):
         run(build, folder, f"fitted_{report_name(name)}.out", "shape_matching", "stand.off", Y, "--ground-truth", truth, "--output", "map.txt")
 
 
+# --- two scans of a million vertices -----------------------------------------------------------------------------------
+
+# Vertices, and what X and Y are reduced to first, or nothing.
+LARGE = [(100000, None), (100000, 30000), (1000000, 30000)]
+STAGES = ["reading", "reduction", "eigenpairs", "proxies", "matching", "lift"]
+
+
+def large(build, folder):
+    os.makedirs(folder, exist_ok=True)
+    lines = []
+    for vertices, reduced in LARGE:
+        X, Y, truth = (f"large-{vertices}{end}" for end in (".off", "-walk.off", "-truth.txt"))
+        run(build, folder, X, "make_demo_shape", X, "--vertices", str(vertices))
+        run(build, folder, Y, "make_demo_shape", Y, "--vertices", str(vertices), "--pose", "walk", "--shuffle", "7", "--map", truth)
+        stem = f"large-{vertices}-walk-{reduced or 'none'}"
+        arguments = [X, Y, "--output", stem + ".txt", "--quiet"] + (["--pre-simplify", str(reduced)] if reduced else [])
+        # Timed without the errors, which take longer than the match; on a million vertices many minutes and 4 GB.
+        run(build, folder, stem + "-time.json", "shape_matching", *arguments, "--json", stem + "-time.json", by=os.environ.get("RUN_BY", ""))
+        with open(os.path.join(folder, stem + "-time.json")) as file:
+            written = json.load(file)
+        errors = ["–"] * 3
+        if vertices <= 100000:
+            run(build, folder, stem + "-error.json", "shape_matching", *arguments, "--json", stem + "-error.json", "--ground-truth", truth,
+                "--samples", "100")
+            with open(os.path.join(folder, stem + "-error.json")) as file:
+                result = json.load(file)["results"][0]
+            errors = [f"{result['error_' + word]:.4f}" for word in ("mean", "90_percent", "max")]
+        timed = written["results"][0]
+        stages = {s["stage"]: s for s in timed["stages"]}
+        cells = [f"{stages[s]['seconds']:.1f} s, {stages[s]['peak_megabytes_so_far']:.0f} MB" if s in stages else "–" for s in STAGES]
+        lines.append("| " + " | ".join([f"{written['vertices_X']:,}", f"{reduced:,}" if reduced else "–", *cells, f"{timed['seconds']:.1f} s",
+                                        *errors]) + " |")
+    titles = ["vertices of X and Y", "reduced to", *STAGES, "total", "mean error", "90 %", "largest"]
+    table = [machine() + ".", "", "| " + " | ".join(titles) + " |", "|" + "---:|" * len(titles), *lines]
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "large", "\n".join(table) + "\n")
+
+
 # --- pictures out of the reports -------------------------------------------------------------------------------------
 
 
@@ -162,10 +206,14 @@ def curves(folder, report, path):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit("usage: make_applications.py BUILD [FOLDER]")
-    folder = os.path.abspath(sys.argv[2] if len(sys.argv) == 3 else os.path.join(sys.argv[1], "applications"))
-    run_all(sys.argv[1], folder)
+    words = [word for word in sys.argv[1:] if word != "--large"]
+    if len(words) not in (1, 2):
+        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER]")
+    folder = os.path.abspath(words[1] if len(words) == 2 else os.path.join(words[0], "applications"))
+    if "--large" in sys.argv:
+        large(words[0], folder)
+        return
+    run_all(words[0], folder)
     output = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fig")
     strip(images(folder, "bend_other.html")[:2], os.path.join(output, "matching.png"))
     curves(folder, "bend_other.html", os.path.join(output, "matching_errors.svg"))

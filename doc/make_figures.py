@@ -44,9 +44,8 @@ def run_all(build, folder):
     run(build, folder, "all.json", "spectral_compare", "shape.ply", "--vertices", "600", "--judge", "averaged",
         "--report", "all.html", "--coloured", "col", "--json", "all.json", "--quiet")
     sizes = ",".join(str(n) for n in SIZES)
-    for only, output in (("spectral", "curve.json"), ("isotropic", "curve_iso.json")):
-        run(build, folder, output, "spectral_compare", "shape.ply", "--vertices", sizes, "--only", only, "--judge",
-            "lumped,averaged", "--json", output, "--quiet")
+    run(build, folder, "curve.json", "spectral_compare", "shape.ply", "--vertices", sizes, "--only", "spectral", "--only", "isotropic",
+        "--judge", "lumped,averaged", "--json", "curve.json", "--quiet")
     run(build, folder, "sizes.json", "spectral_compare", "shape.ply", "--vertices", "150,300,2000", "--only", "spectral, best", "--judge",
         "averaged", "--coloured", "sizes", "--json", "sizes.json", "--quiet")
     run(build, folder, "masses.json", "spectral_compare", "shape.ply", "--vertices", "600", "--only", "spectral, best", "--judge",
@@ -396,19 +395,19 @@ def functional_maps(folder, output):
 # The norms over N: for each mass and line the points (N, |C|_L, |C|_D, error of the eigenvalues in percent).
 def lines_over_n(folder):
     lines = {}
-    for file_name, key in (("curve.json", "policies"), ("curve_iso.json", "isotropic")):
-        with open(os.path.join(folder, file_name)) as file:
-            for r in json.load(file)["rows"]:
-                if key == "policies" and (r["simplifier"] not in ("spectral, best", "spectral with shape term") or
-                                          r["placement"] != "free" or r["metric_mass"] != r["judged_mass"] or
-                                          r["relocation"] not in ("none", "sampled")):
-                    continue
-                line = "best" if r["relocation"] != "none" else key
-                lines.setdefault((r["judged_mass"], line), []).append(
-                    (r["vertices"], norms(r)["norm_L"], norms(r)["norm_D"], 100 * r["eigenvalue_error_mean"]))
-                if line == "policies":
-                    lines.setdefault((r["judged_mass"], "floor"), []).append(
-                        (r["requested_vertices"], r["floor_norm_L"], r["floor_norm_D"], None))
+    with open(os.path.join(folder, "curve.json")) as file:
+        for r in json.load(file)["rows"]:
+            key = "isotropic" if r["simplifier"] == "isotropic remeshing" else "policies"
+            if key == "policies" and (r["simplifier"] not in ("spectral, best", "spectral with shape term") or
+                                      r["placement"] != "free" or r["metric_mass"] != r["judged_mass"] or
+                                      r["relocation"] not in ("none", "sampled")):
+                continue
+            line = "best" if r["relocation"] != "none" else key
+            lines.setdefault((r["judged_mass"], line), []).append(
+                (r["vertices"], norms(r)["norm_L"], norms(r)["norm_D"], 100 * r["eigenvalue_error_mean"]))
+            if line == "policies":
+                lines.setdefault((r["judged_mass"], "floor"), []).append(
+                    (r["requested_vertices"], r["floor_norm_L"], r["floor_norm_D"], None))
     return {key: sorted(points) for key, points in lines.items()}
 
 

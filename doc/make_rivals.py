@@ -79,12 +79,12 @@ def loaded(path):
 
 
 def merge(folder, n):
-    ours = [loaded(path) for path in sorted(glob.glob(os.path.join(glob.escape(folder), "ours-[0-9].json")))]
-    ours = [x for x in ours if x]
+    ours = loaded(os.path.join(folder, "ours.json"))
     if not ours:
         sys.exit(f"make_rivals.py: there are no results of our own in '{folder}'")
-    result = {**ours[0], "rows": [r for x in ours for r in x["rows"]], "notes": sorted({t for x in ours for t in x["notes"]}),
-              "requested_vertices": n, "rivals": []}
+    order = list(OURS)
+    rows = sorted(ours["rows"], key=lambda r: order.index(r["simplifier"]) if r["simplifier"] in order else len(order))
+    result = {**ours, "rows": rows, "requested_vertices": n, "rivals": []}
     del result["command"]
     for row in result["rows"]:
         alone = {"spectral, best": "", "spectral, best, fitted operators": "fitted"}.get(row["simplifier"])

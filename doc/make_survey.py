@@ -25,18 +25,21 @@ COLUMNS = [("C_L", lambda r: r["closest_point_P"]["norm_L"], 1, 1), ("C_D", lamb
            ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100)]
 
 
-# The row of that simplifier, or the sentence why there is none.
-def judged(build, n, mesh, name):
-    stem = "-".join(os.path.abspath(mesh).split(os.sep)[-3:] + [n, name.replace(" ", "_")])
-    output = os.path.join(build, "survey", stem + ".json")
+# The rows of both simplifiers, or the sentence why there are none.
+def judged(build, n, mesh):
+    output = os.path.join(build, "survey", "-".join(os.path.abspath(mesh).split(os.sep)[-3:] + [n]) + ".json")
     if not os.path.exists(output):
-        run = subprocess.run([os.path.join(build, "examples", "spectral_compare"), mesh, "--vertices", n, "--only", name, "--judge", "averaged",
+        only = [word for name in NAMES for word in ("--only", name)]
+        run = subprocess.run([os.path.join(build, "examples", "spectral_compare"), mesh, "--vertices", n, *only, "--judge", "averaged",
                               "--repair", "--quiet", "--json", output], stderr=subprocess.PIPE, text=True)
         if run.returncode:
             return (run.stderr.strip().splitlines() or [f"ended with status {run.returncode}"])[-1]
     with open(output) as file:
         result = json.load(file)
-    return {**next(r for r in result["rows"] if r["simplifier"].startswith(name)), "fine_vertices": result["vertices"]}
+    rows = [next((r for r in result["rows"] if r["simplifier"].startswith(name)), None) for name in NAMES]
+    if None in rows: # of one that failed the notes say why
+        return "; ".join(result["notes"])
+    return [{**row, "fine_vertices": result["vertices"]} for row in rows]
 
 
 def main():
@@ -46,10 +49,9 @@ def main():
     os.makedirs(os.path.join(build, "survey"), exist_ok=True)
     pairs, refused = [], []
     for mesh in meshes:
-        rows = [judged(build, n, mesh, name) for name in NAMES]
-        sentences = [r for r in rows if isinstance(r, str)]
-        if sentences:
-            refused.append(f"{os.path.basename(mesh)}: {sentences[0]}")
+        rows = judged(build, n, mesh)
+        if isinstance(rows, str):
+            refused.append(f"{os.path.basename(mesh)}: {rows}")
         else:
             pairs.append((os.path.join(*os.path.abspath(mesh).split(os.sep)[-2:]), *rows))
     lines = []

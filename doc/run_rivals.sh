@@ -93,12 +93,10 @@ for pair in "$@"; do
     mv "$prefix.measuring" "$prefix.measured"
   done
   # Ours, and CGAL's quadrics: with the P of the closest points all rows are alike. Memory is that of a process that does this alone.
-  k=0
-  for name in "spectral, best" "spectral, paper" "Garland-Heckbert plane" "Garland-Heckbert probabilistic plane, area"; do
-    k=$((k + 1))
-    prefix=$folder/ours-$k
-    [ -s "$prefix.json" ] || judged --vertices "$N" --only "$name" --json "$prefix.json" || cat "$prefix.complained" >&2
-  done
+  prefix=$folder/ours
+  [ -s "$prefix.json" ] ||
+    judged --vertices "$N" --only "spectral, best" --only "spectral, paper" --only "Garland-Heckbert plane" \
+      --only "Garland-Heckbert probabilistic plane, area" --json "$prefix.json" || cat "$prefix.complained" >&2
   for fit in "" fitted; do
     prefix=$folder/ours-alone$fit
     [ -s "$prefix.measured" ] ||

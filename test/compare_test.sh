@@ -33,6 +33,9 @@ refuses "an operator without a mass" "NAME=L.mtx,M.mtx,P.mtx" shape.off --rival-
 refuses "a restriction that is none" "MatrixMarket" shape.off --rival x=shape.off,shape.off --eigenvectors 5
 refuses "a choice among no simplifiers" "choose among simplifiers" shape.off --rival x=shape.off --only spectral
 refuses "an unknown simplifier" "no simplifier" shape.off --vertices 200 --eigenvectors 10 --only nobody --report report.html
+refuses "one unknown simplifier of two" "'nobody'" shape.off --vertices 200 --eigenvectors 10 --only "spectral, paper" --only nobody \
+  --report report.html
+refuses "an empty name" "only has an empty value" shape.off --vertices 200 --only spectral --only "" --report report.html
 refuses "a folder that does not exist" "folder" shape.off --vertices 200 --json none/out.json
 
 runs "all simplifiers, two sizes" shape.off --vertices 10%,120 --eigenvectors 20 --report report.html --json out.json --coloured ply
@@ -120,8 +123,29 @@ runs "rivals alone" shape.off --eigenvectors 20 --judge lumped --rival best=best
 refuses "a rival without a name" "'best.off', it must be NAME=MESH" "$@" --rival best.off
 refuses "an empty file name" "it must be NAME=MESH" "$@" --rival best=best.off,
 refuses "operators without P" "it must be NAME=L.mtx,M.mtx,P.mtx" "$@" --rival-operators fit=fitted/L.mtx,fitted/mass.mtx
-refuses "a rival that is missing" "^spectral_compare: --rival x: .*'none.off'" "$@" --rival x=none.off
-refuses "P of another rival" "^spectral_compare: --rival x: 'P.mtx' .*coarse x fine" "$@" --rival x="$own",P.mtx
+unwanted=alone.json
+refuses "a rival that is missing" "^spectral_compare: --rival x: .*'none.off'" shape.off --rival x=none.off --eigenvectors 20 \
+  --json alone.json
+refuses "two rivals that are refused" "^spectral_compare: 2 of 2 rivals were refused, the first: --rival x: 'P.mtx' .*coarse x fine" \
+  shape.off --rival x="$own",P.mtx --rival y=none.off --eigenvectors 20 --json alone.json
+
+# A rival that is refused does not end the comparison of the others.
+tail -n +2 coarse.off >headless.off
+"$program" "$@" --only "edge length" --rival x=headless.off --rival best=best.off --rival y=shape.off,P.mtx --json refused.json \
+  --report refused.html >said 2>complained && fail "refused rivals: the exit status is 0"
+[ "$(wc -l <complained)" -eq 1 ] &&
+  grep -q "^spectral_compare: 2 of 3 rivals were refused, the first: --rival x: .*'headless.off'.*\.$" complained ||
+  fail "refused rivals: $(cat complained)"
+for name in "spectral, best" "edge length" best; do
+  grep -q "^ *\"simplifier\": \"$name\"" refused.json && grep -q "^$name  " said && grep -q ">$name<" refused.html ||
+    fail "'$name' is missing beside refused rivals: $(cat said)"
+done
+[ "$(grep -c "\"reason\": \".*'\(headless.off\|P.mtx\)'" refused.json)" -eq 2 ] || fail "no reasons in refused.json"
+for row in "x  .*'headless.off'" "y  .*coarse x fine"; do
+  grep -q "^$row" said || fail "no row '$row' in $(cat said)"
+done
+grep -q ">x<.*headless.off" refused.html || fail "the page does not say what was refused"
+unwanted=report.html
 refuses "two rivals of one name" "N = 120 already" "$@" --rival x=best.off --rival x="$own"
 refuses "a rival with the name of a simplifier" "name of a simplifier" "$@" --rival "spectral, best=best.off"
 refuses "pictures of operators" "an operator has none" shape.off --eigenvectors 20 --coloured ply2 \
@@ -129,10 +153,10 @@ refuses "pictures of operators" "an operator has none" shape.off --eigenvectors 
 awk '/^%/ { print; next } !header { header = 1; print; next } { print $1, $2, NR == 30 && $1 != $2 ? $3 + 1 : $3 }' fitted/L.mtx >skew.mtx
 cmp -s skew.mtx fitted/L.mtx && fail "skew.mtx is as L.mtx"
 refuses "an operator that is not symmetric" \
-  "^spectral_compare: --rival-operators x: 'skew.mtx' is not symmetric: the entry [0-9]*, [0-9]* differs" "$@" \
+  "^spectral_compare: --rival-operators x: 'skew.mtx' is not symmetric: the entry [0-9]*, [0-9]* differs" shape.off --eigenvectors 20 \
   --rival-operators x=skew.mtx,fitted/mass.mtx,best.mtx
 awk '/^%/ { print; next } !header { header = 1; print; next } { print $1, $2, $1 == 7 && $2 == 7 ? -100 : $3 }' fitted/mass.mtx >negative.mtx
-refuses "a negative mass" "'negative.mtx' has a row whose sum is not positive, number 7" "$@" \
+refuses "a negative mass" "'negative.mtx' has a row whose sum is not positive, number 7" shape.off --eigenvectors 20 \
   --rival-operators x=fitted/L.mtx,negative.mtx,best.mtx
 
 # Isolated vertices: P numbers those of the files.

@@ -27,6 +27,10 @@ refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --out
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
 refuses "an unknown matcher" "'icp', it must be product_manifold_filter or bcicp" X.off Y.off --output map.txt --matcher icp
 refuses "BCICP without a proxy" "and --proxy has 'none'" X.off Y.off --output map.txt --matcher bcicp --proxy spectral,none
+refuses "fewer vertices left than are matched" "pre-simplify leaves 500" X.off Y.off --output map.txt --pre-simplify 500
+refuses "fewer vertices left than modes" "above --eigenvectors, which is 100" X.off Y.off --output map.txt --pre-simplify 100
+refuses "a reduction without a way back" "needs --fine-iterations" X.off Y.off --output map.txt --pre-simplify 1000 \
+  --fine-iterations 0
 echo "1 2 3" >three.txt
 echo "1" >one.txt
 refuses "landmarks of three vertices" "'1 2 3' in line 1" X.off Y.off --output map.txt --landmarks three.txt
@@ -57,6 +61,24 @@ awk 'NF == 3 && NR > 2 { $1 += 0.1 * sin(3 * $1); $3 += 0.05 * sin(4 * $3) } { p
 "$program" X.off stretched.off --vertices 300 --eigenvectors 50 --ground-truth truth.txt --output map.txt >said 2>complained ||
   fail "a stretched shape: $(cat complained)"
 awk '$1 == "spectral" { exit !($(NF - 2) < 0.005) } END { if(!NR) exit 1 }' said || fail "a stretched shape: $(cat said)"
+
+# Reduced first: the map is one of the vertices of the files all the same, landmarks too. A mesh that is small enough stays.
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 1200 --ground-truth truth.txt --output reduced.txt \
+  --report reduced.html --json reduced.json >said 2>complained || fail "--pre-simplify: $(cat complained)"
+awk '$1 == "spectral" { exit !($(NF - 2) < 0.01) }' said || fail "--pre-simplify: $(cat said)"
+[ "$(wc -l <reduced.txt)" -eq "$(wc -l <truth.txt)" ] || fail "--pre-simplify: the map has $(wc -l <reduced.txt) lines"
+[ "$(sort -u reduced.txt | wc -l)" -gt 1200 ] || fail "--pre-simplify: the map does not reach the vertices that were left out"
+[ "$(grep -c '"matched_vertices_[XY]": 1200' reduced.json)" -eq 2 ] || fail "1200 vertices were not matched: $(cat reduced.json)"
+[ "$(sed -n 's/^ *"stage": "\(.*\)",*$/\1/p' reduced.json | tr '\n' ' ')" = \
+  "reading reduction eigenpairs proxies matching lift " ] || fail "the stages in $(cat reduced.json)"
+grep -q "1200 and 1200" reduced.html || fail "the page does not say what was matched"
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 100000 --output small.txt --json small.json --quiet || fail "a large N0"
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --output plain.txt --quiet || fail "no reduction"
+cmp -s small.txt plain.txt || fail "a reduction that is not needed changes the map"
+awk '{ print NR - 1, $1 }' truth.txt | awk 'NR % 400 == 7' >pre_landmarks.txt
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 1200 --landmarks pre_landmarks.txt --ground-truth truth.txt \
+  --output map.txt >said 2>complained || fail "landmarks with --pre-simplify: $(cat complained)"
+awk '$1 == "spectral" { exit !($(NF - 2) < 0.01) }' said || fail "landmarks with --pre-simplify: $(cat said)"
 
 # The proxies of both kinds of operators match, by other maps.
 for operators in fitted mesh; do

@@ -237,4 +237,57 @@ TEST_CASE("Vertices that are fixed take no values from a border that is apart")
   }
 }
 
+TEST_CASE("quadric_edge_collapse() is the first stage on its own")
+{
+  const Mesh input = make_mesh(shapes::bumpy_icosphere_matrices(3));
+  Mesh mesh = input;
+  const std::size_t n = count_vertices(mesh);
+  auto kept = mesh.add_property_map<Mesh::Vertex_index, bool>("v:kept", false).first;
+  for(std::size_t v = 0; v < n; v += 17)
+    kept[Mesh::Vertex_index(Mesh::size_type(v))] = true;
+  double last = 0;
+  const SMS::Quadric_edge_collapse_result result = SMS::quadric_edge_collapse(
+      mesh, 100,
+      [&](const double fraction) {
+        CHECK((fraction >= last && fraction <= 1));
+        last = fraction;
+        return true;
+      },
+      CGAL::parameters::vertex_is_constrained_map(kept));
+  CHECK(last > 0.9);
+  REQUIRE(count_vertices(mesh) == 100);
+  CHECK((CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh)));
+  REQUIRE((result.restriction.rows() == 100 && std::size_t(result.restriction.cols()) == n));
+  CHECK((result.restriction * Eigen::VectorXd::Ones(Eigen::Index(n)) - Eigen::VectorXd::Ones(100)).norm() <
+        1e-12);
+  const Eigen::MatrixXd V = positions(mesh), fine = positions(input);
+  for(std::size_t v = 0; v < n; v += 17) {
+    const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
+    CHECK(result.restriction.coeff(row, Eigen::Index(v)) == 1);
+    CHECK(V.row(row) == fine.row(Eigen::Index(v)));
+  }
+
+  Mesh other = input;
+  SMS::Spectral_edge_collapse_options options = options_with(20);
+  options.pre_simplify = 100;
+  for(std::size_t v = 0; v < n; v += 17)
+    options.kept_vertices.push_back(v);
+  const auto whole = SMS::spectral_edge_collapse(other, 100, options);
+  CHECK(positions(other) == V);
+  CHECK((whole.restriction - result.restriction).norm() == 0);
+}
+
+TEST_CASE("quadric_edge_collapse() that is cancelled or refused leaves the mesh as it was")
+{
+  const Mesh input = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  Mesh mesh = input;
+  CHECK_THROWS_AS(SMS::quadric_edge_collapse(mesh, 20, [](const double fraction) { return fraction < 0.5; }),
+                  SG::Cancelled);
+  CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 163),
+                    ContainsSubstring("the target is 163 vertices, but the mesh has 162"));
+  CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 0), ContainsSubstring("from 1 to 162"));
+  CHECK(positions(mesh) == positions(input));
+  CHECK(SMS::quadric_edge_collapse(mesh, 162).vertex_map.size() == 162);
+}
+
 } // namespace test_pre_simplification

@@ -12,7 +12,7 @@
 //
 // The surface is the zero set of a smooth union of round cones. Marching tetrahedra find its topology,
 // isotropic remeshing gives well-shaped triangles of the wanted number, a few Newton steps put the vertices back
-// onto the zero set.
+// onto the zero set. Beyond 100,000 vertices the triangles of a smaller shape are cut into four.
 
 #include "io/command_line.h"
 #include "io/matrix_io.h"
@@ -318,10 +318,34 @@ void project(const Animal& animal, Mesh& mesh)
   }
 }
 
+// Each triangle cut into four at the midpoints of its edges, which lie on the zero set as well afterwards.
+Mesh refined(const Animal& animal, const Mesh& coarse)
+{
+  Mesh mesh;
+  for(const auto v : vertices(coarse))
+    mesh.add_vertex(coarse.point(v));
+  for(const auto e : edges(coarse))
+    mesh.add_vertex(CGAL::midpoint(coarse.point(source(e, coarse)), coarse.point(target(e, coarse))));
+  const auto middle = [&](const Mesh::Halfedge_index h) {
+    return Mesh::Vertex_index(
+        static_cast<Mesh::size_type>(num_vertices(coarse) + std::size_t(edge(h, coarse))));
+  };
+  for(const auto f : faces(coarse)) {
+    const auto h = halfedge(f, coarse), i = next(h, coarse), j = next(i, coarse);
+    mesh.add_face(middle(h), middle(i), middle(j));
+    for(const auto& [in, out] : {std::pair(h, i), std::pair(i, j), std::pair(j, h)})
+      mesh.add_face(middle(in), target(in, coarse), middle(out));
+  }
+  project(animal, mesh);
+  return mesh;
+}
+
 // The animal with about `number_of_vertices` vertices.
 Mesh make_shape(std::size_t number_of_vertices)
 {
   const Animal animal;
+  if(number_of_vertices > 100000) // remeshing takes minutes for a million
+    return refined(animal, make_shape(number_of_vertices / 4));
   const double scale = std::sqrt(25000. / number_of_vertices);
   const Mesh dense = Marching_tetrahedra(animal, 0.022 * (std::min)(scale, 1.)).run();
 

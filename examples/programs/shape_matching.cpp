@@ -5,6 +5,7 @@
 // Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows the options.
 
 #include "io/input_mesh.h"
+#include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
 #include "io/output_files.h"
@@ -20,6 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -41,13 +43,15 @@ class Run
 public:
   explicit Run(const Matching_arguments& arguments)
     : m_arguments(arguments)
+    , m_reading(started())
     , m_input_X(read_input_mesh(arguments.X, mending(arguments.strict, arguments.repair)))
     , m_input_Y(read_input_mesh(arguments.Y, mending(arguments.strict, arguments.repair)))
     , m_proxy_size(proxy_size(arguments, m_X.number_of_vertices(), m_Y.number_of_vertices()))
     , m_files({arguments.X, arguments.Y, arguments.landmarks, arguments.ground_truth})
   {
     m_arguments.threads = usable_threads(arguments.threads, arguments.quiet);
-    for(const std::string& path : {m_arguments.output, m_arguments.report})
+    m_stages.push_back({"reading", m_reading.time(), peak_memory()});
+    for(const std::string& path : {m_arguments.output, m_arguments.report, m_arguments.json})
       if(!path.empty())
         m_files.add(path);
     Option_words words;
@@ -63,6 +67,8 @@ public:
 
   void run()
   {
+    if(m_arguments.pre_simplify > 0)
+      reduce();
     compute_fine_shapes();
     Matching_comparison c;
     c.command = m_arguments.command;
@@ -84,6 +90,13 @@ public:
   }
 
 private:
+  static CGAL::Real_timer started()
+  {
+    CGAL::Real_timer timer;
+    timer.start();
+    return timer;
+  }
+
   void read_correspondences()
   {
     const Vertex_numbering &X = m_input_X.numbering, &Y = m_input_Y.numbering;
@@ -111,16 +124,41 @@ private:
         numbering.vertices_of_mesh({static_cast<std::size_t>(v)}, m_arguments.landmarks).front());
   }
 
+  void reduce()
+  {
+    const CGAL::Real_timer timer = started();
+    const std::size_t N0 = static_cast<std::size_t>(m_arguments.pre_simplify);
+    const auto reduced = [&](const Mesh& mesh) {
+      return mesh.number_of_vertices() <= N0 ? std::optional<Reduced_mesh>()
+                                             : reduced_by_quadrics(mesh, N0, keep_going);
+    };
+    std::tie(m_reduced_X, m_reduced_Y) = side_by_side(
+        m_arguments.threads, [&] { return reduced(m_X); }, [&] { return reduced(m_Y); });
+    for(auto& [x, y] : m_landmarks) {
+      x = m_reduced_X ? m_reduced_X->vertex_map[static_cast<std::size_t>(x)] : x;
+      y = m_reduced_Y ? m_reduced_Y->vertex_map[static_cast<std::size_t>(y)] : y;
+    }
+    m_stages.push_back({"reduction", timer.time(), peak_memory()});
+  }
+
+  // The meshes that are matched.
+  const Mesh& matched_X() const { return m_reduced_X ? m_reduced_X->mesh : m_X; }
+  const Mesh& matched_Y() const { return m_reduced_Y ? m_reduced_Y->mesh : m_Y; }
+
   void compute_fine_shapes()
   {
-    CGAL::Real_timer timer;
-    timer.start();
-    const auto shape = [&](const Mesh& mesh) {
-      return make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_options.mass, keep_going);
+    const CGAL::Real_timer timer = started();
+    const auto shape = [&](const Mesh& mesh, const Mesh& as_read) {
+      Shape result =
+          make_shape(SG::mesh_matrices(mesh), m_arguments.eigenvectors, m_options.mass, keep_going);
+      if(&mesh != &as_read)
+        result.full = SG::mesh_matrices(as_read);
+      return result;
     };
     std::tie(m_shape_X, m_shape_Y) = side_by_side(
-        m_arguments.threads, [&] { return shape(m_X); }, [&] { return shape(m_Y); });
-    m_seconds_fine = timer.time();
+        m_arguments.threads, [&] { return shape(matched_X(), m_X); },
+        [&] { return shape(matched_Y(), m_Y); });
+    m_stages.push_back({"eigenpairs", timer.time(), peak_memory()});
   }
 
   Matching_result match(Proxy_kind kind) const
@@ -135,14 +173,15 @@ private:
     options.threads = m_arguments.threads;
     Matching_result result;
     result.proxy = proxy_name(kind);
-    result.seconds_fine = m_seconds_fine;
+    result.stages = m_stages;
     if(kind == Proxy_kind::none) {
-      result.vertices = m_X.number_of_vertices();
+      result.vertices = matched_X().number_of_vertices();
       result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, options, keep_going);
+      result.stages.push_back({"proxies", 0, peak_memory()});
+      add_stages_of_match(result);
       return result;
     }
-    CGAL::Real_timer timer;
-    timer.start();
+    const CGAL::Real_timer timer = started();
     const Proxy_operators operators =
         m_arguments.operators == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
@@ -150,12 +189,20 @@ private:
                         keep_going);
     };
     const auto [coarse_X, coarse_Y] = side_by_side(
-        m_arguments.threads, [&] { return proxy(m_X, m_shape_X); }, [&] { return proxy(m_Y, m_shape_Y); });
-    result.seconds_proxies = timer.time();
+        m_arguments.threads, [&] { return proxy(matched_X(), m_shape_X); },
+        [&] { return proxy(matched_Y(), m_shape_Y); });
+    result.stages.push_back({"proxies", timer.time(), peak_memory()});
     result.vertices = m_proxy_size;
     result.match =
         match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks, options, keep_going);
+    add_stages_of_match(result);
     return result;
+  }
+
+  static void add_stages_of_match(Matching_result& result)
+  {
+    result.stages.push_back({"matching", result.match.seconds_coarse, result.match.peak_coarse});
+    result.stages.push_back({"lift", result.match.seconds_lift, peak_memory()});
   }
 
   void measure(std::vector<Matching_result>& results) const
@@ -183,11 +230,17 @@ private:
       stream << matching_page(c);
       finish_writing(stream, m_arguments.report);
     }
+    if(!m_arguments.json.empty()) {
+      std::ofstream stream(m_files.temporary(m_arguments.json), std::ios::binary);
+      stream << json_text(to_json(c), 1);
+      finish_writing(stream, m_arguments.json);
+    }
     stop_if_interrupted();
     m_files.commit();
   }
 
   Matching_arguments m_arguments;
+  CGAL::Real_timer m_reading; // before the meshes, which are read when they are initialised
   Input_mesh m_input_X, m_input_Y;
   const Mesh &m_X = m_input_X.mesh, &m_Y = m_input_Y.mesh;
   std::size_t m_proxy_size;
@@ -195,8 +248,9 @@ private:
   Output_files m_files;
   Landmarks m_landmarks;
   std::vector<Eigen::Index> m_truth;
+  std::optional<Reduced_mesh> m_reduced_X, m_reduced_Y;
   Shape m_shape_X, m_shape_Y;
-  double m_seconds_fine = 0;
+  std::vector<Stage> m_stages; // of all results
 };
 
 } // namespace

@@ -58,6 +58,7 @@ std::vector<std::string> inputs(const Compare_arguments& a)
 // A result of another program as it was read: a mesh, or a candidate.
 struct Read_rival
 {
+  const Rival* rival; // what it was read from
   Coarse_mesh coarse;
   Coarse_candidate candidate;
   Simplified row;
@@ -83,21 +84,31 @@ public:
       m_files.add_folder(m_arguments.coloured);
   }
 
-  void run()
+  // Returns the exit status: 1 where rivals were refused, and all others stand in the results.
+  int run()
   {
     const std::vector<std::size_t> sizes = target_sizes(m_arguments, m_fine.number_of_vertices());
-    std::vector<Read_rival> rivals; // what is wrong with them is said before the work
+    std::vector<Read_rival> rivals; // what is wrong with their files is known before the work
     for(const Rival& rival : m_arguments.rivals)
-      of_rival(rival, [&] { rivals.push_back(read_rival(rival, sizes, rivals)); });
+      try_rival(rival, [&] { rivals.push_back(read_rival(rival, sizes)); });
+    refuse_doubles(rivals);
+    refuse_alone(sizes, rivals.size());
     make_references();
-    for(std::size_t i = 0; i < rivals.size(); ++i)
-      of_rival(m_arguments.rivals[i], [&] { judge_rival(rivals[i]); });
+    std::vector<Simplified> judged;
+    for(Read_rival& rival : rivals)
+      if(try_rival(*rival.rival, [&] { judge_rival(rival); }))
+        judged.push_back(std::move(rival.row));
+    refuse_alone(sizes, judged.size());
     if(!sizes.empty())
       compare(sizes);
-    for(Read_rival& rival : rivals)
-      m_comparison.results.push_back(std::move(rival.row));
+    for(Simplified& row : judged)
+      m_comparison.results.push_back(std::move(row));
     m_bar.clear();
     write();
+    if(m_complaints.empty())
+      return 0;
+    complain(complaint());
+    return 1;
   }
 
 private:
@@ -182,28 +193,40 @@ private:
       for(const Simplifier& s : simplifiers)
         if(rival.name == s.name || rival.name == fitted_name(s))
           throw std::runtime_error(rival.option + " has the name of a simplifier: choose another.");
+    for(const std::string& text : m_arguments.only)
+      if(std::none_of(simplifiers.begin(), simplifiers.end(), [&](const Simplifier& s) {
+           return is_wanted(s.name, {text}) || is_wanted(fitted_name(s), {text});
+         }))
+        throw std::runtime_error(no_simplifier(text));
     std::size_t done = 0;
     for(const std::size_t N : sizes)
       for(const Simplifier& s : simplifiers) {
         m_bar.show("comparison",
                    static_cast<double>(done++) / static_cast<double>(sizes.size() * simplifiers.size()));
         stop_if_interrupted();
-        if(is_wanted(s.name) || is_wanted(fitted_name(s)))
+        if(is_wanted(s.name, m_arguments.only) || is_wanted(fitted_name(s), m_arguments.only))
           try_simplifier(s, N);
       }
     if(!m_arguments.without.empty())
       m_comparison.notes.push_back("Left out by --without: simplifiers with '" + m_arguments.without +
                                    "' in their names.");
     if(m_comparison.results.empty())
-      throw std::runtime_error("no simplifier has '" + m_arguments.only + "' in its name" +
-                               (m_arguments.without.empty() ? "" : ", lacks '" + m_arguments.without + "'") +
-                               " and can simplify this mesh.");
+      throw std::runtime_error(no_simplifier(joined(m_arguments.only, "' or '")));
   }
 
-  bool is_wanted(const std::string& name) const
+  // A name with any of the texts, or any name if there is none, that --without does not leave out.
+  bool is_wanted(const std::string& name, const std::vector<std::string>& texts) const
   {
-    return name.find(m_arguments.only) != std::string::npos &&
-           (m_arguments.without.empty() || name.find(m_arguments.without) == std::string::npos);
+    const auto in_name = [&](const std::string& text) { return name.find(text) != std::string::npos; };
+    return (texts.empty() || std::any_of(texts.begin(), texts.end(), in_name)) &&
+           (m_arguments.without.empty() || !in_name(m_arguments.without));
+  }
+
+  std::string no_simplifier(const std::string& text) const
+  {
+    return "no simplifier has '" + text + "' in its name" +
+           (m_arguments.without.empty() ? "" : ", lacks '" + m_arguments.without + "'") +
+           " and can simplify this mesh.";
   }
 
   // Of the row that follows with fitted operators; that of the simplifier if there is none.
@@ -227,12 +250,12 @@ private:
       const Coarse_mesh coarse = s.run(m_fine, N);
       row.seconds = coarse.seconds;
       row.note = coarse.note;
-      if(is_wanted(s.name)) {
+      if(is_wanted(s.name, m_arguments.only)) {
         Simplified own = row;
         judge_mesh(coarse, own);
         m_comparison.results.push_back(std::move(own));
       }
-      if(s.fits_operators && is_wanted(fitted_name(s))) {
+      if(s.fits_operators && is_wanted(fitted_name(s), m_arguments.only)) {
         row.simplifier = fitted_name(s);
         judge_fitted(coarse, row);
         m_comparison.results.push_back(row);
@@ -297,12 +320,13 @@ private:
     }
   }
 
-  // Errors say which of several results they are about.
+  // Whether `function` had nothing to object to a rival: one that is refused does not end the comparison of the others.
   template <class Function>
-  static void of_rival(const Rival& rival, const Function& function)
+  bool try_rival(const Rival& rival, const Function& function)
   {
     try {
       function();
+      return true;
     } catch(const SG::Cancelled&) {
       throw;
     } catch(const Write_error&) {
@@ -310,14 +334,41 @@ private:
     } catch(const std::bad_alloc&) {
       throw;
     } catch(const std::exception& error) {
-      throw std::runtime_error(rival.option + ": " + error.what());
+      m_comparison.refused.push_back({rival.name, error.what()});
+      m_complaints.push_back(rival.option + ": " + error.what());
+      return false;
     }
   }
 
-  Read_rival read_rival(const Rival& rival, const std::vector<std::size_t>& sizes,
-                        const std::vector<Read_rival>& others)
+  // One sentence for all rivals that were refused.
+  std::string complaint() const
+  {
+    return m_complaints.size() == 1
+               ? m_complaints.front()
+               : std::to_string(m_complaints.size()) + " of " + std::to_string(m_arguments.rivals.size()) +
+                     " rivals were refused, the first: " + m_complaints.front();
+  }
+
+  // Where nothing is to be judged but rivals, and none is left.
+  void refuse_alone(const std::vector<std::size_t>& sizes, const std::size_t rivals) const
+  {
+    if(sizes.empty() && rivals == 0)
+      throw std::runtime_error(complaint());
+  }
+
+  static void refuse_doubles(const std::vector<Read_rival>& rivals)
+  {
+    for(auto a = rivals.begin(); a != rivals.end(); ++a)
+      for(auto b = rivals.begin(); b != a; ++b)
+        if(a->row.simplifier == b->row.simplifier && a->row.requested_vertices == b->row.requested_vertices)
+          throw std::runtime_error(a->rival->option + ": another result of this name stands at N = " +
+                                   std::to_string(a->row.requested_vertices) + " already.");
+  }
+
+  Read_rival read_rival(const Rival& rival, const std::vector<std::size_t>& sizes)
   {
     Read_rival result;
+    result.rival = &rival;
     result.row.simplifier = rival.name;
     if(!rival.mesh.empty()) {
       Input_mesh input = read(rival.mesh);
@@ -337,10 +388,6 @@ private:
     const auto nearest = std::min_element(
         sizes.begin(), sizes.end(), [&](std::size_t M, std::size_t N) { return distance(M) < distance(N); });
     result.row.requested_vertices = nearest == sizes.end() ? result.row.vertices : *nearest;
-    for(const Read_rival& other : others)
-      if(other.row.simplifier == rival.name && other.row.requested_vertices == result.row.requested_vertices)
-        throw std::runtime_error("another result of this name stands at N = " +
-                                 std::to_string(result.row.requested_vertices) + " already.");
     return result;
   }
 
@@ -487,6 +534,8 @@ private:
   Output_files m_files;
   Progress_bar m_bar;
   Comparison m_comparison;
+  std::vector<std::string>
+      m_complaints; // about the rivals that were refused, with the options that named them
   Input_mesh m_input;
   const Mesh& m_fine;
   SG::Mesh_matrices m_matrices;
@@ -502,10 +551,9 @@ int main(int argc, char* argv[])
 {
   return run_program("spectral_compare", [&] {
     const Compare_arguments arguments = parse_compare_arguments(argc, argv);
-    if(!arguments.help.empty())
-      std::cout << arguments.help;
-    else
-      Run(arguments, command_line("spectral_compare", argc, argv)).run();
+    if(arguments.help.empty())
+      return Run(arguments, command_line("spectral_compare", argc, argv)).run();
+    std::cout << arguments.help;
     return 0;
   });
 }

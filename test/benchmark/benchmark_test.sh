@@ -29,6 +29,14 @@ done
 [ "$(grep -c '": [^{]' out.json)" -eq 11 ] || fail "there are other keys in $(cat out.json)"
 grep -q '"eigenvectors": 20' out.json && grep -q '"threads": 2' out.json || fail "settings in $(cat out.json)"
 
+"$program" generated:1500 --eigenvectors 20 --runs 1 --threads 2 --pairs 1e-2,1e-6 --json pairs.json >said 2>&1 || fail "$(cat said)"
+[ "$(grep -c '"solver": "block"' pairs.json)" -eq 4 ] && [ "$(grep -c '"threads": 2' pairs.json)" -eq 2 ] ||
+  fail "not two tolerances with one thread and two in $(cat pairs.json)"
+"$program" generated:1500 --eigenvectors 20 --runs 1 --threads 2 --pairs 1e-6 --solver spectra --json pairs.json >said 2>&1 ||
+  fail "$(cat said)"
+[ "$(grep -c '"solver": "spectra"' pairs.json)" -eq 1 ] || fail "Spectra is not measured once in $(cat pairs.json)"
+"$program" generated:1500 --pairs 1e-2,x >said 2>&1 && fail "a tolerance that is no number was accepted"
+
 [ "$(wc -l <scaling.csv)" -eq 5 ] || fail "not four rows in $(cat scaling.csv)"
 [ "$(sed -n '2,$p' scaling.csv | grep -Ec '^(1002|1962),(10|19),(5|10),2(,[0-9.]+){7}$')" -eq 4 ] ||
   fail "a row of $(cat scaling.csv)"

@@ -32,6 +32,7 @@ struct Arguments
   int runs = 3;
   int threads = (std::max)(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool no_spectra = false;
+  std::string pairs, solver = "block";
   std::string preset = "best";
   std::string json, scaling;
   std::string scaling_vertices = "12000,25000,50000,100000,200000,400000,1000000";
@@ -63,6 +64,10 @@ Arguments parse_arguments(int argc, char* argv[])
   add("runs", po::value(&a.runs)->value_name("R")->default_value(a.runs),
       "each figure is a median of so many");
   add("no-spectra", po::bool_switch(&a.no_spectra), "leave out Spectra's eigenpairs, the slowest part");
+  add("pairs", po::value(&a.pairs)->value_name("LIST"),
+      "measure nothing but eigenpairs, at each of these tolerances, with one thread and with all");
+  add("solver", po::value(&a.solver)->value_name("block|spectra")->default_value(a.solver),
+      "of --pairs; Spectra has one thread");
   add("json", po::value(&a.json)->value_name("FILE"), "write the main figures of each mesh");
   add("scaling", po::value(&a.scaling)->value_name("CSV"),
       "measure generated shapes down to 1 % of their vertices, fans of which 20 vertices are taken, and "
@@ -92,6 +97,8 @@ Arguments parse_arguments(int argc, char* argv[])
     throw std::runtime_error("name a mesh, or --scaling CSV; --help shows everything.");
   if(a.preset != "best" && a.preset != "paper")
     throw std::runtime_error("--preset is '" + a.preset + "', it must be best or paper.");
+  if(a.solver != "block" && a.solver != "spectra")
+    throw std::runtime_error("--solver is '" + a.solver + "', it must be block or spectra.");
   if(a.scaling_shape != "generated" && a.scaling_shape != "disc" && a.scaling_shape != "gear")
     throw std::runtime_error("--scaling-shape is '" + a.scaling_shape +
                              "', it must be generated, disc or gear.");
@@ -251,18 +258,58 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
   return json;
 }
 
-std::vector<long> numbers(const std::string& list)
+template <class Number>
+std::vector<Number> numbers(const std::string& list)
 {
-  std::vector<long> result;
+  std::vector<Number> result;
   std::istringstream stream(list);
   for(std::string item; std::getline(stream, item, ',');) {
-    std::size_t end = 0;
-    const long value = item.empty() ? 0 : std::stol(item, &end);
-    if(end != item.size() || value < 1)
+    Number value = 0;
+    std::istringstream number(item);
+    if(!(number >> value) || !number.eof() || value <= 0)
       throw std::runtime_error("'" + list + "' is not a list of positive numbers.");
     result.push_back(value);
   }
   return result;
+}
+
+// A list of what each setting took.
+nlohmann::json measure_pairs(const std::string& mesh, const Arguments& a)
+{
+  double peak = 0;
+  const Mesh_size size = in_child([&] { return measure_mesh(mesh); }, peak);
+  Setting setting;
+  setting.eigenvectors = a.eigenvectors;
+  setting.paper = a.preset == "paper";
+  const Solver solver = a.solver == "block" ? Solver::block : Solver::spectra;
+  std::vector<Solver_samples> paths;
+  for(const double tolerance : numbers<double>(a.pairs)) {
+    paths.push_back({a.solver, solver, tolerance, 1, {}, 0, 0});
+    if(solver == Solver::block && a.threads > 1)
+      paths.push_back({a.solver, solver, tolerance, a.threads, {}, 0, 0});
+  }
+  for(int run = 0; run < a.runs; ++run)
+    for(Solver_samples& path : paths)
+      run_solver(mesh, setting, path);
+  std::printf("%s: %zu vertices, K = %ld\n  %-28s %9s %9s %10s %9s %9s\n", mesh.c_str(), size.vertices,
+              a.eigenvectors, "eigenpairs", "tolerance", "threads", "seconds", "residual", "peak MB");
+  nlohmann::json json = {{"vertices", size.vertices},
+                         {"eigenvectors", a.eigenvectors},
+                         {"build", build_description()},
+                         {"pairs", nlohmann::json::array()}};
+  for(const Solver_samples& path : paths) {
+    const double seconds = median(path.seconds);
+    std::printf("  %-28s %9.0e %9d %10.2f %9.1e %9.0f\n", path.name.c_str(), path.tolerance, path.threads,
+                seconds, path.residual, path.peak_mb);
+    json["pairs"].push_back({{"solver", path.name},
+                             {"tolerance", path.tolerance},
+                             {"threads", path.threads},
+                             {"seconds", seconds},
+                             {"residual", path.residual},
+                             {"peak_rss_mb", path.peak_mb}});
+  }
+  std::fflush(stdout);
+  return json;
 }
 
 void measure_scaling(const Arguments& a)
@@ -271,7 +318,7 @@ void measure_scaling(const Arguments& a)
   csv << "vertices,target,eigenvectors,threads,us_per_collapse,us_per_collapse_garland_heckbert,"
          "evaluations_per_collapse,seconds_eigenpairs,seconds_collapse,seconds_total,peak_rss_mb\n";
   const bool fans = a.scaling_shape != "generated";
-  for(const long size_or_degree : numbers(a.scaling_vertices)) {
+  for(const long size_or_degree : numbers<long>(a.scaling_vertices)) {
     const std::string mesh = a.scaling_shape + ":" + std::to_string(size_or_degree);
     double peak = 0;
     const Mesh_size size = in_child([&] { return measure_mesh(mesh); }, peak);
@@ -282,7 +329,7 @@ void measure_scaling(const Arguments& a)
     setting.pre_simplify = a.pre_simplify;
     setting.all_in_metric = true; // the series is to show what K costs
     setting.loop_alone = fans;    // and that of fans what their collapses cost
-    for(const long K : numbers(a.scaling_eigenvectors)) {
+    for(const long K : numbers<long>(a.scaling_eigenvectors)) {
       setting.eigenvectors = K;
       const double needed = estimated_memory(size.vertices, setting), available = available_memory();
       if(available > 0 && needed > available) {
@@ -318,7 +365,8 @@ int main(int argc, char* argv[])
       return 0;
     nlohmann::json json = nlohmann::json::object();
     for(const std::string& mesh : a.meshes)
-      json[std::filesystem::path(mesh).filename().string()] = measure(mesh, a);
+      json[std::filesystem::path(mesh).filename().string()] =
+          a.pairs.empty() ? measure(mesh, a) : measure_pairs(mesh, a);
     if(!a.json.empty()) {
       std::ofstream stream(a.json);
       stream << json.dump(2) << '\n';

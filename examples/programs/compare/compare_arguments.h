@@ -29,7 +29,8 @@ struct Compare_arguments
   std::string mesh, vertices; // N[,N2...], each a number or a percentage
   std::vector<Vertex_target> targets;
   std::vector<Rival> rivals;
-  std::string masses = "lumped,averaged", only, without;
+  std::string masses = "lumped,averaged", without;
+  std::vector<std::string> only; // empty: all
   std::string report, json, coloured;
   long eigenvectors = 100, sources = 20, seed = 1;
   int threads = all_threads();
@@ -60,11 +61,15 @@ inline Command_line described(Compare_arguments& a)
   line.option("sources", a.sources, "S", "how many random vertices distances are measured from");
   line.option("seed", a.seed, "X", "of these vertices");
   line.group("Simplifiers and rivals");
-  line.option("only", a.only, "TEXT", "only simplifiers with TEXT in their names");
+  line.option(
+      "only", a.only, "TEXT",
+      "only simplifiers with TEXT in their names; may be given several times, for those with any of them");
   line.option("without", a.without, "TEXT", "no simplifiers with TEXT in their names");
   line.option("rival", a.rival_meshes, "NAME=B[,P.mtx]",
               "judge this mesh, with the P of the closest points and its own, coarse x fine; may be given "
-              "several times. It stands at the nearest of the sizes of --vertices");
+              "several times. It stands at the nearest of the sizes of --vertices. What is refused is listed "
+              "with the "
+              "reason, and the exit status is 1 in the end");
   line.option("rival-operators", a.rival_operators, "NAME=L.mtx,M.mtx,P.mtx",
               "the same for an operator (Matrix Market, L positive semidefinite) with its mass and its "
               "restriction");
@@ -90,6 +95,8 @@ inline void check(const Compare_arguments& a)
     refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows what there is.");
   if(a.rivals.empty() && a.vertices.empty())
     refuse("--vertices is missing: say how many vertices the simplified meshes are to have.");
+  if(std::find(a.only.begin(), a.only.end(), "") != a.only.end())
+    refuse("--only has an empty value: say which, or leave it out.");
   if(a.vertices.empty() && !(a.only.empty() && a.without.empty()))
     refuse("--only and --without choose among simplifiers: say with --vertices how far these go, or leave "
            "them out.");

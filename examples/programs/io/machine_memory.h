@@ -15,6 +15,7 @@
 #include <string>
 
 #if defined(__unix__) || defined(__APPLE__)
+#include <sys/resource.h>
 #include <unistd.h>
 #endif
 
@@ -87,6 +88,22 @@ inline double available_memory(const std::filesystem::path& root = "/")
     return (std::min)(sum, left_in_groups(root));
 #if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)
   return double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
+#else
+  return 0;
+#endif
+}
+
+// The most bytes that this process has had in memory so far; 0 when unknown.
+inline double peak_memory()
+{
+#if defined(__unix__) || defined(__APPLE__)
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+  return static_cast<double>(usage.ru_maxrss);
+#else
+  return 1024. * static_cast<double>(usage.ru_maxrss);
+#endif
 #else
   return 0;
 #endif

@@ -4,6 +4,7 @@
 
 #include "matcher.h"
 
+#include "../io/machine_memory.h"
 #include "bcicp.h"
 #include "linear_assignment.h"
 #include "registration.h"
@@ -110,12 +111,15 @@ Eigen::MatrixXd refined_between_levels(Eigen::MatrixXd C, const Shape& X, const 
 void finish(Match& match, const Shape& X, const Shape& Y, const Matching_options& options,
             const Keep_going& keep_going)
 {
-  match.map = Registration(X, Y, options.local_weight, options.threads)
-                  .refine(match.C, options.fine_iterations, keep_going);
+  Registration::Maps maps = Registration(X, Y, options.local_weight, options.threads)
+                                .refine(match.C, options.fine_iterations, keep_going);
+  match.map = std::move(maps.map);
   if(options.fine_iterations > 0)
     match.C = SG::functional_map_of_vertex_map(Y.spectral.pairs.vectors.leftCols(match.C.cols()),
                                                X.spectral.pairs.vectors.leftCols(match.C.rows()),
                                                X.spectral.op.B, match.map);
+  if(!maps.of_full.empty())
+    match.map = std::move(maps.of_full);
 }
 
 } // namespace
@@ -135,6 +139,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, 
   Eigen::MatrixXd C = map_of_many_starts(x, y, coarse_landmarks, options, keep_going);
   C = filtered(std::move(C), coarse_X.shape, coarse_Y.shape, options, keep_going);
   match.seconds_coarse = timer.time();
+  match.peak_coarse = peak_memory();
 
   timer.reset();
   const auto restriction = [&](const Shape& fine, const Proxy& proxy) {
@@ -162,5 +167,6 @@ Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
   match.C = map_of_descriptors(X.spectral, Y.spectral, landmarks, options, keep_going);
   finish(match, X, Y, options, keep_going);
   match.seconds_coarse = timer.time();
+  match.peak_coarse = peak_memory();
   return match;
 }

@@ -34,10 +34,11 @@ using Landmarks = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 struct Match
 {
-  std::vector<Eigen::Index> map;               // for each vertex of fine X the vertex of fine Y
+  std::vector<Eigen::Index> map;               // for each vertex of X as read the vertex of Y as read
   Eigen::MatrixXd C;                           // functional map from fine Y to fine X
   double condition = 1, relative_residual = 0; // of the lift
   double seconds_coarse = 0, seconds_lift = 0;
+  double peak_coarse = 0; // bytes that the process had at most before the lift
 };
 
 // Matches fine X to fine Y over their proxies, which must have equal numbers of vertices.

@@ -24,13 +24,14 @@
 // The command line of shape_matching.
 struct Matching_arguments
 {
-  std::string X, Y, output, report, landmarks, ground_truth; // empty: not wanted
+  std::string X, Y, output, report, json, landmarks, ground_truth; // empty: not wanted
   std::string proxies = "spectral", preset = "best", mass, operators = "fitted",
               matcher = "product_manifold_filter"; // mass empty: as the preset has it
   std::string vertices = "600";                    // as it was typed
   Vertex_target target;
   long eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
   long samples = 300;
+  long pre_simplify = 0; // 0: never
   double local_weight = 4;
   int threads = all_threads();
   bool quiet = false, repair = false, strict = false;
@@ -69,6 +70,10 @@ inline Command_line described(Matching_arguments& a)
   line.argument(a.Y);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%", "of both simplified meshes; 3% is a part of X's");
+  line.option(
+      "pre-simplify", a.pre_simplify, "N0",
+      "first reduce larger X and Y to this number by quadrics alone, match these, and carry the map to X "
+      "and Y by bending the one onto the other; for meshes of 100,000 vertices and more; 0: never");
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K", "of all meshes; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "paper"},
@@ -82,6 +87,7 @@ inline Command_line described(Matching_arguments& a)
   line.option("output", a.output, "map.txt",
               "for each vertex of X the vertex of Y, one per line, from 0; -1: no face uses it");
   line.option("report", a.report, "FILE.html", "a page with pictures, times and errors");
+  line.option("json", a.json, "FILE", "seconds and memory of each stage, and errors, for programs");
   line.option("ground-truth", a.ground_truth, "map.txt",
               "the true map, as of --output: geodesic errors are measured");
   line.group("Run");
@@ -117,12 +123,21 @@ inline void check(const Matching_arguments& a)
   if(a.X.empty() || a.Y.empty())
     throw std::runtime_error(
         "two meshes are needed: shape_matching X Y --output map.txt; --help shows what there is.");
-  if(a.output.empty() && a.report.empty())
-    throw std::runtime_error("nothing is to be written: give --output, --report or both.");
+  if(a.output.empty() && a.report.empty() && a.json.empty())
+    throw std::runtime_error("nothing is to be written: give --output, --report, --json or several.");
+  at_least("pre-simplify", a.pre_simplify, 0);
   at_least("eigenvectors", a.eigenvectors, 10);
   at_least("initial", a.initial_modes, 4);
   at_least("filter-iterations", a.filter_iterations, 0);
   at_least("fine-iterations", a.fine_iterations, 0);
+  if(a.pre_simplify > 0 && a.fine_iterations == 0)
+    throw std::runtime_error(
+        "--pre-simplify needs --fine-iterations of at least 1: what bends X onto Y carries the "
+        "map to the vertices that were left out.");
+  if(a.pre_simplify > 0 && a.pre_simplify <= a.eigenvectors)
+    throw std::runtime_error("--pre-simplify is " + std::to_string(a.pre_simplify) +
+                             ", it must be above --eigenvectors, which is " + std::to_string(a.eigenvectors) +
+                             ".");
   at_least("samples", a.samples, 1);
   if(!(a.local_weight >= 0 && a.local_weight <= 100))
     throw std::runtime_error("--local-weight is " + std::to_string(a.local_weight) +
@@ -162,6 +177,8 @@ inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X
   };
   if(N < 4 || static_cast<long>(N) < a.eigenvectors)
     refuse("it must be at least 4, and --eigenvectors, which is " + std::to_string(a.eigenvectors));
+  if(a.pre_simplify > 0 && static_cast<long>(N) > a.pre_simplify)
+    refuse("--pre-simplify leaves " + std::to_string(a.pre_simplify) + " vertices");
   for(const auto& [path, n] : {std::make_pair(a.X, n_X), std::make_pair(a.Y, n_Y)})
     if(n < N)
       refuse("'" + path + "' has " + std::to_string(n) + " vertices");

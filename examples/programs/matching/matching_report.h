@@ -6,8 +6,11 @@
 #define SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H
 
 #include "../report/html_report.h"
+#include "../report/json_text.h"
 #include "../report/mesh_picture.h"
 #include "matcher.h"
+
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -16,19 +19,29 @@
 #include <string>
 #include <vector>
 
+// A part of the work, for X and Y side by side.
+struct Stage
+{
+  std::string name;
+  double seconds = 0;
+  double peak = 0; // bytes that the process had at most, up to its end
+};
+
 // One way to match X and Y, with what it cost and how well it went.
 struct Matching_result
 {
   std::string proxy;
   std::size_t vertices = 0; // of the meshes that were matched
   Match match;
-  double seconds_fine = 0;    // eigenpairs of both fine meshes, side by side
-  double seconds_proxies = 0; // simplification and coarse eigenpairs, side by side
+  std::vector<Stage> stages;  // from reading to the lift, the same for all results
   std::vector<double> errors; // ascending; empty without a ground truth
 
   double seconds() const
   {
-    return seconds_fine + seconds_proxies + match.seconds_coarse + match.seconds_lift;
+    double sum = 0;
+    for(const Stage& stage : stages)
+      sum += stage.seconds;
+    return sum;
   }
 
   double mean_error() const
@@ -46,6 +59,12 @@ struct Matching_result
     return static_cast<double>(std::upper_bound(errors.begin(), errors.end(), x) - errors.begin()) /
            static_cast<double>(errors.size());
   }
+
+  double quantile(double q) const
+  {
+    return errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                          : errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
+  }
 };
 
 struct Matching_comparison
@@ -57,13 +76,51 @@ struct Matching_comparison
   std::vector<Matching_result> results;
 };
 
+// Without the maps. Numbers that were not computed are null.
+inline nlohmann::json to_json(const Matching_comparison& c)
+{
+  nlohmann::json json = {{"program", "shape_matching"},
+                         {"command", c.command},
+                         {"X", c.X},
+                         {"Y", c.Y},
+                         {"vertices_X", c.shape_X->read().V.rows()},
+                         {"vertices_Y", c.shape_Y->read().V.rows()},
+                         {"matched_vertices_X", c.shape_X->matrices.V.rows()},
+                         {"matched_vertices_Y", c.shape_Y->matrices.V.rows()},
+                         {"mass", c.mass},
+                         {"modes", c.modes},
+                         {"landmarks", c.landmarks},
+                         {"results", nlohmann::json::array()}};
+  for(const Matching_result& r : c.results) {
+    nlohmann::json stages = nlohmann::json::array();
+    for(const Stage& stage : r.stages)
+      stages.push_back(
+          {{"stage", stage.name}, {"seconds", stage.seconds}, {"peak_megabytes_so_far", stage.peak / 1e6}});
+    json["results"].push_back({{"proxy", r.proxy},
+                               {"vertices", r.vertices},
+                               {"stages", stages},
+                               {"seconds", r.seconds()},
+                               {"condition", number_json(r.match.condition)},
+                               {"errors_measured_at", r.errors.size()},
+                               {"error_mean", number_json(r.mean_error())},
+                               {"error_median", number_json(r.quantile(0.5))},
+                               {"error_90_percent", number_json(r.quantile(0.9))},
+                               {"error_max", number_json(r.quantile(1))}});
+  }
+  return json;
+}
+
 inline void print_matching(const Matching_comparison& c)
 {
-  std::printf("%-17s %8s %9s %9s %9s %9s %9s %10s %10s\n", "proxy", "vertices", "eigen, s", "proxy, s",
-              "match, s", "lift, s", "total, s", "mean error", "below 0.05");
+  std::printf("%-17s %8s", "seconds, proxy", "vertices");
+  for(const Stage& stage : c.results.front().stages)
+    std::printf(" %10s", stage.name.c_str());
+  std::printf(" %10s %10s %10s\n", "total", "mean error", "below 0.05");
   for(const Matching_result& r : c.results) {
-    std::printf("%-17s %8zu %9.2f %9.2f %9.2f %9.2f %9.2f", r.proxy.c_str(), r.vertices, r.seconds_fine,
-                r.seconds_proxies, r.match.seconds_coarse, r.match.seconds_lift, r.seconds());
+    std::printf("%-17s %8zu", r.proxy.c_str(), r.vertices);
+    for(const Stage& stage : r.stages)
+      std::printf(" %10.2f", stage.seconds);
+    std::printf(" %10.2f", r.seconds());
     if(r.errors.empty())
       std::printf(" %10s %10s\n", "-", "-");
     else
@@ -76,20 +133,18 @@ namespace matching_report_internal {
 inline std::string result_table(const Matching_comparison& c)
 {
   using namespace html_internal;
-  std::string html =
-      "<table>\n" + heading_row({"proxy", "vertices", "eigenpairs, s", "proxies, s", "matching, s", "lift, s",
-                                 "total, s", "condition", "mean error", "median", "90 %", "largest"},
-                                1);
+  std::vector<std::string> names = {"proxy", "vertices"};
+  for(const Stage& stage : c.results.front().stages)
+    names.push_back(stage.name + ", s");
+  for(const char* name : {"total, s", "condition", "mean error", "median", "90 %", "largest"})
+    names.push_back(name);
+  std::string html = "<table>\n" + heading_row(names, 1);
   for(const Matching_result& r : c.results) {
-    const auto quantile = [&](double q) {
-      return r.errors.empty()
-                 ? std::numeric_limits<double>::quiet_NaN()
-                 : r.errors[static_cast<std::size_t>(q * static_cast<double>(r.errors.size() - 1))];
-    };
     html += "<tr>" + cell(escaped(r.proxy), "td", "l") + cell(std::to_string(r.vertices));
+    for(const Stage& stage : r.stages)
+      html += cell(formatted(stage.seconds));
     for(const double x :
-        {r.seconds_fine, r.seconds_proxies, r.match.seconds_coarse, r.match.seconds_lift, r.seconds(),
-         r.match.condition, r.mean_error(), quantile(0.5), quantile(0.9), quantile(1)})
+        {r.seconds(), r.match.condition, r.mean_error(), r.quantile(0.5), r.quantile(0.9), r.quantile(1)})
       html += cell(formatted(x));
     html += "</tr>\n";
   }
@@ -128,16 +183,16 @@ inline std::string figure(const std::string& picture, const std::string& caption
 
 inline std::string pictures(const Matching_comparison& c)
 {
-  const Eigen::MatrixXd colours = colours_by_position(c.shape_Y->matrices.V);
+  const Eigen::MatrixXd colours = colours_by_position(c.shape_Y->read().V);
   Picture picture;
   picture.colours = colours;
   std::string html =
-      "<div class='figures'>\n" + figure(mesh_picture(c.shape_Y->matrices, picture), "Y: " + c.Y);
+      "<div class='figures'>\n" + figure(mesh_picture(c.shape_Y->read(), picture), "Y: " + c.Y);
   for(const Matching_result& r : c.results) {
-    picture.colours.resize(c.shape_X->matrices.V.rows(), 3);
+    picture.colours.resize(c.shape_X->read().V.rows(), 3);
     for(std::size_t i = 0; i < r.match.map.size(); ++i)
       picture.colours.row(static_cast<Eigen::Index>(i)) = colours.row(r.match.map[i]);
-    html += figure(mesh_picture(c.shape_X->matrices, picture), "X: " + c.X + ", proxy " + r.proxy);
+    html += figure(mesh_picture(c.shape_X->read(), picture), "X: " + c.X + ", proxy " + r.proxy);
   }
   return html + "</div>\n";
 }
@@ -157,8 +212,12 @@ inline std::string matching_page(const Matching_comparison& c)
   const auto fact = [&](const std::string& name, const std::string& value) {
     html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
   };
-  fact("X, Y", std::to_string(c.shape_X->matrices.V.rows()) + " and " +
-                   std::to_string(c.shape_Y->matrices.V.rows()) + " vertices");
+  const auto sizes = [&](const Eigen::MatrixXd& X, const Eigen::MatrixXd& Y) {
+    return std::to_string(X.rows()) + " and " + std::to_string(Y.rows()) + " vertices";
+  };
+  fact("X, Y", sizes(c.shape_X->read().V, c.shape_Y->read().V));
+  if(c.shape_X->full || c.shape_Y->full)
+    fact("Reduced to", sizes(c.shape_X->matrices.V, c.shape_Y->matrices.V));
   fact("Eigenvectors, mass", std::to_string(c.modes) + ", " + escaped(c.mass));
   fact("Matcher", escaped(c.matcher));
   fact("Landmarks", std::to_string(c.landmarks));

@@ -80,6 +80,28 @@ const char* proxy_name(Proxy_kind kind)
                                                 : "none";
 }
 
+Mesh mesh_of(const SG::Mesh_matrices& matrices)
+{
+  Mesh mesh;
+  for(Eigen::Index v = 0; v < matrices.V.rows(); ++v)
+    mesh.add_vertex(Kernel::Point_3(matrices.V(v, 0), matrices.V(v, 1), matrices.V(v, 2)));
+  const auto vertex = [](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
+  for(Eigen::Index t = 0; t < matrices.T.rows(); ++t)
+    mesh.add_face(vertex(matrices.T(t, 0)), vertex(matrices.T(t, 1)), vertex(matrices.T(t, 2)));
+  return mesh;
+}
+
+Reduced_mesh reduced_by_quadrics(Mesh mesh, const std::size_t vertices,
+                                 const std::function<bool()>& keep_going)
+{
+  const auto reduction = simplify_mesh_by_quadrics(mesh, vertices, [&](double) { return keep_going(); });
+  Reduced_mesh result;
+  result.vertex_map.assign(reduction.vertex_map.begin(), reduction.vertex_map.end());
+  result.mesh =
+      mesh_of(SG::mesh_matrices(mesh)); // without what was removed, in the order of the vertices left
+  return result;
+}
+
 Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going,
                  const std::function<void(SG::Laplace_operator&)>& fit)
 {

@@ -14,16 +14,35 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 // A mesh with its spectrum at unit area, and the scale that made it so.
 struct Shape
 {
-  CGAL::Spectral_geometry::Mesh_matrices matrices; // as read
+  CGAL::Spectral_geometry::Mesh_matrices matrices; // in the unit of the file
+  std::optional<CGAL::Spectral_geometry::Mesh_matrices>
+      full; // the mesh that was reduced to this one, if one was
   CGAL::Spectral_geometry::Spectral_shape spectral;
-  double area = 0; // as read
+  double area = 0; // in the unit of the file
+
+  // As read: the mesh whose vertices a match is about.
+  const CGAL::Spectral_geometry::Mesh_matrices& read() const { return full ? *full : matrices; }
 };
+
+// A large mesh that is matched by way of a smaller one.
+struct Reduced_mesh
+{
+  Mesh mesh;
+  std::vector<Eigen::Index> vertex_map; // for each vertex of the large mesh the one that it went to
+};
+
+// The mesh of these vertices and triangles, in their order.
+Mesh mesh_of(const CGAL::Spectral_geometry::Mesh_matrices& matrices);
+
+// Reduces a larger mesh to so many vertices by quadrics alone.
+Reduced_mesh reduced_by_quadrics(Mesh mesh, std::size_t vertices, const std::function<bool()>& keep_going);
 
 enum class Proxy_kind { spectral, garland_heckbert, none };
 

@@ -80,12 +80,7 @@ Eigen::MatrixXd curvature_bands(const Shape& shape, const Eigen::MatrixXd& norma
 // the volume.
 SG::Mesh_matrices control_mesh(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, std::size_t vertices)
 {
-  Mesh mesh;
-  for(Eigen::Index v = 0; v < V.cols(); ++v)
-    mesh.add_vertex(Kernel::Point_3(V(0, v), V(1, v), V(2, v)));
-  const auto vertex = [](int v) { return Mesh::Vertex_index(static_cast<Mesh::size_type>(v)); };
-  for(Eigen::Index t = 0; t < T.rows(); ++t)
-    mesh.add_face(vertex(T(t, 0)), vertex(T(t, 1)), vertex(T(t, 2)));
+  Mesh mesh = mesh_of({V.transpose(), T});
   if(mesh.number_of_vertices() > vertices)
     SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(vertices, mesh),
                        CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Mesh>())
@@ -169,12 +164,19 @@ public:
 
 } // namespace
 
+Registration::Points Registration::points(const Shape& shape, const SG::Mesh_matrices& mesh)
+{
+  Points result;
+  result.V = mesh.V.transpose() / std::sqrt(shape.area);
+  result.normals = vertex_normals(result.V, mesh.T);
+  return result;
+}
+
 Registration::Surface Registration::surface(const Shape& shape, double shortest_time, Eigen::Index bands)
 {
   constexpr std::size_t control_vertices = 2000;
   Surface s;
-  s.V = shape.matrices.V.transpose() / std::sqrt(shape.area);
-  s.normals = vertex_normals(s.V, shape.matrices.T);
+  static_cast<Points&>(s) = points(shape, shape.matrices);
   s.bands = curvature_bands(shape, s.normals, shortest_time, bands);
   s.control = control_mesh(s.V, shape.matrices.T, control_vertices);
   s.nearest = SG::nearest_rows(s.V.transpose(), s.control.V);
@@ -280,12 +282,12 @@ Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations, const K
   return C;
 }
 
-std::vector<Eigen::Index> Registration::refine(const Eigen::MatrixXd& C, int iterations,
-                                               const Keep_going& keep_going) const
+Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations,
+                                        const Keep_going& keep_going) const
 {
   const Eigen::MatrixXd &phi = m_shape_X.spectral.pairs.vectors, &psi = m_shape_Y.spectral.pairs.vectors;
   if(iterations == 0)
-    return SG::target_to_source_map(C, psi, phi, m_threads);
+    return {SG::target_to_source_map(C, psi, phi, m_threads), {}};
 
   // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they are long. The surface is
   // first drawn with both smoothed, which leaves limbs free to turn with what they grow out of, then at the vertices that face
@@ -354,8 +356,17 @@ std::vector<Eigen::Index> Registration::refine(const Eigen::MatrixXd& C, int ite
     }
   }
   elastic.fit_rotations(P);
-  const Eigen::MatrixXd moved = carried(m_X.V, m_X.normals, elastic, P, m_threads);
-  return SG::nearest_rows(features(m_Y.V, m_Y.normals, m_Y.bands, none),
-                          features(moved, vertex_normals(moved, m_shape_X.matrices.T), m_X.bands, none),
-                          m_threads);
+  // For each vertex of X that has gone with the control mesh the nearest of Y.
+  const auto map = [&](const Points& of_X, const Eigen::MatrixXi& T, const Points& of_Y) {
+    const Eigen::MatrixXd moved = carried(of_X.V, of_X.normals, elastic, P, m_threads);
+    const Eigen::MatrixXd no_bands_X(0, of_X.V.cols()), no_bands_Y(0, of_Y.V.cols());
+    return SG::nearest_rows(features(of_Y.V, of_Y.normals, no_bands_Y, none),
+                            features(moved, vertex_normals(moved, T), no_bands_X, none), m_threads);
+  };
+  Maps result;
+  result.map = map(m_X, m_shape_X.matrices.T, m_Y);
+  if(m_shape_X.full || m_shape_Y.full)
+    result.of_full =
+        map(points(m_shape_X, m_shape_X.read()), m_shape_X.read().T, points(m_shape_Y, m_shape_Y.read()));
+  return result;
 }

@@ -33,20 +33,33 @@ public:
   // Throws what `keep_going` stops.
   Registration(const Shape& X, const Shape& Y, double largest_weight, int threads);
 
-  // The map from X to Y that C, from Y to X, leads to after so many iterations; 0: that of C as it is.
-  std::vector<Eigen::Index> refine(const Eigen::MatrixXd& C, int iterations,
-                                   const Keep_going& keep_going) const;
+  struct Maps
+  {
+    std::vector<Eigen::Index> map;     // from X to Y
+    std::vector<Eigen::Index> of_full; // between the meshes that these were reduced from, if one was
+  };
+
+  // What C, from Y to X, leads to after so many iterations; 0: its map as it is, and none of full meshes.
+  Maps refine(const Eigen::MatrixXd& C, int iterations, const Keep_going& keep_going) const;
 
 private:
-  // A surface at unit area. Few vertices, each beside one of the fine mesh.
-  struct Surface
+  // At unit area, one column per vertex.
+  struct Points
   {
-    Eigen::MatrixXd V, normals, bands; // of the fine mesh, one column per vertex
+    Eigen::MatrixXd V, normals;
+  };
+
+  // A surface, and a control mesh of few vertices, each beside one of the fine mesh.
+  struct Surface : Points
+  {
+    Eigen::MatrixXd bands; // of the fine mesh, one column per vertex
     CGAL::Spectral_geometry::Mesh_matrices control;
     std::vector<Eigen::Index> nearest; // fine vertex, for each of the control mesh
     Eigen::VectorXd areas;             // of the control mesh, which sum to 1
   };
 
+  // Of a mesh in the unit of that shape.
+  static Points points(const Shape& shape, const CGAL::Spectral_geometry::Mesh_matrices& mesh);
   static Surface surface(const Shape& shape, double shortest_time, Eigen::Index bands);
   // Signal over noise of each band under the images, r^2 / (1 - r^2) with the correlation r, cut at the largest weight: animals
   // of different species share the shape of the limbs, not the wrinkles.

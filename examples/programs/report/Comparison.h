@@ -100,6 +100,12 @@ struct Simplified
   }
 };
 
+// A result of another program that could not be judged.
+struct Refused
+{
+  std::string name, reason; // a sentence
+};
+
 // The fine spectrum in one mass.
 struct Fine_spectrum
 {
@@ -125,6 +131,7 @@ struct Comparison
   std::string cgal_version, compiler;
   std::vector<Fine_spectrum> fine;
   std::vector<Simplified> results; // ordered by size, then simplifier
+  std::vector<Refused> refused;    // rivals
   std::vector<std::string> notes;  // what was left out, and why
 };
 

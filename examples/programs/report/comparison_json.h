@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-// The comparison for programs: one object per result and mass under "rows". Numbers that were not computed
-// are null.
+// The comparison for programs: one object per result and mass under "rows", rivals that were refused under "refused". Numbers
+// that were not computed are null.
 
 namespace comparison_json_internal {
 
@@ -105,7 +105,8 @@ inline nlohmann::json to_json(const Comparison& c)
                          {"compiler", c.compiler},
                          {"notes", c.notes},
                          {"fine", nlohmann::json::array()},
-                         {"rows", nlohmann::json::array()}};
+                         {"rows", nlohmann::json::array()},
+                         {"refused", nlohmann::json::array()}};
   for(const Fine_spectrum& f : c.fine)
     json["fine"].push_back({{"mass", f.mass},
                             {"seconds_eigenpairs", number_json(f.seconds)},
@@ -114,6 +115,8 @@ inline nlohmann::json to_json(const Comparison& c)
   for(const Simplified& s : c.results)
     for(const Judgement& j : s.judgements)
       json["rows"].push_back(row(s, j));
+  for(const Refused& r : c.refused)
+    json["refused"].push_back({{"simplifier", r.name}, {"reason", r.reason}});
   return json;
 }
 

@@ -61,6 +61,10 @@ inline void print_comparison(const Comparison& c)
   for(const std::size_t N : html_internal::sizes(c))
     for(const Fine_spectrum& f : c.fine)
       comparison_table_internal::print_block(c, N, f.mass);
+  if(!c.refused.empty())
+    std::printf("\nrefused\n");
+  for(const Refused& r : c.refused)
+    std::printf("%-40s %s\n", printable(r.name).c_str(), printable(r.reason).c_str());
   for(const std::string& note : html_internal::all_notes(c))
     std::printf("\n%s\n", printable(note).c_str());
 }

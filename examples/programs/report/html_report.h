@@ -57,7 +57,8 @@ inline const char* style()
          "linear-gradient(90deg,#0000,#0003) 100% 0/12px 100% no-repeat scroll}"
          "td.n{white-space:normal;min-width:8em}"
          "td.n,th.l:first-child{position:sticky;left:0;background:#fff}"
-         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:none;font-size:12px}"
+         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:none;font-"
+         "size:12px}"
          ".legend{columns:1}.shapes{grid-template-columns:1fr}}"
          "@media print{#shape-controls{display:none}body{margin:0;max-width:none;font-size:10pt}"
          "table{font-size:7.5pt}th,td{padding:1px 4px}h2{break-after:avoid}"
@@ -183,6 +184,14 @@ inline std::string spectrum_tables(const Comparison& c, const std::string& mass)
   return html;
 }
 
+inline std::string refused_rivals(const Comparison& c)
+{
+  std::string html = "<table>\n" + heading_row({"refused", "why"}, 2);
+  for(const Refused& r : c.refused)
+    html += "<tr>" + cell(escaped(r.name), "td", "l n") + cell(escaped(r.reason), "td", "l") + "</tr>\n";
+  return html + "</table>\n";
+}
+
 inline std::string shape_table(const Comparison& c)
 {
   return table(c, c.fine.front().mass,
@@ -274,6 +283,8 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
                      "</style></head><body>\n";
   html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
   html += facts(c);
+  if(!c.refused.empty())
+    html += refused_rivals(c);
   for(const std::string& note : all_notes(c))
     html += "<p class='note'>" + escaped(note) + "</p>\n";
   for(const Fine_spectrum& f : c.fine) {
