@@ -249,7 +249,8 @@ def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.nda
     proxy      'spectral', 'garland_heckbert' or 'none': how the meshes are simplified
     operators  'fitted' or 'mesh', of the simplified meshes: fitted to the spectra of X and Y, or their own
     initial    modes of the functional map from signatures, from 4 to 60
-    matcher    'product_manifold_filter' or 'bcicp' (Ren et al. 2018): what makes the map between the simplified meshes bijective
+    matcher    'product_manifold_filter' or 'bcicp' (Ren et al. 2018): what makes the map between the
+               simplified meshes bijective
     filter_iterations
                of the matcher; 0: none
     fine_iterations

@@ -64,7 +64,7 @@ inline Command_line described(Matching_arguments& a)
       "shape_matching X Y --output map.txt [options]",
       "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both\n"
       "to the same number of vertices, matches these (functional map from signatures, ZoomOut, Product\n"
-      "Manifold Filter or BCICP) and lifts the functional map to X and Y (section 5.2 of Lescoat et al. "
+      "Manifold Filter or BCICP) and lifts the functional map to X and Y (section 5.2 of Lescoat et al.\n"
       "2020).");
   line.argument(a.X);
   line.argument(a.Y);
