@@ -6,9 +6,10 @@
 # Makes the shapes, tables and pictures of applications.md:
 #   doc/make_applications.py BUILD [FOLDER]
 #   doc/make_applications.py --large BUILD [FOLDER]
+#   doc/make_applications.py --pairs BUILD FOLDER [NAME:X:Y:TRUTH ...]
 # BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
-# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, and writes
-# it into the page; where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
+# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, --pairs that of
+# proxies and matchers, on the shapes in other triangles and on other pairs with the true map, and write it into the page; where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
 # Needs nothing but Python 3.
 
 import base64
@@ -97,7 +98,7 @@ def wave(source, output, seed):
         file.writelines(lines)
 
 
-def run_all(build, folder):
+def make_shapes(build, folder):
     os.makedirs(folder, exist_ok=True)
     for pose in ("walk", "bend"):
         run(build, folder, f"{pose}.txt", "make_demo_shape", f"{pose}.off", "--pose", pose, "--shuffle", "7", "--map", f"{pose}.txt")
@@ -113,6 +114,10 @@ def run_all(build, folder):
     if not os.path.exists(same):
         with open(same, "w") as file:
             file.writelines(f"{v}\n" for v in range(len(read_vertices(os.path.join(folder, "stand.off")))))
+
+
+def run_all(build, folder):
+    make_shapes(build, folder)
     for name, Y, truth in PAIRS:
         report = report_name(name)
         run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--operators", "mesh", "--proxy", "spectral,garland_heckbert",
@@ -161,6 +166,41 @@ def large(build, folder):
     replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "large", "\n".join(table) + "\n")
 
 
+# --- proxies and matchers ----------------------------------------------------------------------------------------------
+
+KINDS = [("spectral, Product Manifold Filter", "spectral", "product_manifold_filter"), ("spectral, BCICP", "spectral", "bcicp"),
+         ("Garland-Heckbert, Product Manifold Filter", "garland_heckbert", "product_manifold_filter"), ("no proxy", "none", "")]
+
+
+def pairs(build, folder, others):
+    make_shapes(build, folder)
+    wanted = [(name, "stand.off", Y, truth) for name, Y, truth in PAIRS if "other" in name]
+    wanted += [(name, *map(os.path.abspath, paths)) for name, *paths in (word.split(":") for word in others)]
+    lines, sums = [], collections.defaultdict(list)
+    for name, X, Y, truth in wanted:
+        for vertices in (300, 600, 1000):
+            found = []
+            for _, proxy, matcher in KINDS:
+                if proxy == "none" and vertices != 600:
+                    found.append(None)
+                    continue
+                output = f"pair_{report_name(name)}_{vertices}_{proxy}_{matcher}.out"
+                run(build, folder, output, "shape_matching", X, Y, "--ground-truth", truth, "--vertices", str(vertices), "--proxy", proxy,
+                    "--output", "map.txt", *(["--matcher", matcher] if matcher else []), by=os.environ.get("RUN_BY", ""))
+                with open(os.path.join(folder, output)) as file:
+                    words = next(line for line in file if line.startswith(proxy)).split()
+                found.append((float(words[-3]), float(words[-2])))
+                sums[len(found) - 1].append(found[-1])
+            best = min(error for error, _ in filter(None, found))
+            cells = ["" if f is None else f"**{f[0]:.4f}**, {f[1]:.1f} %" if f[0] == best else f"{f[0]:.4f}, {f[1]:.1f} %" for f in found]
+            lines.append(f"| {name if vertices == 300 else ''} | {vertices:,} | " + " | ".join(cells) + " |")
+    means = [tuple(sum(column) / len(column) for column in zip(*sums[k])) for k in range(len(KINDS))]
+    lines.append("| mean | | " + " | ".join(f"{error:.4f}, {share:.1f} %" for error, share in means) + " |")
+    table = [machine() + ".", "", "| pair | vertices | " + " | ".join(kind for kind, _, _ in KINDS) + " |",
+             "|---|---:|" + "---:|" * len(KINDS), *lines]
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "pairs", "\n".join(table) + "\n")
+
+
 # --- pictures out of the reports -------------------------------------------------------------------------------------
 
 
@@ -206,10 +246,13 @@ def curves(folder, report, path):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word != "--large"]
-    if len(words) not in (1, 2):
-        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER]")
-    folder = os.path.abspath(words[1] if len(words) == 2 else os.path.join(words[0], "applications"))
+    words = [word for word in sys.argv[1:] if word not in ("--large", "--pairs")]
+    if not words or len(words) > 2 and "--pairs" not in sys.argv:
+        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER], or --pairs BUILD FOLDER [NAME:X:Y:TRUTH ...]")
+    folder = os.path.abspath(words[1] if len(words) > 1 else os.path.join(words[0], "applications"))
+    if "--pairs" in sys.argv:
+        pairs(words[0], folder, words[2:])
+        return
     if "--large" in sys.argv:
         large(words[0], folder)
         return
