@@ -37,6 +37,21 @@ inline Matrices matrices(const std::vector<Eigen::Vector3d>& points,
   return result;
 }
 
+// The mesh whose vertex i is the vertex p[i] of another.
+inline Matrices permuted(const Matrices& mesh, const std::vector<Eigen::Index>& p)
+{
+  Matrices result = mesh;
+  std::vector<int> place(p.size());
+  for(std::size_t i = 0; i < p.size(); ++i) {
+    result.V.row(static_cast<Eigen::Index>(i)) = mesh.V.row(p[i]);
+    place[static_cast<std::size_t>(p[i])] = static_cast<int>(i);
+  }
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f)
+    for(int c = 0; c < 3; ++c)
+      result.T(f, c) = place[static_cast<std::size_t>(mesh.T(f, c))];
+  return result;
+}
+
 inline Matrices tetrahedron_matrices()
 {
   return matrices({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
@@ -72,6 +87,18 @@ inline Matrices icosphere_matrices(int subdivisions, double radius = 1.)
   for(Eigen::Vector3d& p : points)
     p *= radius / p.norm();
   return matrices(points, triangles);
+}
+
+// Without a symmetry, rounder than `bumpy_icosphere_matrices()`, on any sphere.
+inline Matrices pebble_matrices(Matrices sphere)
+{
+  for(Eigen::Index i = 0; i < sphere.V.rows(); ++i) {
+    const Eigen::Vector3d d = sphere.V.row(i).transpose().normalized();
+    sphere.V.row(i) = Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
+                      (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3) +
+                       0.08 * std::sin(5 * d.z() + 2 * d.x() + 0.5));
+  }
+  return sphere;
 }
 
 // A closed shape without symmetry, star-shaped: five limbs and waves of three lengths on an icosphere.

@@ -36,18 +36,6 @@ Shape shape_of(const shapes::Matrices& mesh)
   return make_shape({mesh.V, mesh.T}, modes, SG::Mass::averaged, always);
 }
 
-// Without a symmetry.
-shapes::Matrices pebble()
-{
-  shapes::Matrices mesh = shapes::icosphere_matrices(3);
-  for(Index i = 0; i < mesh.V.rows(); ++i) {
-    const Eigen::Vector3d d = mesh.V.row(i).transpose().normalized();
-    mesh.V.row(i) = Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
-                    (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3));
-  }
-  return mesh;
-}
-
 // About an axis beside it, and turned in space.
 shapes::Matrices bent(shapes::Matrices mesh)
 {
@@ -56,21 +44,6 @@ shapes::Matrices bent(shapes::Matrices mesh)
     mesh.V.row(i) = Eigen::RowVector3d(mesh.V(i, 2), radius * std::sin(angle), 5 - radius * std::cos(angle));
   }
   return mesh;
-}
-
-// The mesh whose vertex i is the vertex p[i] of another.
-shapes::Matrices permuted(const shapes::Matrices& mesh, const Map& p)
-{
-  shapes::Matrices result = mesh;
-  std::vector<int> place(p.size());
-  for(std::size_t i = 0; i < p.size(); ++i) {
-    result.V.row(static_cast<Index>(i)) = mesh.V.row(p[i]);
-    place[static_cast<std::size_t>(p[i])] = static_cast<int>(i);
-  }
-  for(Index f = 0; f < mesh.T.rows(); ++f)
-    for(int c = 0; c < 3; ++c)
-      result.T(f, c) = place[static_cast<std::size_t>(mesh.T(f, c))];
-  return result;
 }
 
 Map identity(Index n)
@@ -134,7 +107,7 @@ double bijectivity(const Vertex_maps& maps)
 
 TEST_CASE("BCICP leaves an exact map between copies as it is")
 {
-  const shapes::Matrices X = pebble();
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
   Map p = identity(X.V.rows());
   std::mt19937 random(1);
   for(std::size_t i = p.size(); i > 1; --i)
@@ -142,14 +115,15 @@ TEST_CASE("BCICP leaves an exact map between copies as it is")
   Map inverse(p.size());
   for(std::size_t i = 0; i < p.size(); ++i)
     inverse[static_cast<std::size_t>(p[i])] = static_cast<Index>(i);
-  const Vertex_maps maps = bcicp(shape_of(X), shape_of(permuted(X, p)), {inverse, p}, modes, 3, 2, always);
+  const Vertex_maps maps =
+      bcicp(shape_of(X), shape_of(shapes::permuted(X, p)), {inverse, p}, modes, 3, 2, always);
   CHECK(maps.X_to_Y == inverse);
   CHECK(maps.Y_to_X == p);
 }
 
 TEST_CASE("BCICP mends a map between a shape and the same bent")
 {
-  const shapes::Matrices X = pebble(), Y = bent(X);
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3)), Y = bent(X);
   const Shape x = shape_of(X), y = shape_of(Y);
   const Map truth = identity(X.V.rows());
   const Vertex_maps before{perturbed(truth, 1), perturbed(truth, 2)};

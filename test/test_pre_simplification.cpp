@@ -286,6 +286,10 @@ TEST_CASE("quadric_edge_collapse() that is cancelled or refused leaves the mesh 
   CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 163),
                     ContainsSubstring("the target is 163 vertices, but the mesh has 162"));
   CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 0), ContainsSubstring("from 1 to 162"));
+  Mesh with_isolated = input;
+  with_isolated.add_vertex(Kernel::Point_3(9, 9, 9));
+  CHECK_THROWS_WITH(SMS::quadric_edge_collapse(with_isolated, 20),
+                    ContainsSubstring("vertex 162") && ContainsSubstring("is isolated"));
   CHECK(positions(mesh) == positions(input));
   CHECK(SMS::quadric_edge_collapse(mesh, 162).vertex_map.size() == 162);
 }

@@ -55,33 +55,6 @@ Map random_permutation(Index n, unsigned seed)
   return p;
 }
 
-// The mesh whose vertex i is the vertex p[i] of another.
-shapes::Matrices permuted(const shapes::Matrices& mesh, const Map& p)
-{
-  shapes::Matrices result = mesh;
-  std::vector<int> place(p.size());
-  for(std::size_t i = 0; i < p.size(); ++i) {
-    result.V.row(static_cast<Index>(i)) = mesh.V.row(p[i]);
-    place[static_cast<std::size_t>(p[i])] = static_cast<int>(i);
-  }
-  for(Index f = 0; f < mesh.T.rows(); ++f)
-    for(int c = 0; c < 3; ++c)
-      result.T(f, c) = place[static_cast<std::size_t>(mesh.T(f, c))];
-  return result;
-}
-
-// Without a symmetry, rounder than `bumpy_icosphere_matrices()`, on any sphere.
-shapes::Matrices pebble(shapes::Matrices sphere)
-{
-  for(Index i = 0; i < sphere.V.rows(); ++i) {
-    const Eigen::Vector3d d = sphere.V.row(i).transpose().normalized();
-    sphere.V.row(i) = Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
-                      (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3) +
-                       0.08 * std::sin(5 * d.z() + 2 * d.x() + 0.5));
-  }
-  return sphere;
-}
-
 SG::Spectral_shape shape_of(const shapes::Matrices& mesh, Index K)
 {
   SG::Spectral_shape shape;
@@ -206,9 +179,9 @@ TEST_CASE("Nearest rows are those of a search through all of them")
 
 TEST_CASE("A permutation goes through its functional map and back")
 {
-  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
   const Map p = random_permutation(X.V.rows(), 7);
-  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(permuted(X, p), 40);
+  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(shapes::permuted(X, p), 40);
   const Eigen::MatrixXd C = SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, p);
   CHECK((C.transpose() * C - Eigen::MatrixXd::Identity(40, 40)).norm() < 1e-7);
   CHECK(SG::laplacian_commutativity_norm(C, x.pairs.values, y.pairs.values) < 1e-5 * x.pairs.values(39));
@@ -229,12 +202,13 @@ TEST_CASE("A permutation goes through its functional map and back")
   CHECK((points * Eigen::VectorXd::Ones(points.cols()) - Eigen::VectorXd::Ones(points.rows())).norm() <
         1e-10);
   // An embedded vertex may lie closer to a face through rounding only.
-  CHECK((points * X.V - permuted(X, p).V).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((points * X.V - shapes::permuted(X, p).V).cwiseAbs().maxCoeff() < 1e-6);
 }
 
 TEST_CASE("Points of faces are closer than vertices")
 {
-  const shapes::Matrices X = pebble(shapes::icosphere_matrices(2)), Y = pebble(shapes::icosphere_matrices(4));
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(2)),
+                         Y = shapes::pebble_matrices(shapes::icosphere_matrices(4));
   const SG::Spectral_shape x = shape_of(X, 15), y = shape_of(Y, 15);
   // The first vertices of the finer sphere are those of the coarser: the map is known there.
   const Eigen::MatrixXd at_vertices = y.pairs.vectors.topRows(X.V.rows());
@@ -253,11 +227,11 @@ TEST_CASE("Points of faces are closer than vertices")
 
 TEST_CASE("Hierarchical maps of pairs whose map is known")
 {
-  const shapes::Matrices X = pebble(shapes::icosphere_matrices(4));
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(4));
   SECTION("a permutation of the vertices")
   {
     const Map p = random_permutation(X.V.rows(), 8);
-    CHECK(error_of_lift(X, permuted(X, p), p) < 0.03);
+    CHECK(error_of_lift(X, shapes::permuted(X, p), p) < 0.03);
   }
   SECTION("a rigid copy")
   {
@@ -273,7 +247,7 @@ TEST_CASE("Hierarchical maps of pairs whose map is known")
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, -1, 2).normalized()).toRotationMatrix();
     sphere.V = sphere.V * R.transpose();
-    const shapes::Matrices Y = pebble(sphere);
+    const shapes::Matrices Y = shapes::pebble_matrices(sphere);
     CHECK(error_of_lift(X, Y, SG::nearest_rows(X.V, Y.V)) < 0.04);
   }
   SECTION("a bend")
@@ -289,7 +263,7 @@ TEST_CASE("Hierarchical maps of pairs whose map is known")
 
 TEST_CASE("The orientation operator turns with the orientation")
 {
-  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
   const SG::Spectral_shape x = shape_of(X, 10);
   const Eigen::VectorXd f = X.V.col(0) + 0.3 * X.V.col(1).cwiseAbs2();
   const Eigen::MatrixXd O = SG::orientation_operator(X.T, x.pairs.vectors, f);
@@ -311,9 +285,9 @@ TEST_CASE("The orientation operator turns with the orientation")
 
 TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
 {
-  const shapes::Matrices X = pebble(shapes::icosphere_matrices(3));
+  const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
   const Map p = random_permutation(X.V.rows(), 9);
-  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(permuted(X, p), 40);
+  const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(shapes::permuted(X, p), 40);
   const Eigen::VectorXd times = SG::heat_kernel_times(x.pairs, 10);
   const Eigen::MatrixXd f = SG::heat_kernel_signature(x.pairs, times),
                         g = SG::heat_kernel_signature(y.pairs, times);

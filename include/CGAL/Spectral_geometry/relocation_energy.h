@@ -31,8 +31,8 @@ The rows of the residual are combinations of few rows of F and Z,
 \f[ R_w = \sum_j B_{wj} Z_j - \sum_j L_{wj} (F_j - F_w), \f]
 j over w and its neighbours, so that \f$ \|R_w\|^2 \f$ is a quadratic form in 2 d + 1 coefficients, d the
 degree of w, whose matrix of inner products does not depend on V. It is computed once. After that a value
-or a gradient costs \f$ O(\sum_w d_w \min(d_w, K)) \f$: rows of more than K terms stay as they are. The differences F_j - F_w keep the small
-residual of smooth signals from being lost in the rounding of large inner products.
+or a gradient costs \f$ O(\sum_w d_w \min(d_w, K)) \f$: rows of more than K terms stay as they are. The
+differences F_j - F_w keep the small residual of smooth signals from being lost in the rounding of large inner products.
 
 The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each triangle into
 derivatives with respect to its three cotangents and its area, and go on from there to its corners.

@@ -39,15 +39,31 @@ namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
 
+/// Whether there are named parameters of `edge_collapse()` that a call with a cost of its own has no use for.
+template <class NamedParameters>
+constexpr bool overrides_policies = is_given<NamedParameters>(internal_np::get_cost_policy_t()) ||
+                                    is_given<NamedParameters>(internal_np::get_placement_policy_t()) ||
+                                    is_given<NamedParameters>(internal_np::use_relaxed_order_t()) ||
+                                    is_given<NamedParameters>(internal_np::vertex_index_t()) ||
+                                    is_given<NamedParameters>(internal_np::halfedge_index_t());
+
+inline void check_target(const char* const caller, const std::size_t target, const std::size_t n)
+{
+  if(target < 1 || target > n)
+    throw std::invalid_argument(std::string(caller) + ": the target is " + std::to_string(target) +
+                                " vertices, but the mesh has " + std::to_string(n) +
+                                "; use a number from 1 to " + std::to_string(n) + ".");
+}
+
 /// Throws for what is wrong with the mesh and stays so. Needles and faces without area need not.
 template <class TriangleMesh>
-void check_mesh_to_pre_simplify(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
+void check_mesh_of_quadrics(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
 {
   check_extent(V);
   Eigen::Index i = 0;
   for(const auto v : vertices(mesh)) {
     if(halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
-      throw std::invalid_argument("Spectral_policies: " + Spectral_geometry::internal::vertex_name(i) +
+      throw std::invalid_argument("edge collapses: " + Spectral_geometry::internal::vertex_name(i) +
                                   " is isolated, no face uses it; remove it.");
     ++i;
   }
@@ -107,16 +123,16 @@ std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector
 template <class TriangleMesh, class Report, class NamedParameters>
 Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
                                   const std::vector<char>& kept, const bool border_is_apart,
-                                  const Report& report,
-                                  const NamedParameters& np, std::vector<Eigen::Index>& slots_left)
+                                  const Report& report, const NamedParameters& np,
+                                  std::vector<Eigen::Index>& slots_left)
 {
   Triangle_arrays arrays;
   {
     const Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-    check_mesh_to_pre_simplify(mesh, matrices.V);
+    check_mesh_of_quadrics(mesh, matrices.V);
     if(!kept.empty()) {
       using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
-      const Fine_vertex_slots<TriangleMesh> slots(mesh, "spectral_edge_collapse");
+      const Fine_vertex_slots<TriangleMesh> slots(mesh, "edge collapses");
       check_kept_vertices_apart(
           mesh, [&](const vertex_descriptor v) { return kept[std::size_t(slots.slot(v))] != 0; },
           [&](const vertex_descriptor v) { return slots.slot(v); },
@@ -159,7 +175,7 @@ struct Quadric_edge_collapse_result
  * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left that may be collapsed, there are more
  * @param progress called with the fraction that is done; returns false to cancel, until the mesh changes. May be empty
  * @param np named parameters: `vertex_point_map`, `geom_traits`, `edge_is_constrained_map` (the ends of these edges stay) and
- *        `vertex_is_constrained_map` (vertices that stay). Others do not compile
+ *        `vertex_is_constrained_map` (vertices that stay). The others of `edge_collapse()` do not compile
  *
  * @return P, the vertex map, the log
  *
@@ -171,24 +187,21 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
                                                    const std::function<bool(double)>& progress = {},
                                                    const NamedParameters& np = parameters::default_values())
 {
-  static_assert(!internal::is_given<NamedParameters>(internal_np::filter_t()) &&
-                    !internal::is_given<NamedParameters>(internal_np::visitor_t()) &&
-                    !internal::is_given<NamedParameters>(internal_np::get_cost_policy_t()) &&
-                    !internal::is_given<NamedParameters>(internal_np::get_placement_policy_t()),
-                "quadric_edge_collapse() takes no filter, visitor, get_cost or get_placement");
+  static_assert(!internal::overrides_policies<NamedParameters> &&
+                    !internal::is_given<NamedParameters>(internal_np::filter_t()) &&
+                    !internal::is_given<NamedParameters>(internal_np::visitor_t()),
+                "quadric_edge_collapse() takes no get_cost, get_placement, use_relaxed_order, index map, "
+                "filter or visitor");
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
-  if(number_of_vertices < 1 || number_of_vertices > n)
-    throw std::invalid_argument("quadric_edge_collapse: the target is " + std::to_string(number_of_vertices) +
-                                " vertices, but the mesh has " + std::to_string(n) +
-                                "; use a number from 1 to " + std::to_string(n) + ".");
+  internal::check_target("quadric_edge_collapse", number_of_vertices, n);
   const auto report = [&](const std::size_t left) {
     if(progress && !progress(double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)))))
       throw Spectral_geometry::Cancelled();
   };
   Quadric_edge_collapse_result result;
   std::vector<Eigen::Index> slots;
-  result.log = internal::collapse_by_quadrics(mesh, number_of_vertices,
-                                              internal::kept_vertex_flags(mesh, {}, np), false, report, np, slots);
+  result.log = internal::collapse_by_quadrics(
+      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, report, np, slots);
   result.restriction = result.log.forest().restriction(slots);
   const std::vector<Eigen::Index> map = result.log.forest().vertex_map(slots);
   result.vertex_map.assign(map.begin(), map.end());

@@ -50,14 +50,6 @@ struct Loop_end
   bool cancelled = false, error_reached = false;
 };
 
-/// Whether there are named parameters of `edge_collapse()` that the one call has no use for.
-template <class NamedParameters>
-constexpr bool overrides_policies = is_given<NamedParameters>(internal_np::get_cost_policy_t()) ||
-                                    is_given<NamedParameters>(internal_np::get_placement_policy_t()) ||
-                                    is_given<NamedParameters>(internal_np::use_relaxed_order_t()) ||
-                                    is_given<NamedParameters>(internal_np::vertex_index_t()) ||
-                                    is_given<NamedParameters>(internal_np::halfedge_index_t());
-
 /// Runs the loop with the constraint map, filter and visitor that the user gave, if any.
 template <class TriangleMesh, class Policies, class NamedParameters>
 Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
@@ -121,14 +113,6 @@ std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edg
          to_string(components) + (components == 1 ? " component" : " components") +
          ", each of which needs at least 3 (open) or 4 (closed) vertices, and " + to_string(border_edges) +
          " border edges.";
-}
-
-inline void check_target(const std::size_t target, const std::size_t n)
-{
-  if(target < 1 || target > n)
-    throw std::invalid_argument("spectral_edge_collapse: the target is " + std::to_string(target) +
-                                " vertices, but the mesh has " + std::to_string(n) +
-                                "; use a number from 1 to " + std::to_string(n) + ".");
 }
 
 /// P, vertex map and log of the whole run, from the log of the stage that ended it: `slots` are its slots of
@@ -397,7 +381,7 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   timer.start();
   Spectral_edge_collapse_result result;
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
-  internal::check_target(number_of_vertices, result.input_vertices);
+  internal::check_target("spectral_edge_collapse", number_of_vertices, result.input_vertices);
   internal::check_edge_collapse_options(options);
   const internal::Pre_simplification first =
       internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);

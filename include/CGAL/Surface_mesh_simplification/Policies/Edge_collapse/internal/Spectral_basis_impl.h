@@ -97,7 +97,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
 {
   if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
     throw std::invalid_argument(
-        "Spectral_policies: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+        "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
         "magnitude; rescale the mesh.");
 }
 
