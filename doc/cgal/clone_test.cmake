@@ -65,6 +65,7 @@ endif()
 file(APPEND "${OUTPUT}/${file}" "before\n${anchor}\nafter\n")
 lay_out(TRUE said)
 lay_out(FALSE said)
+string(REGEX REPLACE "[ \n]+" " " said "${said}") # CMake breaks lines where the path of this folder has it
 if(NOT said MATCHES "has the package Spectral_geometry already")
   message(FATAL_ERROR "The second run said:\n${said}")
 endif()
