@@ -187,7 +187,7 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   const Rows F = rough_signals(fine, 4), Z = 2 * F;
   const SG::internal::Closest_point_query closest(fine);
   const std::vector<Eigen::Index> parts(20, 0);
-  SG::internal::Surface_signals signals(closest, parts, fine.T, F, Z);
+  SG::internal::Surface_signals signals(closest, parts, fine.T, F, Z, GENERATE(1, 3));
   Positions V(20, 3); // inside of faces, and off the surface
   for(Eigen::Index i = 0; i < V.rows(); ++i) {
     Eigen::Matrix3d corners;

@@ -14,6 +14,7 @@
 #include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/internal/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
 #include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
@@ -72,12 +73,11 @@ public:
   Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
     : m_closest(&closest)
     , m_parts(&parts)
+    , m_starts(parts.size())
   {}
 
   bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   {
-    if(m_starts.size() <= std::size_t(v))
-      m_starts.resize(std::size_t(v) + 1);
     Start& start = m_starts[std::size_t(v)];
     if(start.position != from) {
       start.closest =
@@ -98,7 +98,7 @@ private:
 
   const Closest_point_query* m_closest;
   const std::vector<Eigen::Index>* m_parts;
-  std::vector<Start> m_starts; // by vertex
+  std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 
 /// One relocation from the set-up of its objective to the repair at its end.
@@ -248,13 +248,15 @@ private:
     if(m_options.signals != Relocation_options::Signals::carried) {
       m_fine_F = F;
       m_fine_Z = Z;
-      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z);
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z,
+                                                    m_options.threads);
     }
     m_objective = std::make_unique<Relocation_objective>(
         m_T, carried_F, carried_Z, op, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
         largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
     m_objective->set_threads(m_options.threads);
+    m_guards.set_threads(m_options.threads);
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
@@ -305,12 +307,15 @@ private:
   void measure_fine()
   {
     const Closest_point_query closest(Mesh_matrices{m_start, m_T});
-    for(Eigen::Index i = 0; i < m_fine.V.rows(); ++i) {
+    m_nearest.resize(std::size_t(m_fine.V.rows()));
+    const auto measure = [&](const Eigen::Index i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
       const Closest_point_query::Answer answer = closest(point);
-      m_nearest.push_back({answer.face, (answer.point - point).norm()});
-      m_furthest = (std::max)(m_furthest, m_nearest.back().distance);
-    }
+      m_nearest[std::size_t(i)] = {answer.face, (answer.point - point).norm()};
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
+    for(const Nearest& n : m_nearest)
+      m_furthest = (std::max)(m_furthest, n.distance);
   }
 
   // The corners of the faces closest to fine vertices that are further from V than any was at the start. A face that was
@@ -319,18 +324,23 @@ private:
   {
     const Closest_point_query closest(Mesh_matrices{V, m_T});
     const Eigen::VectorXd moved = (V - m_start).rowwise().norm();
-    for(std::size_t i = 0; i < m_nearest.size(); ++i) {
-      const Nearest& n = m_nearest[i];
+    std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
+    const auto look = [&](const Eigen::Index i) {
+      const Nearest& n = m_nearest[std::size_t(i)];
       const auto corners = m_T.row(n.face);
       if(n.distance + (std::max)({moved(corners(0)), moved(corners(1)), moved(corners(2))}) <= m_furthest)
-        continue;
-      const Eigen::Vector3d point = m_fine.V.row(Eigen::Index(i));
+        return;
+      const Eigen::Vector3d point = m_fine.V.row(i);
       const Closest_point_query::Answer answer = closest(point);
-      if(!((answer.point - point).norm() > m_furthest * (1 + 1e-9)))
-        continue;
-      mark_face(answer.face, marks);
-      mark_face(n.face, marks); // once that is back, the distance is what it was
-    }
+      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
+        left_behind[std::size_t(i)] = answer.face;
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, look, 64);
+    for(std::size_t i = 0; i < m_nearest.size(); ++i)
+      if(left_behind[i] >= 0) {
+        mark_face(left_behind[i], marks);
+        mark_face(m_nearest[i].face, marks); // once that is back, the distance is what it was
+      }
   }
 
   struct Nearest

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDS_H
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 
 #include <Eigen/Core>
@@ -85,6 +86,9 @@ public:
   using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
   void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
 
+  /// Threads to use, from 1, for conditions on single vertices; no result depends on them.
+  void set_threads(const int threads) { m_threads = threads; }
+
   /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
   using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
   void set_leaps(Leaps leaps) { m_leaps = std::move(leaps); }
@@ -118,11 +122,12 @@ public:
 
   void admit(const Positions& from, Positions& to) const
   {
-    for(Eigen::Index v = 0; v < to.rows(); ++v) {
+    const auto admit_vertex = [&](const Eigen::Index v) {
       to.row(v) = nearest_allowed(v, from.row(v), to.row(v)).transpose();
       if(m_leaps && to.row(v) != from.row(v))
         stay_on_sheet(v, from, to);
-    }
+    };
+    for_each_task(to.rows(), m_threads, admit_vertex, 16);
     admit_without_projection(from, to);
   }
 
@@ -274,6 +279,7 @@ private:
   Leaps m_leaps;
   mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
   Eigen::VectorXd m_radius, m_smallest_angle;
+  int m_threads = 1;
   std::vector<Eigen::Vector3d> m_normal;
 };
 

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SIGNALS_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/closest_point_search.h>
 #include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
 
@@ -24,14 +25,15 @@ namespace internal {
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. All five are kept by reference.
+  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. These five are kept by reference.
   Surface_signals(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts,
-                  const Eigen::MatrixXi& T, const Rows& F, const Rows& Z)
+                  const Eigen::MatrixXi& T, const Rows& F, const Rows& Z, const int threads)
     : m_closest(closest)
     , m_parts(parts)
     , m_T(T)
     , m_F(F)
     , m_Z(Z)
+    , m_threads(threads)
   {}
 
   Eigen::Index number_of_signals() const override { return m_F.cols(); }
@@ -42,20 +44,20 @@ public:
     Z.resize(V.rows(), m_F.cols());
     const bool first = m_answers.size() != std::size_t(V.rows());
     m_answers.resize(std::size_t(V.rows()));
-    for(Eigen::Index w = 0; w < V.rows(); ++w) {
+    for_each_vertex(V.rows(), [&](const Eigen::Index w) {
       Closest_point_query::Answer& a = m_answers[std::size_t(w)];
       a = first ? m_closest(V.row(w), m_parts[std::size_t(w)]) : m_closest(V.row(w), a);
       const Eigen::RowVector3i t = m_T.row(a.face);
       F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
       Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
-    }
+    });
   }
 
   // The signals are linear in the face. A closest point on an edge stays on it for a while, one in a corner does
   // not move at all.
   void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
   {
-    for(Eigen::Index w = 0; w < gradient.rows(); ++w) {
+    for_each_vertex(gradient.rows(), [&](const Eigen::Index w) {
       const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
       const Eigen::Matrix3d& p = m_closest.corners(a.face);
       const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
@@ -67,7 +69,7 @@ public:
           zero = k;
         }
       if(zeros == 2 || !(size2 > 0))
-        continue;
+        return;
       Eigen::Vector3d g = Eigen::Vector3d::Zero();
       for(int k = 0; k < 3; ++k) {
         const double slope =
@@ -79,14 +81,21 @@ public:
         g = edge.dot(g) * edge;
       }
       gradient.row(w) += g.transpose();
-    }
+    });
   }
 
 private:
+  template <class Function>
+  void for_each_vertex(const Eigen::Index n, const Function& function) const
+  {
+    for_each_task(n, m_threads, function, 16);
+  }
+
   const Closest_point_query& m_closest;
   const std::vector<Eigen::Index>& m_parts;
   const Eigen::MatrixXi& m_T;
   const Rows &m_F, &m_Z;
+  int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;
 };
 

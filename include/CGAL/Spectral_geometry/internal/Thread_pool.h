@@ -7,6 +7,8 @@
 
 #include <CGAL/Spectral_geometry/internal/vector_units.h>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -226,15 +228,16 @@ private:
   std::condition_variable m_wake;
 };
 
-/// Calls f(0) .. f(count - 1) on at most so many threads, in any order, as `Thread_pool::for_each()` does. Sums over tasks
-/// are up to the caller, in the order of the tasks, so that no result depends on the number of threads.
+/// Calls f(0) .. f(count - 1) on at most so many threads, in any order, as `Thread_pool::for_each()` does, `grain` of them in a row
+/// on one. Sums over tasks are up to the caller, in the order of the tasks, so that no result depends on the number of threads.
 template <class Function>
-void for_each_task(const int count, const int threads, const Function& f)
+void for_each_task(const Eigen::Index count, const int threads, const Function& f, const int grain = 1)
 {
   struct Nothing
   {};
-  Thread_pool<Nothing> pool((std::min)(threads, count));
-  pool.for_each(std::size_t((std::max)(0, count)), 1, [&f](const std::size_t i, Nothing&) { f(int(i)); });
+  Thread_pool<Nothing> pool(int((std::min)(Eigen::Index(threads), count / grain)));
+  pool.for_each(std::size_t((std::max)(Eigen::Index(0), count)), std::size_t(grain),
+                [&f](const std::size_t i, Nothing&) { f(int(i)); });
 }
 
 } // namespace internal

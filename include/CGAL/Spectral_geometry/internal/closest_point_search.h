@@ -126,6 +126,7 @@ public:
     for(auto& part : m_parts) {
       part->tree.insert(part->faces.cbegin(), part->faces.cend());
       part->tree.build();
+      part->tree.accelerate_distance_queries(); // now: queries may come from several threads
     }
   }
 
