@@ -45,7 +45,7 @@ refuses()
 
 all="--restriction P.mtx --prolongation Q.mtx --map map.txt --eigenpairs pairs --json out.json"
 for variant in "" "--preset paper" "--preset paper --mass averaged" "--placement midpoint" "--shape 0 --relocate none" \
-  "--preset paper --placement free" "--binary --relocate none" "--preserve-border --threads 1"; do
+  "--preset paper --placement free" "--quadrics-above 4" "--binary --relocate none" "--preserve-border --threads 1"; do
   runs "simplification $variant" shape.off coarse.off --vertices 250 --eigenvectors 25 $all $variant
   "$check" . shape.off coarse.off || fail "outputs of '$variant'"
   grep -q '|C|_L' said || fail "no table with '$variant'"
@@ -185,6 +185,11 @@ grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)
   "$program" shape.off best.off --vertices 100 --eigenvectors 20 --pre-simplify 500 --no-evaluation --quiet && cmp -s fast.off best.off ||
   fail "--preset fast --pre-simplify 500 is not best with --pre-simplify 500"
 grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
+runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json
+grep -q "\"quadric_collapses\": $(($(sed -n 2p shape.off | cut -d ' ' -f 1) - 300))," ahead.json || fail "quadrics end at 3 N: $(grep quadric ahead.json)"
+grep -q "pre-simplification" said || fail "the time of quadrics is not said"
+refuses "quadrics to less than N" "--quadrics-above is 0.5, it must be 1 or more" shape.off out.off --vertices 200 --quadrics-above 0.5
+refuses "quadrics in the paper's metric" "--quadrics-above goes with" shape.off out.off --vertices 200 --quadrics-above 3 --preset paper
 refuses "pre-simplification below N" "--pre-simplify is 150" shape.off out.off --vertices 200 --eigenvectors 20 --pre-simplify 150
 refuses "pre-simplification below zero" "--pre-simplify is -1" shape.off out.off --vertices 200 --pre-simplify -1
 

@@ -2,9 +2,15 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The quadric collapses of the first stage: their order against all costs computed anew, and what they keep.
+// Collapses by quadrics, of a first stage or ahead of the spectral cost: their order against all costs computed anew, what they
+// keep, and what follows them.
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
+
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
+#include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
@@ -26,7 +32,7 @@ namespace {
 SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target, const std::vector<char>& fixed = {})
 {
   return SMS::internal::quadric_collapses(SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh)),
-                                          fixed, false, target, [](std::size_t) {});
+                                          fixed, false, false, target, [](std::size_t) {});
 }
 
 Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
@@ -212,7 +218,7 @@ TEST_CASE("The vertex where several fans of faces meet is named")
         arrays.opposite.push_back(d);
     }
   REQUIRE(arrays.opposite.size() == 24);
-  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, false, 4, [](std::size_t) {}),
+  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, false, false, 4, [](std::size_t) {}),
                     ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
 }
 
@@ -226,7 +232,7 @@ TEST_CASE("Vertices that are fixed take no values from a border that is apart")
     for(std::size_t v = 0; v < fixed.size(); v += every)
       fixed[v] = !border[v];
     const SMS::Collapse_log log = SMS::internal::quadric_collapses(
-        SMS::internal::triangle_arrays(mesh, sheet), fixed, true, 3, [](std::size_t) {});
+        SMS::internal::triangle_arrays(mesh, sheet), fixed, true, true, 3, [](std::size_t) {});
     const std::size_t N = log.number_of_vertices_left();
     CHECK(N < border.size());
     const std::vector<std::size_t> map = log.vertex_map(N);
@@ -292,6 +298,172 @@ TEST_CASE("quadric_edge_collapse() that is cancelled or refused leaves the mesh 
                     ContainsSubstring("vertex 162") && ContainsSubstring("is isolated"));
   CHECK(positions(mesh) == positions(input));
   CHECK(SMS::quadric_edge_collapse(mesh, 162).vertex_map.size() == 162);
+}
+
+// Of a closed mesh, three times as many as 15 N.
+SMS::Spectral_edge_collapse_options ahead_options()
+{
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 12;
+  options.relocate = false;
+  return options;
+}
+
+TEST_CASE("F, Z, P and coefficients follow collapses by quadrics ahead of the spectral cost")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
+  const Eigen::Index n = input.V.rows();
+  SMS::Spectral_edge_collapse_options options = ahead_options();
+  const auto kind = GENERATE(as<std::string>(), "eigenvectors", "signals", "coefficients", "rough pairs");
+  CAPTURE(kind);
+  if(kind == "signals")
+    options.signals = input.V.array().sin().matrix();
+  if(kind == "coefficients") {
+    const Eigen::VectorXd x = 1.5 + input.V.col(0).array() / 4;
+    options.coefficients = SG::weighted_coefficients(x, x.cwiseInverse());
+  }
+  if(kind == "rough pairs")
+    options.eigenpairs_options.tolerance = 1e-3;
+  Mesh mesh = make_mesh(input), copy = mesh;
+  const auto result = SMS::spectral_edge_collapse(mesh, 60, options);
+  CHECK(result.quadric_collapses == std::size_t(n) - 900);
+  CHECK(result.pre_simplified_vertices == std::size_t(n));
+  REQUIRE((count_vertices(mesh) == 60 && result.log.number_of_vertices_left() == 60));
+  REQUIRE(result.restriction.cols() == n);
+
+  // E from P alone.
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const SG::Laplace_operator fine_op =
+      SG::laplace_operator(input.V, input.T, SMS::internal::local_operator(options));
+  SG::Local_operator local = SMS::internal::local_operator(options);
+  local.coefficients = result.coefficients;
+  const SG::Laplace_operator coarse_op = SG::laplace_operator(coarse.V, coarse.T, local);
+  const double area = fine_op.mass.sum();
+  const bool own = kind == "signals";
+  REQUIRE(bool(result.eigenpairs) == !own);
+  const Eigen::MatrixXd F =
+      own ? options.signals
+          : Eigen::MatrixXd(result.eigenpairs->vectors.leftCols(Eigen::Index(result.signals)));
+  const Eigen::MatrixXd Z = SMS::internal::spectral_z(fine_op, F);
+  const double E = SG::restriction_energy(coarse_op, result.restriction, F, Z) * area * (own ? 1. : area);
+  CHECK(std::abs(result.E / E - 1) < 1e-6);
+
+  // The quadrics come first, and the level where they end is theirs.
+  const SMS::Collapse_log log = quadric_log(copy, 900);
+  for(std::size_t i = 0; i < log.points().size(); ++i)
+    REQUIRE(log.points()[i] == result.log.points()[i]);
+  CHECK(SG::number_of_zero_eigenvalues(coarse_op) == 1);
+  SMS::Collapse_replay<Mesh>(copy, result.log).collapse_to(60);
+  CHECK(positions(copy) == positions(mesh));
+}
+
+TEST_CASE("Functions that vanish on the border go on to, and kept vertices stay, when quadrics come first")
+{
+  const shapes::Matrices input = wavy_grid_matrices(40, 40);
+  SMS::Spectral_edge_collapse_options options = ahead_options();
+  options.preserve_border = false;
+  options.boundary = SG::Boundary_condition::dirichlet;
+  for(Eigen::Index v = 820; v < 1000; v += 13)
+    options.kept_vertices.push_back(std::size_t(v));
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 80, options);
+  CHECK(result.quadric_collapses == std::size_t(input.V.rows()) - 1200);
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const std::vector<char> border = SG::internal::border_vertices(coarse.T, coarse.V.rows());
+  const Eigen::MatrixXd F = result.restriction * result.eigenpairs->vectors;
+  for(std::size_t v = 0; v < border.size(); ++v)
+    if(border[v])
+      CHECK(F.row(Eigen::Index(v)).norm() < 1e-9 * F.norm());
+  for(const std::size_t v : options.kept_vertices) {
+    const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
+    CHECK(result.restriction.coeff(row, Eigen::Index(v)) == 1);
+    CHECK(coarse.V.row(row) == input.V.row(Eigen::Index(v)));
+  }
+}
+
+TEST_CASE(
+    "Quadrics are passed over where not all that was asked for could be kept, and when they are told to be")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
+  SMS::Spectral_edge_collapse_options options = ahead_options();
+  const auto quadric_collapses = [&](const auto& np) {
+    Mesh mesh = make_mesh(input);
+    return SMS::spectral_edge_collapse(mesh, 100, options, np).quadric_collapses;
+  };
+  const auto none = CGAL::parameters::default_values();
+  CHECK(quadric_collapses(none) == 1062);
+  CHECK(quadric_collapses(CGAL::parameters::visitor(SMS::internal::No_visitor())) == 0);
+  CHECK(quadric_collapses(CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>())) == 0);
+  switch(GENERATE(range(0, 7))) {
+  case 0:
+    options.quadrics_above = std::numeric_limits<double>::infinity();
+    break;
+  case 1:
+    options.quadrics_above = 26;
+    break;
+  case 2:
+    options.shape = 0;
+    break;
+  case 3:
+    options.placement = SMS::Spectral_placement_strategy::on_edge;
+    break;
+  case 4:
+    options.binary = true;
+    break;
+  case 5:
+    options.preserve_border = true;
+    break;
+  case 6:
+    options.maximum_error = 100;
+    break;
+  }
+  CHECK(quadric_collapses(none) == 0);
+}
+
+TEST_CASE("What cannot be times the target is refused")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  SMS::Spectral_edge_collapse_options options = ahead_options();
+  options.quadrics_above = GENERATE(0.5, -1., std::numeric_limits<double>::quiet_NaN());
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring("quadrics_above"));
+  CHECK(count_vertices(mesh) == 162);
+}
+
+TEST_CASE(
+    "A run that is cancelled while quadrics come first leaves the mesh as it was, later what they have made")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
+  Mesh mesh = make_mesh(input);
+  SMS::Spectral_edge_collapse_options options = ahead_options();
+  const SMS::Spectral_phase phase =
+      GENERATE(SMS::Spectral_phase::pre_simplification, SMS::Spectral_phase::first_costs);
+  options.progress = [&](const SMS::Spectral_progress& p) { return p.phase != phase || p.fraction < 0.5; };
+  if(phase == SMS::Spectral_phase::pre_simplification) {
+    CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
+    CHECK(positions(mesh) == input.V);
+    return;
+  }
+  const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
+  CHECK(result.stop_reason == SMS::Spectral_edge_collapse_result::Stop_reason::cancelled);
+  CHECK((result.output_vertices == 1500 && count_vertices(mesh) == 1500));
+  CHECK(result.restriction.rows() == 1500);
+}
+
+TEST_CASE("Quadrics put no face through another, and would without the guard")
+{
+  const shapes::Matrices input = shapes::thin_bowl_matrices(4);
+  REQUIRE(SG::internal::self_intersecting_faces(input.V, input.T).empty());
+  const std::size_t N = GENERATE(60, 150);
+  const auto crossings = [&](const bool guarded) {
+    Mesh mesh = make_mesh(input);
+    const SMS::Collapse_log log = SMS::internal::quadric_collapses(
+        SMS::internal::triangle_arrays(mesh, input), {}, false, guarded, N, [](std::size_t) {});
+    CHECK(log.number_of_vertices_left() == N);
+    const shapes::Matrices coarse = SG::mesh_matrices(replayed(mesh, log, N));
+    return SG::internal::self_intersecting_faces(coarse.V, coarse.T).size();
+  };
+  CHECK(crossings(false) > 0);
+  CHECK(crossings(true) == 0);
 }
 
 } // namespace test_pre_simplification

@@ -424,6 +424,7 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
     CHECK(o.mass == SG::Mass::averaged);
     CHECK(o.placement == Spectral_placement_strategy::free);
     CHECK(o.shape == 3);
+    CHECK(o.quadrics_above == 15);
     CHECK(o.keep_free_of_self_intersections);
     CHECK(o.relocate);
     CHECK(o.relocation.signals == SG::Relocation_options::Signals::sampled);

@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,8 +23,20 @@ struct Option_words
   std::string self_intersections; // allow, refuse
   std::string relocate;           // none, sampled, carried, carried_and_sampled
   std::optional<double> shape;
+  std::optional<double> quadrics_above;
   std::string flips; // none, spectral, delaunay
 };
+
+// Whether these options have no use for quadrics_above, which was given; `said` says what to do about it.
+inline bool quadrics_above_is_passed_over(
+    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options, std::string& said)
+{
+  said = " goes with free placement and a shape term, and not with a binary restriction, a border to "
+         "preserve or "
+         "an error bound, where all collapses are those of the metric: leave it out.";
+  return std::isfinite(options.quadrics_above) &&
+         !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options);
+}
 
 // The preset and what overrides it.
 inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options_of(const Option_words& words)
@@ -46,6 +59,8 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
   options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
   if(words.shape)
     options.shape = *words.shape;
+  if(words.quadrics_above)
+    options.quadrics_above = *words.quadrics_above;
   if(!words.self_intersections.empty())
     options.keep_free_of_self_intersections = words.self_intersections == "refuse";
   if(!words.relocate.empty()) {

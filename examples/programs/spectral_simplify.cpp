@@ -147,7 +147,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
                                                    Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options =
-      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.flips});
+      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape,
+                  a.quadrics_above, a.flips});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
@@ -162,11 +163,16 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
     return true;
   };
   options.cancel = &interrupted;
-  if(!a.levels.empty() &&
-     a.signals.empty()) // one run for all of them: the largest decides how many eigenvectors steer it
-    options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
+  if(!a.levels.empty()) { // one run for all of them: the largest decides
+    options.quadrics_above *= double(a.levels.front()) / double(target);
+    if(a.signals.empty())
+      options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
+  }
   if(a.max_error)
     options.maximum_error = *a.max_error;
+  std::string said;
+  if(a.quadrics_above && quadrics_above_is_passed_over(options, said))
+    throw std::runtime_error("--quadrics-above" + said);
   options.fit_operators = !a.fit_operators.empty();
   if(!a.fit_mass.empty())
     options.operator_fit = SG::Operator_fit_options::for_mass(a.fit_mass == "edges" ? 1. : 0.);

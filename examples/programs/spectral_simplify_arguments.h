@@ -31,6 +31,7 @@ struct Arguments
   std::optional<double> max_error;
   std::vector<std::size_t> levels; // descending, once the size of INPUT is known
   long eigenvectors = 100;
+  std::optional<double> quadrics_above;
   std::optional<long> pre_simplify; // as the preset has it; 0: never
   std::string preset = "best", flips = "none";
   std::string boundary = "neumann";
@@ -126,6 +127,9 @@ inline Command_line described(Arguments& a)
       "afterwards move the vertices so that the spectrum is kept still better (best: sampled, paper: "
       "none), by the functions at the closest points of INPUT, by what the restriction carries, or by "
       "both. With sampled the restriction is that of the closest points, and no longer follows --map");
+  line.option("quadrics-above", a.quadrics_above, "R",
+              "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "
+              "much faster, and as good (best and fast: 15, paper: inf, never)");
   line.option("pre-simplify", a.pre_simplify, "N0",
               "first reduce a larger INPUT to this number by quadrics alone (fast: 30 N, at least 10000; "
               "others: 0, never)");
@@ -210,6 +214,8 @@ inline void check(const Arguments& a)
     refuse("--max-error is " + shown(*a.max_error) + ", it must be greater than 0.");
   if(a.eigenvectors < 1)
     refuse("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be positive.");
+  if(a.quadrics_above && !(*a.quadrics_above >= 1))
+    refuse("--quadrics-above is " + shown(*a.quadrics_above) + ", it must be 1 or more.");
   if(a.pre_simplify && *a.pre_simplify < 0)
     refuse("--pre-simplify is " + std::to_string(*a.pre_simplify) + ", it must not be negative.");
   if(a.boundary == "dirichlet" && !a.fit_operators.empty())

@@ -126,7 +126,7 @@ inline void print_table(const Simplification_report& r)
   if(!r.attributes.empty())
     std::printf("  carried attributes        %s\n\n", printable(joined(r.attributes)).c_str());
   std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
-  if(r.options.pre_simplify != 0)
+  if(r.result.quadric_collapses != 0)
     std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);

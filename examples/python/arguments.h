@@ -103,7 +103,7 @@ public:
   }
 
   double number(const char* name, const double least, const bool itself = true,
-                const double most = std::numeric_limits<double>::infinity()) const
+                const double most = std::numeric_limits<double>::infinity(), const bool finite = true) const
   {
     const py::object value = (*this)[name];
     const double result = PyBool_Check(value.ptr()) ? -1 : PyFloat_AsDouble(value.ptr());
@@ -112,8 +112,9 @@ public:
       must_be(name, "a number", true);
     }
     const auto text = [](const double x) { return std::string(py::str(py::float_(x))); };
-    if(!(itself ? result >= least : result > least) || !(result <= most) || std::isinf(result))
-      must_be(name, (itself ? "a finite number from " : "a finite number above ") + text(least) +
+    if(!(itself ? result >= least : result > least) || !(result <= most) || (finite && std::isinf(result)))
+      must_be(name, std::string(finite ? "a finite number " : "a number ") + (itself ? "from " : "above ") +
+                        text(least) +
                         (std::isinf(most) ? "" : (itself ? " to " : " and up to ") + text(most)));
     return result;
   }

@@ -60,8 +60,8 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
              self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
              keep: Sequence[int] | None = None, binary: bool = False, preserve_border: bool = False,
              signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
-             pre_simplify: int | None = None, max_error: float | None = None, fit_operators: bool = False,
-             coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
+             quadrics_above: float | None = None, pre_simplify: int | None = None, max_error: float | None = None,
+             fit_operators: bool = False, coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
              intrinsic_delaunay: bool = False, threads: int | None = None,
              progress: Progress | None = None) -> Simplification:
     """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
@@ -74,7 +74,7 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                columns
     preset     'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 30 n, at least 10000;
                'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification, 2020). Each of the
-               next five, and pre_simplify, overrides it
+               next five, quadrics_above and pre_simplify overrides it
     mass       'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
                eigenvalues of coarse meshes much closer, or 'voronoi', lumped by mixed Voronoi areas
     placement  'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
@@ -90,6 +90,9 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
                no edge is drawn away from the border
     signals    (v, s) real numbers, functions to keep instead of eigenvectors
     eigenpairs what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
+    quadrics_above
+               while there are more than this many times n vertices, collapse edges by quadrics alone: much faster,
+               and as good (best, fast: 15, paper: infinity, never). Levels above that are those of quadrics
     pre_simplify
                first reduce a larger mesh to this number of vertices by quadrics alone; 0: do not. None: as the preset
     max_error  stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum

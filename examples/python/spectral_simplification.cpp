@@ -131,6 +131,8 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   words.mass = a.word("mass", {"lumped", "averaged", "voronoi"}, true);
   if(a.has("shape"))
     words.shape = a.number("shape", 0);
+  if(a.has("quadrics_above"))
+    words.quadrics_above = a.number("quadrics_above", 1, true, HUGE_VAL, false);
   words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
   words.relocate = a.word("relocate", {"none", "sampled", "carried", "carried_and_sampled"}, true);
   words.flips = a.word("flips", {"none", "spectral", "delaunay"});
@@ -147,6 +149,9 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   options.threads = a.threads();
   if(a.has("max_error"))
     options.maximum_error = a.number("max_error", 0, false);
+  std::string said;
+  if(a.has("quadrics_above") && quadrics_above_is_passed_over(options, said))
+    refuse("quadrics_above" + said);
   return options;
 }
 

@@ -28,6 +28,7 @@ struct Arguments
 {
   std::vector<std::string> meshes;
   std::size_t vertices = 0, pre_simplify = 0;
+  double quadrics_above = std::numeric_limits<double>::infinity();
   long eigenvectors = 100;
   int runs = 3;
   int threads = (std::max)(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -58,7 +59,10 @@ Arguments parse_arguments(int argc, char* argv[])
       "how many to keep");
   add("preset", po::value(&a.preset)->value_name("best|paper")->default_value(a.preset), "of the options");
   add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
-      "reduce to this number first, with Garland-Heckbert");
+      "reduce to this number first, by quadrics");
+  add("quadrics-above", po::value(&a.quadrics_above)->value_name("R"),
+      "collapse by quadrics above R times the target; inf by default: it is the metric's collapses that are "
+      "measured");
   add("threads", po::value(&a.threads)->value_name("T"),
       "all processors by default; one is measured as well");
   add("runs", po::value(&a.runs)->value_name("R")->default_value(a.runs),
@@ -205,6 +209,7 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
                        : (std::max)(size.vertices / 50, static_cast<std::size_t>(3 * a.eigenvectors));
   setting.eigenvectors = a.eigenvectors;
   setting.pre_simplify = a.pre_simplify;
+  setting.quadrics_above = a.quadrics_above;
   setting.paper = a.preset == "paper";
 
   Samples one, many, garland_heckbert, lindstrom_turk;
@@ -327,6 +332,7 @@ void measure_scaling(const Arguments& a)
     setting.target = fans ? (std::max)(n / 2, n - (std::min)(n, std::size_t(20))) : n / 100;
     setting.paper = a.preset == "paper";
     setting.pre_simplify = a.pre_simplify;
+    setting.quadrics_above = a.quadrics_above;
     setting.all_in_metric = true; // the series is to show what K costs
     setting.loop_alone = fans;    // and that of fans what their collapses cost
     for(const long K : numbers<long>(a.scaling_eigenvectors)) {

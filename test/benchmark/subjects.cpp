@@ -50,6 +50,7 @@ SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int
                                                               : SMS::Spectral_edge_collapse_options::best();
   options.number_of_eigenvectors = setting.eigenvectors;
   options.pre_simplify = setting.pre_simplify;
+  options.quadrics_above = setting.quadrics_above;
   options.threads = threads;
   if(setting.all_in_metric)
     options.metric_eigenvectors = setting.eigenvectors;
@@ -77,9 +78,9 @@ Spectral_time measure_spectral(const std::string& name, const Setting& setting, 
   time.seconds_collapse = result.seconds_collapse;
   time.seconds_total = result.seconds_total;
   // A collapse on a closed surface takes three edges away.
-  time.edges = edges - 3 * (result.input_vertices - result.pre_simplified_vertices);
+  time.edges = edges - 3 * result.quadric_collapses;
   time.evaluations = result.evaluations;
-  time.collapses = result.pre_simplified_vertices - result.output_vertices;
+  time.collapses = result.collapses - result.quadric_collapses;
   return time;
 }
 

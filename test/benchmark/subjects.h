@@ -6,6 +6,7 @@
 #define SPECTRAL_BENCHMARK_SUBJECTS_H
 
 #include <cstddef>
+#include <limits>
 #include <string>
 
 // What is measured, apart from the program around it because CGAL's templates take their time to compile. A mesh is given by
@@ -17,6 +18,7 @@ struct Setting
   std::size_t target = 0;
   long eigenvectors = 100;
   std::size_t pre_simplify = 0;
+  double quadrics_above = std::numeric_limits<double>::infinity();
   bool paper = false;         // the preset
   bool all_in_metric = false; // all eigenvectors, however few vertices remain
   bool loop_alone = false;    // no relocation afterwards

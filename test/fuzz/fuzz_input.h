@@ -352,6 +352,7 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
   o.relocation.fix_boundary = bytes.one_in(2);
   if(bytes.one_in(4))
     o.maximum_error = bytes.unit();
+  o.quadrics_above = 1 + 4 * bytes.unit();
   if(bytes.one_in(4) && o.signals.size() == 0) {
     o.pre_simplify =
         (std::min)(std::size_t(n), (std::max)(std::size_t(2), call.N + std::size_t(bytes.below(n))));

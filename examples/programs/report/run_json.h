@@ -56,6 +56,8 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"intrinsic_delaunay", options.intrinsic_delaunay},
           {"placement", placement_name(options.placement)},
           {"shape", options.shape},
+          {"quadrics_above", number_json(options.quadrics_above)},
+          {"quadric_collapses", result.quadric_collapses},
           {"keep_free_of_self_intersections", options.keep_free_of_self_intersections},
           {"binary", options.binary},
           {"max_error", number_json(options.maximum_error)},

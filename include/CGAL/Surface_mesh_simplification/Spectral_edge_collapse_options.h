@@ -31,15 +31,15 @@ namespace Surface_mesh_simplification {
  */
 struct Spectral_edge_collapse_options : Spectral_options
 {
-  /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest points. It takes a fifth of
+  /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest points. It takes a third of
   /// the run, and with the P that it brings |C|_L is less than half; that P no longer follows the vertex map, and levels that are
   /// replayed from the log end before it.
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
 
-  /// `best()` with `pre_simplify` at 30 times the target, and at least at 10,000 vertices. The larger the mesh the more time that saves:
-  /// a third at 50 times the target, four fifths at 220 times. On eight meshes the norms were 1.00 (|C|_L) and 1.03 (|C|_D) times
-  /// those of best() in the mean, single ones up to a fifth more or less. It takes neither filter nor visitor;
-  /// `Spectral_edge_collapse_result::eigenpairs` are those of the reduced mesh, and signals or eigenpairs cannot be given.
+  /// `best()` with `pre_simplify` at 30 times the target, and at least at 10,000 vertices: the eigenpairs are those of the reduced mesh, and
+  /// signals or eigenpairs cannot be given. The larger the mesh the more time that saves: a quarter at 80 times the target, two
+  /// thirds at 220 times. On eight meshes the norms were 1.05 (|C|_L) and 1.09 (|C|_D) times those of best() in the mean. It takes
+  /// neither filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
@@ -74,6 +74,14 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// and the ends of constrained edges stay. 0: never.
   std::size_t pre_simplify = 0;
 
+  /// While the mesh has more than this many times the target's vertices, edges are collapsed by the quadrics of `shape` alone, as with
+  /// `pre_simplify`, but F, Z and P follow: eigenpairs, relocation, fitted operators and the error are about the input. Few collapses
+  /// decide what the result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took half
+  /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the metric, where it could
+  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `binary`, `preserve_border` or
+  /// `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
+  double quadrics_above = 15;
+
   /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
   /// makes them Delaunay, see `Spectral_geometry::flip_edges()`. Constrained edges stay. The log, and the levels that are
   /// replayed from it, end before. Off by default: it changes little (section 6 of the paper).
@@ -105,9 +113,20 @@ struct Spectral_edge_collapse_options : Spectral_options
 
 namespace internal {
 
+/// Whether `quadrics_above` is heeded, as far as the options tell.
+inline bool quadrics_come_first(const Spectral_edge_collapse_options& options)
+{
+  return std::isfinite(options.quadrics_above) && options.shape > 0 &&
+         options.placement == Spectral_placement_strategy::free && !options.binary &&
+         !options.preserve_border && !std::isfinite(options.maximum_error);
+}
+
 /// Throws for what would otherwise be found out after the mesh has changed.
 inline void check_edge_collapse_options(const Spectral_edge_collapse_options& options)
 {
+  if(!(options.quadrics_above >= 1))
+    throw std::invalid_argument("Spectral_edge_collapse_options: quadrics_above is " +
+                                std::to_string(options.quadrics_above) + ", use a number from 1.");
   if(!(options.maximum_error >= 0))
     throw std::invalid_argument("Spectral_edge_collapse_options: maximum_error is " +
                                 std::to_string(options.maximum_error) + ", use a number from 0.");

@@ -61,7 +61,7 @@ struct Spectral_edge_collapse_result
   Refusals refusals;                 ///< candidates that were given up, by cause
   std::size_t evaluations = 0;       ///< how often an edge was costed
 
-  double seconds_pre_simplification = 0; ///< wall seconds of `Spectral_edge_collapse_options::pre_simplify`
+  double seconds_pre_simplification = 0; ///< wall seconds of the collapses of quadrics
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
@@ -92,6 +92,8 @@ struct Spectral_edge_collapse_result
   Spectral_geometry::Operator_coefficients coefficients;
   /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
   Collapse_log log;
+  /// how many of the collapses were those of quadrics alone, of `Spectral_edge_collapse_options::pre_simplify` and `quadrics_above`
+  std::size_t quadric_collapses = 0;
   /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input without
   std::size_t pre_simplified_vertices = 0;
   /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again; null with signals

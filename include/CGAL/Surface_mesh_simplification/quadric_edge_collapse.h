@@ -123,8 +123,8 @@ std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector
 template <class TriangleMesh, class Report, class NamedParameters>
 Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
                                   const std::vector<char>& kept, const bool border_is_apart,
-                                  const Report& report, const NamedParameters& np,
-                                  std::vector<Eigen::Index>& slots_left)
+                                  const bool keep_free_of_self_intersections, const Report& report,
+                                  const NamedParameters& np, std::vector<Eigen::Index>& slots_left)
 {
   Triangle_arrays arrays;
   {
@@ -143,8 +143,8 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
     arrays = triangle_arrays(mesh, matrices);
   }
   report(std::size_t(arrays.V.rows()));
-  Collapse_log log = quadric_collapses(std::move(arrays), fixed_vertex_flags(mesh, kept, np), border_is_apart,
-                                       number_of_vertices, report);
+  Collapse_log log = quadric_collapses(arrays, fixed_vertex_flags(mesh, kept, np), border_is_apart,
+                                       keep_free_of_self_intersections, number_of_vertices, report);
   Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, log, np);
   replay.collapse_to(log.number_of_vertices_left());
   slots_left = replay.slots();
@@ -201,7 +201,7 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
   Quadric_edge_collapse_result result;
   std::vector<Eigen::Index> slots;
   result.log = internal::collapse_by_quadrics(
-      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, report, np, slots);
+      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np, slots);
   result.restriction = result.log.forest().restriction(slots);
   const std::vector<Eigen::Index> map = result.log.forest().vertex_map(slots);
   result.vertex_map.assign(map.begin(), map.end());

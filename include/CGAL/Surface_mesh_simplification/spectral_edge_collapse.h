@@ -204,6 +204,31 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, 
   }
 }
 
+/// The collapses of `Spectral_edge_collapse_options::quadrics_above`, which the state of the policies follows.
+template <class TriangleMesh, class Policies, class NamedParameters>
+void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
+                                const Spectral_edge_collapse_options& options, const NamedParameters& np,
+                                Spectral_edge_collapse_result& result)
+{
+  auto& state = *policies.shared_state();
+  const std::size_t n = state.number_of_vertices();
+  if(is_given<NamedParameters>(internal_np::filter_t()) ||
+     is_given<NamedParameters>(internal_np::visitor_t()) || !quadrics_come_first(options) ||
+     !(double(n) > options.quadrics_above * double(target)))
+    return;
+  Real_timer timer;
+  timer.start();
+  const std::size_t end = std::size_t(options.quadrics_above * double(target));
+  std::vector<char> kept;
+  for(std::size_t s = 0; s < n; ++s)
+    kept.push_back(state.core().is_kept(Spectral_slot(s)));
+  state.collapse_by_others([&](std::vector<Eigen::Index>& slots) {
+    return collapse_by_quadrics(mesh, n, end, kept, options, np, slots);
+  });
+  result.quadric_collapses += n - state.number_of_vertices();
+  result.seconds_pre_simplification += timer.time();
+}
+
 /// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
 void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
@@ -244,17 +269,24 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
              ? ", and the metric saw the first " + std::to_string(result.signals) + " eigenvectors."
              : "."));
 
+  collapse_ahead_by_quadrics(mesh, policies, target, options, np, result);
   Real_timer timer;
   timer.start();
   Loop_end end;
   // An edge that was given up because of another sheet is not asked for again when that sheet changes: once more, while that
   // removes a hundredth of the vertices.
   bool again = true;
-  for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
-      before = state.number_of_vertices()) {
-    end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
-    again = !end.cancelled && !end.error_reached && state.core().number_of_crossings() != 0 &&
-            state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
+  try {
+    for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
+        before = state.number_of_vertices()) {
+      end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
+      again = !end.cancelled && !end.error_reached && state.core().number_of_crossings() != 0 &&
+              state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
+    }
+  } catch(const Spectral_geometry::Cancelled&) {
+    if(state.core().forest().number_of_merges() == 0)
+      throw;
+    end.cancelled = true; // while first costs were evaluated, after collapses
   }
   result.seconds_collapse = timer.time();
   result.evaluations = state.core().number_of_evaluations();
@@ -357,8 +389,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
- * `Spectral_edge_collapse_options::pre_simplify` collapses arrays and knows neither filter nor visitor: with one of them it is
- * refused. The other named parameters of `edge_collapse()` do not compile: cost, placement and
+ * Quadrics collapse arrays and know neither filter nor visitor: with one of them `Spectral_edge_collapse_options::pre_simplify` is
+ * refused, and `quadrics_above` passed over. The other named parameters of `edge_collapse()` do not compile: cost, placement and
  * order are those of the metric, and indices are its own.
  *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
@@ -386,6 +418,7 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
   const internal::Pre_simplification first =
       internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = timer.time();
+  result.quadric_collapses = first.log.points().size();
   if(first.done)
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);
   else

@@ -51,7 +51,8 @@ namespace Surface_mesh_simplification {
  * }
  * \endcode
  *
- * (From 3 K vertices on: below, `Spectral_options::metric_eigenvectors` depends on the target; set it to K for all.)
+ * (Without `Spectral_edge_collapse_options::quadrics_above`, which depends on the target, and from 3 K vertices on: below,
+ * `Spectral_options::metric_eigenvectors` does as well; set it to K for all.)
  *
  * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done to the mesh
  * after the collapses, relocation of its vertices for instance, is not in the log. Neither are vertices that were

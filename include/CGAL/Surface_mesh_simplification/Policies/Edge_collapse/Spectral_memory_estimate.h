@@ -55,7 +55,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * them. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
- * vertex of the input that does not depend on K.
+ * vertex of the input that does not depend on K. What `quadrics_above` saves in the loop is not subtracted.
  *
  * The shape term keeps a quadric for each vertex, `Spectral_options::keep_free_of_self_intersections` a tree of boxes. Fans are not
  * known here: where a mesh has many, use the form that takes it.

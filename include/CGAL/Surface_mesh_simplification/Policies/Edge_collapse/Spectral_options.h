@@ -52,12 +52,12 @@ inline const char* placement_name(const Spectral_placement_strategy placement)
 
 /// What a run is doing; see `Spectral_options::progress`.
 enum class Spectral_phase {
-  pre_simplification, ///< collapsing with a cheap cost down to `Spectral_edge_collapse_options::pre_simplify`
-  eigenpairs,         ///< solving for the basis
-  first_costs,        ///< evaluating every edge once
-  collapses,          ///< inside the collapse loop
-  flips,      ///< flipping edges of the mesh that is left, see `Spectral_edge_collapse_options::flips`
-  relocation, ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
+  pre_simplification, ///< collapsing by quadrics, of `Spectral_edge_collapse_options::pre_simplify` or `quadrics_above`
+  eigenpairs,  ///< solving for the basis
+  first_costs, ///< evaluating every edge once
+  collapses,   ///< inside the collapse loop
+  flips,       ///< flipping edges of the mesh that is left, see `Spectral_edge_collapse_options::flips`
+  relocation,  ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
   operator_fit ///< choosing a Laplacian and a mass for them, see `Spectral_edge_collapse_options::fit_operators`
 };
 
@@ -117,8 +117,7 @@ struct Spectral_options
   /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement
   /// found would, the ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Beside faces
   /// that cross already, as in scans, this holds until n / 20 collapses were refused for it: more of them would hold up a run
-  /// that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone. The quadrics of
-  /// `Spectral_edge_collapse_options::pre_simplify` know nothing of it.
+  /// that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
   bool keep_free_of_self_intersections = true;
 
   /// Whether every cost that CGAL asks for is evaluated at once. Otherwise an edge that costs much more than the collapses of late keeps the

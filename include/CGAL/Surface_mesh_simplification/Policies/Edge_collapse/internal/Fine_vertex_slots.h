@@ -70,6 +70,14 @@ public:
     return s - 1;
   }
 
+  /// Gives the vertices of the mesh, in their order, these slots: other handles may go on for them.
+  void set(const std::vector<Eigen::Index>& slots)
+  {
+    std::size_t i = 0;
+    for(const vertex_descriptor v : vertices(*m_mesh))
+      m_slots.set(v, slots[i++] + 1);
+  }
+
   /// Throws `std::logic_error` where the mesh has been assigned to and its vertices are others.
   void check() const
   {

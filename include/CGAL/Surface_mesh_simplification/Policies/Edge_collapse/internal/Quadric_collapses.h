@@ -44,16 +44,18 @@ struct Triangle_arrays
  *
  * O(n log n), a few microseconds for each collapse; deterministic.
  *
- * @param mesh is consumed
  * @param fixed a flag for each vertex that stays where it is, or nothing
  * @param border_is_apart whether a vertex of the border takes its values from vertices of the border alone
+ * @param keep_free_of_self_intersections whether no collapse may put a face through another, see `Spectral_crossing_guard`: where
+ *        faces intersect in the end, all is done once more with an eye on it
  * @param progress is called with the number of vertices left, each time a hundredth of the collapses is done; what it throws comes
  *        through
  * @throws std::invalid_argument that names the first vertex where several fans of faces meet
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
-quadric_collapses(Triangle_arrays mesh, std::vector<char> fixed, bool border_is_apart, std::size_t target,
+quadric_collapses(const Triangle_arrays& mesh, const std::vector<char>& fixed, bool border_is_apart,
+                  bool keep_free_of_self_intersections, std::size_t target,
                   const std::function<void(std::size_t)>& progress);
 
 } // namespace internal

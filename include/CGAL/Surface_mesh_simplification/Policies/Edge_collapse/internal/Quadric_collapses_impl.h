@@ -9,9 +9,11 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Quadric_collapses.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_quadric.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
 
 #include <boost/heap/d_ary_heap.hpp>
 
@@ -48,7 +50,8 @@ inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
 class Quadric_collapser
 {
 public:
-  Quadric_collapser(Triangle_arrays mesh, std::vector<char> fixed, const bool border_is_apart)
+  Quadric_collapser(Triangle_arrays mesh, std::vector<char> fixed, const bool border_is_apart,
+                    const bool keep_free_of_self_intersections)
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
@@ -72,6 +75,8 @@ public:
     for(int c = 0; c < int(m_vertex.size()); ++c)
       add_corner(c);
     check_fans();
+    if(keep_free_of_self_intersections)
+      m_crossing.set_geometry(m_points, Fans{*this});
   }
 
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
@@ -103,6 +108,21 @@ public:
   }
 
   Collapse_log take_log() { return std::move(m_log); }
+
+  /// Whether two faces of the mesh as it is intersect.
+  bool has_intersections() const
+  {
+    Eigen::MatrixXd V(Eigen::Index(m_points.size()), 3);
+    for(std::size_t v = 0; v < m_points.size(); ++v)
+      V.row(Eigen::Index(v)) = m_points[v].transpose();
+    Eigen::MatrixXi T(Eigen::Index(m_vertex.size() / 3), 3);
+    Eigen::Index faces = 0;
+    for(std::size_t c = 0; c < m_vertex.size(); c += 3)
+      if(m_vertex[c] != removed)
+        T.row(faces++) << m_vertex[c], m_vertex[c + 1], m_vertex[c + 2];
+    T.conservativeResize(faces, 3);
+    return !Spectral_geometry::internal::self_intersecting_faces(V, T).empty();
+  }
 
 private:
   // Of a halfedge: not in the queue; refused; in the queue, with the number of collapses before its cost was computed.
@@ -154,6 +174,26 @@ private:
     });
   }
 
+  // What `Spectral_crossing_guard` asks for.
+  struct Fans
+  {
+    template <class Function>
+    void for_triangles(const Spectral_slot v, const Function& function) const
+    {
+      if(run.m_outgoing[v] >= 0)
+        run.for_outgoing(int(v), [&](const int c) {
+          function(Spectral_slot(run.target(c)), Spectral_slot(run.source(previous(c))));
+        });
+    }
+    template <class Function>
+    void for_neighbours(const Spectral_slot v, const Function& function) const
+    {
+      run.for_neighbours(int(v), [&](const int w) { function(Spectral_slot(w)); });
+    }
+
+    const Quadric_collapser& run;
+  };
+
   void add_corner(const int c)
   {
     const int v = source(c);
@@ -180,10 +220,9 @@ private:
       int degree = 0;
       for_neighbours(v, [&](int) { ++degree; });
       if(degree != m_degree[at(v)])
-        throw std::invalid_argument(
-            "Spectral_edge_collapse_options::pre_simplify: " + Spectral_geometry::internal::vertex_name(v) +
-            " joins several fans of faces; duplicate it "
-            "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
+        throw std::invalid_argument("edge collapses: " + Spectral_geometry::internal::vertex_name(v) +
+                                    " joins several fans of faces; duplicate it "
+                                    "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
     }
   }
 
@@ -238,7 +277,7 @@ private:
       return;
     }
     if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) || !keeps_shape(u, v, x) ||
-       !keeps_shape(v, u, x)) {
+       !keeps_shape(v, u, x) || crosses(u, v, x)) {
       m_state[at(c)] = refused;
       m_refused.push_back(c);
       return;
@@ -298,6 +337,12 @@ private:
     return result;
   }
 
+  bool crosses(const int u, const int v, const Eigen::Vector3d& x)
+  {
+    return m_crossing.is_active() &&
+           m_crossing.crosses(m_points, Fans{*this}, Spectral_slot(u), Spectral_slot(v), x);
+  }
+
   struct Face
   {
     Face(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
@@ -355,6 +400,8 @@ private:
       reconsider(h);
       reconsider(previous(h));
     }
+    if(m_crossing.is_active())
+      m_crossing.commit(m_points, Fans{*this}, Spectral_slot(gone), Spectral_slot(kept));
   }
 
   // Removes a face on the edge: its other two edges become one.
@@ -404,17 +451,29 @@ private:
   std::vector<int> m_refused, m_ring;
   // Hubs come last: to look at one takes as long as it has neighbours.
   int m_largest_degree = 200;
+  Spectral_crossing_guard m_crossing;
   boost::heap::d_ary_heap<Entry, boost::heap::arity<4>> m_queue;
 };
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mesh, std::vector<char> fixed,
+CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(const Triangle_arrays& mesh,
+                                                             const std::vector<char>& fixed,
                                                              const bool border_is_apart,
+                                                             const bool keep_free_of_self_intersections,
                                                              const std::size_t target,
                                                              const std::function<void(std::size_t)>& progress)
 {
-  Quadric_collapser run(std::move(mesh), std::move(fixed), border_is_apart);
-  run.run(target, progress);
-  return run.take_log();
+  // To look for intersections at each collapse takes five times as long as the collapses: only where some are left in the end.
+  std::size_t least = std::size_t(mesh.V.rows());
+  const auto report = [&](const std::size_t left) {
+    least = (std::min)(least, left);
+    progress(least);
+  };
+  for(bool guarded = false;; guarded = true) {
+    Quadric_collapser run(mesh, fixed, border_is_apart, guarded);
+    run.run(target, report);
+    if(!keep_free_of_self_intersections || guarded || !run.has_intersections())
+      return run.take_log();
+  }
 }
 
 } // namespace internal

@@ -43,8 +43,9 @@ struct Spectral_weighted_shape;
  * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
  * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
  *
- * Order of calls: set_basis() once; set_geometry() at the start of each run; then, in any order,
- * candidate(), cost_at() or evaluate_around(), which read, and commit(), which follows one collapse.
+ * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them; set_geometry()
+ * at the start of each run; then, in any order, candidate(), cost_at() or evaluate_around(), which read, and commit(), which
+ * follows one collapse.
  */
 class Spectral_collapse_core
 {
@@ -61,8 +62,14 @@ public:
   /// Replaces Z = F Lambda by rows of its own. set_geometry() must follow.
   void set_Z(const Eigen::MatrixXd& Z) { m_fields.Z.assign(Z); }
 
-  /// Takes positions and rings (entries without triangles) of the mesh as it is and computes R, M, E.
-  /// Slots that are gone have an empty ring.
+  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. What set_geometry() does in the
+  /// first run, unless the mesh is another one then.
+  void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
+
+  /// Follows a collapse outside of a run: F, Z, coefficients, P, quadrics and what is kept. The geometry is set afterwards.
+  void follow(const Spectral_slot removed, const Spectral_slot kept, const double weight);
+
+  /// Takes positions and rings of the mesh as it is and computes R, M, E. Slots that are gone have an empty ring.
   void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
   /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.

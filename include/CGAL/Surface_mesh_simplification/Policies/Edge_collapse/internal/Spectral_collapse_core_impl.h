@@ -97,17 +97,44 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
   m_candidates.resize(std::size_t(F.rows()));
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points,
-                                                                        Spectral_rings rings)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
+                                                                     Spectral_rings rings)
 {
   m_fields.points = std::move(points);
   m_fields.rings = std::move(rings);
+  if(m_dirichlet && m_fields.vanishing.empty())
+    for(std::size_t w = 0; w < m_fields.points.size(); ++w)
+      m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
+  if(m_surface_scale == 0)
+    m_surface_scale = m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area();
+  if(m_parameters.shape > 0)
+    m_shape.set_geometry(m_fields.points, m_fields.rings, m_surface_scale);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::follow(const Spectral_slot removed, const Spectral_slot kept, const double weight)
+{
+  m_shape.merge(removed, kept);
+  m_forest.merge(removed, kept, weight);
+  if(is_kept(removed))
+    m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
+  merge_rows(m_fields.F, removed, kept, weight);
+  if(m_fields.has_z_rows())
+    merge_rows(m_fields.Z, removed, kept, weight);
+  if(m_fields.vanishes_at(removed))
+    m_fields.vanishing[kept] = 1;
+  if(!m_fields.coefficients.empty())
+    m_fields.coefficients[kept] =
+        (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points,
+                                                                        Spectral_rings rings)
+{
+  set_input(std::move(points), std::move(rings)); // of a later run it keeps the positions and the rings alone
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
   if(m_fields.R.empty())
     m_fields.R.assign(n, m_number_of_signals);
-  if(m_dirichlet && m_fields.vanishing.empty())
-    for(std::size_t w = 0; w < std::size_t(n); ++w)
-      m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
   m_products.resize(std::size_t(n));
@@ -126,10 +153,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_number_of_vertices += degree == 0 ? 0 : 1;
     m_fields.largest_degree = (std::max)(m_fields.largest_degree, degree);
   }
-  if(m_surface_scale == 0)
-    m_surface_scale = m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area();
-  if(m_parameters.shape > 0)
-    m_shape.set_geometry(m_fields.points, m_fields.rings, m_surface_scale);
   if(m_parameters.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
@@ -287,19 +310,8 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   const double shape_cost =
       shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
   const double largest_loss = shape.largest_loss * (m_fields.mass[removed] + m_fields.mass[kept]);
-  m_shape.merge(removed, kept);
   --m_number_of_vertices;
-  m_forest.merge(removed, kept, weight);
-  if(is_kept(removed))
-    m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
-  merge_rows(m_fields.F, removed, kept, weight);
-  if(m_fields.has_z_rows())
-    merge_rows(m_fields.Z, removed, kept, weight);
-  if(m_fields.vanishes_at(removed))
-    m_fields.vanishing[kept] = 1;
-  if(!m_fields.coefficients.empty())
-    m_fields.coefficients[kept] =
-        (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
+  follow(removed, kept, weight);
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;

@@ -27,6 +27,9 @@ namespace internal {
  * thin sheets, and their sides are approximated apart from each other.
  *
  * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs to each.
+ *
+ * `Fans`, the connectivity: `for_triangles(w, f)` calls f(a, b) for each triangle (w, a, b), `for_neighbours(w, f)` f(a) for each
+ * neighbour of w.
  */
 class Spectral_crossing_guard
 {
@@ -35,11 +38,12 @@ public:
 
   bool is_active() const { return !m_tree.is_empty(); }
 
-  void set_geometry(const Points& points, const Spectral_rings& rings)
+  template <class Fans>
+  void set_geometry(const Points& points, const Fans& fans)
   {
     std::vector<Box> boxes(points.size());
     for(std::size_t w = 0; w < points.size(); ++w)
-      boxes[w] = box_of_owned(points, rings, Spectral_slot(w));
+      boxes[w] = box_of_owned(points, fans, Spectral_slot(w));
     m_tree.build(boxes);
     m_refusals = points.size() / 20;
   }
@@ -47,10 +51,11 @@ public:
   /// Whether the triangles of u and v that are left would cross others once both are at x, which none of those around u and v
   /// crosses now. Sheets that lie in each other all over, as in scans, are not to hold a run up: after so many refusals
   /// beside triangles that cross already there are no more of these.
-  bool crosses(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
-               const Spectral_slot v, const Eigen::Vector3d& x)
+  template <class Fans>
+  bool crosses(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
+               const Eigen::Vector3d& x)
   {
-    collect(points, rings, u, v, x);
+    collect(points, fans, u, v, x);
     // Those around an end that stays where it is are not new.
     m_boxes.clear();
     for(const Corners& t : m_new) {
@@ -58,12 +63,12 @@ public:
       m_boxes.push_back(x == points[end] ? Box() : box_of(t));
     }
     const bool fan = fan_intersects(m_new.data(), m_new.size());
-    if((!fan || old_intersect()) && !meet_others(points, rings, u, v, m_new, m_old))
+    if((!fan || old_intersect()) && !meet_others(points, fans, u, v, m_new, m_old))
       return false;
     m_boxes.clear();
     for(const Corners& t : m_old)
       m_boxes.push_back(box_of(t));
-    if(!old_intersect() && !meet_others(points, rings, u, v, m_old, {}))
+    if(!old_intersect() && !meet_others(points, fans, u, v, m_old, {}))
       return true;
     if(m_refusals == 0)
       return false;
@@ -71,14 +76,14 @@ public:
     return true;
   }
 
-  /// Follows a collapse, once rings and points have.
-  void commit(const Points& points, const Spectral_rings& rings, const Spectral_slot removed,
-              const Spectral_slot kept)
+  /// Follows a collapse, once fans and points have.
+  template <class Fans>
+  void commit(const Points& points, const Fans& fans, const Spectral_slot removed, const Spectral_slot kept)
   {
     m_tree.update(removed, Box());
-    m_tree.update(kept, box_of_owned(points, rings, kept));
-    for(const Spectral_ring_entry& e : rings[kept])
-      m_tree.update(e.vertex, box_of_owned(points, rings, e.vertex));
+    m_tree.update(kept, box_of_owned(points, fans, kept));
+    fans.for_neighbours(kept,
+                        [&](const Spectral_slot w) { m_tree.update(w, box_of_owned(points, fans, w)); });
   }
 
 private:
@@ -142,57 +147,55 @@ private:
     return Box(box.min() - margin, box.max() + margin);
   }
 
-  template <class Function>
-  static void for_each_owned(const Spectral_rings& rings, const Spectral_slot w, const Function& function)
+  template <class Fans, class Function>
+  static void for_each_owned(const Fans& fans, const Spectral_slot w, const Function& function)
   {
-    const Spectral_ring& ring = rings[w];
-    for(std::size_t i = 0; i < ring.size(); ++i) {
-      const Spectral_slot a = ring[i].vertex, b = ring[Spectral_rings::next(ring, i)].vertex;
-      if(ring[i].face && w < a && w < b)
+    fans.for_triangles(w, [&](const Spectral_slot a, const Spectral_slot b) {
+      if(w < a && w < b)
         function(a, b);
-    }
+    });
   }
 
-  static Box box_of_owned(const Points& points, const Spectral_rings& rings, const Spectral_slot w)
+  template <class Fans>
+  static Box box_of_owned(const Points& points, const Fans& fans, const Spectral_slot w)
   {
     Box box;
-    for_each_owned(rings, w, [&](const Spectral_slot a, const Spectral_slot b) {
+    for_each_owned(fans, w, [&](const Spectral_slot a, const Spectral_slot b) {
       box.extend(points[w]).extend(points[a]).extend(points[b]);
     });
     return box;
   }
 
   // The triangles of both ends: all as they are, and those that are left as they would be.
-  void collect(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
-               const Spectral_slot v, const Eigen::Vector3d& x)
+  template <class Fans>
+  void collect(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
+               const Eigen::Vector3d& x)
   {
     m_old.clear();
     m_new.clear();
     m_old_of_u = m_new_of_u = 0;
     constexpr std::size_t merged = (std::numeric_limits<std::size_t>::max)();
     for(const Spectral_slot c : {u, v}) {
-      const Spectral_ring& ring = rings[c];
-      for(std::size_t i = 0; i < ring.size(); ++i) {
-        const Spectral_slot a = ring[i].vertex, b = ring[Spectral_rings::next(ring, i)].vertex;
+      fans.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
         const bool shared = a == u || a == v || b == u || b == v;
-        if(!ring[i].face || (shared && c == v))
-          continue;
+        if(shared && c == v)
+          return;
         m_old.push_back(Corners{{{c, points[c]}, {a, points[a]}, {b, points[b]}}});
-        if(c == u)
-          m_old_of_u = m_old.size();
         if(!shared)
           m_new.push_back(Corners{{{merged, x}, {a, points[a]}, {b, points[b]}}});
-        if(c == u)
-          m_new_of_u = m_new.size();
+      });
+      if(c == u) {
+        m_old_of_u = m_old.size();
+        m_new_of_u = m_new.size();
       }
     }
   }
 
   // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v, and that none of `known` meets. One
   // walk through the tree for all.
-  bool meet_others(const Points& points, const Spectral_rings& rings, const Spectral_slot u,
-                   const Spectral_slot v, const std::vector<Corners>& triangles,
-                   const std::vector<Corners>& known) const
+  template <class Fans>
+  bool meet_others(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
+                   const std::vector<Corners>& triangles, const std::vector<Corners>& known) const
   {
     Box all;
     for(const Box& box : m_boxes)
@@ -200,7 +203,7 @@ private:
     return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
       bool result = false;
       if(owner != u && owner != v)
-        for_each_owned(rings, Spectral_slot(owner), [&](const Spectral_slot a, const Spectral_slot b) {
+        for_each_owned(fans, Spectral_slot(owner), [&](const Spectral_slot a, const Spectral_slot b) {
           if(result || a == u || a == v || b == u || b == v)
             return;
           const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};

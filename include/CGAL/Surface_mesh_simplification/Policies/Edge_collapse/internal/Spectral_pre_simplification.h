@@ -61,8 +61,25 @@ inline void check_pre_simplification(const Spectral_edge_collapse_options& optio
                                                         options.number_of_eigenvectors);
 }
 
-/// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices: `quadric_edge_collapse()`. Until the
-/// mesh changes it can be cancelled, and nothing has happened then.
+/// `collapse_by_quadrics()` of n vertices to `target` as the options have it. Until the mesh changes it can be cancelled, and nothing has
+/// happened then.
+template <class TriangleMesh, class NamedParameters>
+Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
+                                  const std::vector<char>& kept,
+                                  const Spectral_edge_collapse_options& options, const NamedParameters& np,
+                                  std::vector<Eigen::Index>& slots)
+{
+  const auto report = [&](const std::size_t left) {
+    const double fraction = double(n - left) / double(n - target);
+    if(!report_progress(options, Spectral_phase::pre_simplification, fraction, left))
+      throw Spectral_geometry::Cancelled();
+  };
+  return collapse_by_quadrics(mesh, target, kept,
+                              options.boundary == Spectral_geometry::Boundary_condition::dirichlet,
+                              options.keep_free_of_self_intersections, report, np, slots);
+}
+
+/// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
 template <class TriangleMesh, class NamedParameters>
 Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
                                 const Spectral_edge_collapse_options& options, const NamedParameters& np)
@@ -78,14 +95,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
                                 "Restriction_visitor first.");
   check_pre_simplification(options, n, target);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
-  const auto report = [&](const std::size_t left) {
-    const double fraction = double(n - left) / double(n - options.pre_simplify);
-    if(!report_progress(options, Spectral_phase::pre_simplification, fraction, left))
-      throw Spectral_geometry::Cancelled();
-  };
-  result.log = collapse_by_quadrics(mesh, options.pre_simplify, kept,
-                                    options.boundary == Spectral_geometry::Boundary_condition::dirichlet,
-                                    report, np, result.slots);
+  result.log = collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np, result.slots);
   for(std::size_t i = 0; i < result.slots.size(); ++i)
     if(!kept.empty() && kept[std::size_t(result.slots[i])])
       result.kept_vertices.push_back(i);

@@ -133,6 +133,22 @@ public:
     return i == 0 ? ring.size() - 1 : i - 1;
   }
 
+  /// What `Spectral_crossing_guard` asks for.
+  template <class Function>
+  void for_triangles(const Spectral_slot c, const Function& function) const
+  {
+    const Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i)
+      if(ring[i].face)
+        function(ring[i].vertex, ring[next(ring, i)].vertex);
+  }
+  template <class Function>
+  void for_neighbours(const Spectral_slot c, const Function& function) const
+  {
+    for(const Spectral_ring_entry& e : m_rings[c])
+      function(e.vertex);
+  }
+
   /// Fills the triangles of the ring of `c` from `triangle(c, a, b)`.
   template <class Triangle>
   void update_triangles(const Spectral_slot c, const Triangle& triangle)

@@ -135,6 +135,21 @@ public:
   /// \name Called by the policies
   /// @{
 
+  /// Before the first run: `collapse(slots)` collapses edges of the mesh, returns their log and writes the slots of the vertices
+  /// that are left. F, Z, P and the quadrics of the shape follow.
+  template <class Collapse>
+  void collapse_by_others(const Collapse& collapse)
+  {
+    read_geometry([this](auto points, auto rings) { m_core.set_input(std::move(points), std::move(rings)); });
+    std::vector<Eigen::Index> slots;
+    const Collapse_log log = collapse(slots);
+    m_slots.set(slots);
+    m_log_points = log.points();
+    for(const Spectral_geometry::Merge_forest::Merge& m : log.forest().merges())
+      m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha);
+    m_number_of_vertices = slots.size();
+  }
+
   /// Starts a run. It lasts as long as somebody holds the token that is returned, so that an
   /// exception that leaves the loop ends the run as well.
   std::shared_ptr<void> on_started(Triangle_mesh& mesh)
@@ -145,7 +160,8 @@ public:
     Real_timer timer;
     timer.start();
     m_run.reset();
-    read_geometry();
+    read_geometry(
+        [this](auto points, auto rings) { m_core.set_geometry(std::move(points), std::move(rings)); });
     m_positions_checked = false;
     m_selecting = m_selection_open = m_pending.open = false;
     m_answer = Answer();
@@ -472,7 +488,9 @@ private:
     return flags;
   }
 
-  void read_geometry()
+  // Hands positions and rings of the mesh as it is on.
+  template <class Take>
+  void read_geometry(const Take& take)
   {
     m_slots.check();
     m_vpm = vertex_point_map();
@@ -488,7 +506,7 @@ private:
       ++m_number_of_vertices;
     }
     check_number_of_vertices(m_number_of_vertices);
-    m_core.set_geometry(std::move(points), std::move(rings));
+    take(std::move(points), std::move(rings));
   }
 
   // The merges on record are all that has happened to the mesh.
