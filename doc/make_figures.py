@@ -413,7 +413,7 @@ def lines_over_n(folder):
 
 def curve(folder, output):
     lines, body = lines_over_n(folder), ""
-    names = {"policies": ("spectral, policies", {"style": 0}), "best": ("spectral, best", {"style": 5, "dash": "7,3"}),
+    names = {"policies": ("spectral, not relocated", {"style": 0}), "best": ("spectral, best", {"style": 5, "dash": "7,3"}),
              "isotropic": ("isotropic remeshing", {"style": 1, "dash": "9,3,2,3"}),
              "floor": ("ideal elements (estimate)", {"colour": GREY, "dash": "2,3", "marks": False})}
     panels = [("averaged", 1, "|C|_L, averaged mass", (0.3, 1000)), ("averaged", 2, "|C|_D, averaged mass", (0.1, 20)),

@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
+#include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
 #include <CGAL/Spectral_geometry/internal/border.h>
@@ -300,7 +301,6 @@ TEST_CASE("quadric_edge_collapse() that is cancelled or refused leaves the mesh 
   CHECK(SMS::quadric_edge_collapse(mesh, 162).vertex_map.size() == 162);
 }
 
-// Of a closed mesh, three times as many as 15 N.
 SMS::Spectral_edge_collapse_options ahead_options()
 {
   SMS::Spectral_edge_collapse_options options;
@@ -357,28 +357,88 @@ TEST_CASE("F, Z, P and coefficients follow collapses by quadrics ahead of the sp
   CHECK(positions(copy) == positions(mesh));
 }
 
-TEST_CASE("Functions that vanish on the border go on to, and kept vertices stay, when quadrics come first")
+TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are handles as well")
 {
-  const shapes::Matrices input = wavy_grid_matrices(40, 40);
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
+  using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+  Polyhedron mesh;
+  shapes::make_mesh(mesh, input);
+  const SMS::Spectral_edge_collapse_options options = ahead_options();
+  SMS::Spectral_policies<Polyhedron, Kernel> policies(mesh, options);
+  SMS::Collapse_log log;
+  policies.state().collapse_by_others([&](std::vector<Eigen::Index>& slots) {
+    return log = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {}, options,
+                                                     CGAL::parameters::default_values(), slots);
+  });
+  CHECK(count_vertices(mesh) == 300);
+
+  // Of each vertex that is left, the planes of all that went into it.
+  SMS::internal::Spectral_rings rings;
+  rings.resize(std::size_t(input.V.rows()));
+  std::vector<Eigen::Vector3d> points;
+  Mesh fine = make_mesh(input);
+  for(const auto v : fine.vertices()) {
+    points.push_back(input.V.row(Eigen::Index(v.idx())));
+    for(const auto h : CGAL::halfedges_around_target(v, fine)) {
+      rings[v.idx()].emplace_back();
+      rings[v.idx()].back().vertex = fine.source(h).idx();
+      rings[v.idx()].back().face = true;
+    }
+  }
+  SMS::internal::Spectral_shape_term expected;
+  const double area = SG::laplace_operator(input.V, input.T, options.mass).mass.sum();
+  expected.set_geometry(points, rings, 1 / area);
+  for(const SG::Merge_forest::Merge& m : log.forest().merges())
+    expected.merge(SMS::internal::Spectral_slot(m.removed), SMS::internal::Spectral_slot(m.kept));
+  const std::vector<Eigen::Index> slots = policies.state().current_slots();
+  const SMS::internal::Spectral_shape_term& followed = policies.state().core().shape();
+  for(std::size_t i = 0; i < slots.size(); ++i) {
+    const auto u = SMS::internal::Spectral_slot(slots[i]),
+               v = SMS::internal::Spectral_slot(slots[(i + 1) % slots.size()]);
+    const Eigen::Vector3d x = 1.1 * input.V.row(slots[i]);
+    CHECK(std::abs(followed.change(points, u, v, x) / expected.change(points, u, v, x) - 1) < 1e-9);
+  }
+  collapse(mesh, policies, 60);
+  CHECK(count_vertices(mesh) == 60);
+  const Eigen::SparseMatrix<double> P = policies.restriction();
+  REQUIRE((P.rows() == 60 && P.cols() == input.V.rows()));
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const auto pairs = policies.eigenpairs();
+  const double E = SG::restriction_energy(SG::laplace_operator(coarse.V, coarse.T, options.mass), P,
+                                          pairs->vectors, pairs->vectors * pairs->values.asDiagonal());
+  CHECK(std::abs(policies.error() / (E * area * area) - 1) < 1e-6);
+}
+
+TEST_CASE(
+    "Kept vertices and constrained edges stay, and edges without length are merged, when quadrics come first")
+{
+  shapes::Matrices input = wavy_grid_matrices(40, 40);
+  if(GENERATE(false, true))
+    for(const int f : {20, 200, 410, 700})
+      input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
   SMS::Spectral_edge_collapse_options options = ahead_options();
-  options.preserve_border = false;
-  options.boundary = SG::Boundary_condition::dirichlet;
+  options.quadrics_above = GENERATE(2., 15.);
   for(Eigen::Index v = 820; v < 1000; v += 13)
     options.kept_vertices.push_back(std::size_t(v));
   Mesh mesh = make_mesh(input);
-  const auto result = SMS::spectral_edge_collapse(mesh, 80, options);
-  CHECK(result.quadric_collapses == std::size_t(input.V.rows()) - 1200);
-  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-  const std::vector<char> border = SG::internal::border_vertices(coarse.T, coarse.V.rows());
-  const Eigen::MatrixXd F = result.restriction * result.eigenpairs->vectors;
-  for(std::size_t v = 0; v < border.size(); ++v)
-    if(border[v])
-      CHECK(F.row(Eigen::Index(v)).norm() < 1e-9 * F.norm());
-  for(const std::size_t v : options.kept_vertices) {
-    const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
-    CHECK(result.restriction.coeff(row, Eigen::Index(v)) == 1);
-    CHECK(coarse.V.row(row) == input.V.row(Eigen::Index(v)));
-  }
+  auto constrained = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> ends;
+  for(const auto e : mesh.edges())
+    if(e.idx() % 400 == 7) {
+      constrained[e] = true;
+      ends.emplace_back(mesh.vertex(e, 0).idx(), mesh.vertex(e, 1).idx());
+    }
+  const auto result =
+      SMS::spectral_edge_collapse(mesh, 80, options, CGAL::parameters::edge_is_constrained_map(constrained));
+  CHECK(result.quadric_collapses == std::size_t(input.V.rows() - Eigen::Index(80 * options.quadrics_above)));
+  CHECK(fault_of_result(mesh, result.restriction, result.vertex_map, input) == "");
+  CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) ==
+        options.kept_vertices.size());
+  const Eigen::MatrixXd V = positions(mesh);
+  REQUIRE(ends.size() > 5);
+  for(const auto& [u, v] : ends)
+    CHECK((V.row(Eigen::Index(result.vertex_map[std::size_t(u)])) == input.V.row(u) &&
+           V.row(Eigen::Index(result.vertex_map[std::size_t(v)])) == input.V.row(v)));
 }
 
 TEST_CASE(
@@ -394,7 +454,7 @@ TEST_CASE(
   CHECK(quadric_collapses(none) == 1062);
   CHECK(quadric_collapses(CGAL::parameters::visitor(SMS::internal::No_visitor())) == 0);
   CHECK(quadric_collapses(CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>())) == 0);
-  switch(GENERATE(range(0, 7))) {
+  switch(GENERATE(range(0, 8))) {
   case 0:
     options.quadrics_above = std::numeric_limits<double>::infinity();
     break;
@@ -415,6 +475,9 @@ TEST_CASE(
     break;
   case 6:
     options.maximum_error = 100;
+    break;
+  case 7:
+    options.boundary = SG::Boundary_condition::dirichlet;
     break;
   }
   CHECK(quadric_collapses(none) == 0);
@@ -446,7 +509,11 @@ TEST_CASE(
   const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
   CHECK(result.stop_reason == SMS::Spectral_edge_collapse_result::Stop_reason::cancelled);
   CHECK((result.output_vertices == 1500 && count_vertices(mesh) == 1500));
-  CHECK(result.restriction.rows() == 1500);
+  CHECK(result.quadric_collapses == std::size_t(input.V.rows()) - 1500);
+  CHECK(fault_of_result(mesh, result.restriction, result.vertex_map, input) == "");
+  Mesh copy = make_mesh(input);
+  SMS::Collapse_replay<Mesh>(copy, result.log).collapse_to(1500);
+  CHECK(positions(copy) == positions(mesh));
 }
 
 TEST_CASE("Quadrics put no face through another, and would without the guard")

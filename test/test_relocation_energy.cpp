@@ -186,9 +186,9 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);
   const Rows F = rough_signals(fine, 4), Z = 2 * F;
   const SG::internal::Closest_point_query closest(fine);
-  const std::vector<Eigen::Index> parts(20, 0);
+  const std::vector<Eigen::Index> parts(32, 0);
   SG::internal::Surface_signals signals(closest, parts, fine.T, F, Z, GENERATE(1, 3));
-  Positions V(20, 3); // inside of faces, and off the surface
+  Positions V(32, 3); // inside of faces, and off the surface
   for(Eigen::Index i = 0; i < V.rows(); ++i) {
     Eigen::Matrix3d corners;
     for(int k = 0; k < 3; ++k)

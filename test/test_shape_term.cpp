@@ -437,6 +437,7 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
   CHECK(paper.shape == 0);
   CHECK_FALSE(paper.keep_free_of_self_intersections);
   CHECK_FALSE(paper.relocate);
+  CHECK(std::isinf(paper.quadrics_above));
   CHECK(Spectral_options::paper().mass == SG::Mass::lumped);
 }
 

@@ -164,7 +164,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   };
   options.cancel = &interrupted;
   if(!a.levels.empty()) { // one run for all of them: the largest decides
-    options.quadrics_above *= double(a.levels.front()) / double(target);
+    if(!a.quadrics_above)
+      options.quadrics_above *= double(a.levels.front()) / double(target);
     if(a.signals.empty())
       options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
   }

@@ -88,7 +88,7 @@ inline Command_line described(Arguments& a)
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep, the constant one included; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "fast", "paper"},
-              "best keeps the spectrum best; fast is for N below a fiftieth of INPUT; paper: P follows the "
+              "best keeps the spectrum best; fast is for N below a hundredth of INPUT; paper: P follows the "
               "collapses, and the mass is diagonal");
 
   line.group("Input");

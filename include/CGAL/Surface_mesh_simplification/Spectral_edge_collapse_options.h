@@ -53,6 +53,7 @@ struct Spectral_edge_collapse_options : Spectral_options
     Spectral_edge_collapse_options options;
     static_cast<Spectral_options&>(options) = Spectral_options::paper();
     options.relocate = false;
+    options.quadrics_above = std::numeric_limits<double>::infinity();
     options.operator_fit =
         Spectral_geometry::Operator_fit_options::for_mass(Spectral_geometry::mass_blend(options.mass));
     return options;
@@ -70,7 +71,8 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M. Garland and P. Heckbert,
   /// *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997), and goes on with the spectral cost; at least
-  /// 30 times the target is advised, see fast(). Takes three to nine microseconds for each vertex. P spans both stages. Kept vertices
+  /// 30 times the target is advised, see fast(). Takes three to nine microseconds for each vertex, five times as
+  /// much where faces would go through others. P spans both stages. Kept vertices
   /// and the ends of constrained edges stay. 0: never.
   std::size_t pre_simplify = 0;
 
@@ -78,8 +80,8 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// `pre_simplify`, but F, Z and P follow: eigenpairs, relocation, fitted operators and the error are about the input. Few collapses
   /// decide what the result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took half
   /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the metric, where it could
-  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `binary`, `preserve_border` or
-  /// `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
+  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `binary`, `preserve_border`,
+  /// the Dirichlet condition or `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
   double quadrics_above = 15;
 
   /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
@@ -118,7 +120,8 @@ inline bool quadrics_come_first(const Spectral_edge_collapse_options& options)
 {
   return std::isfinite(options.quadrics_above) && options.shape > 0 &&
          options.placement == Spectral_placement_strategy::free && !options.binary &&
-         !options.preserve_border && !std::isfinite(options.maximum_error);
+         !options.preserve_border && options.boundary != Spectral_geometry::Boundary_condition::dirichlet &&
+         !std::isfinite(options.maximum_error);
 }
 
 /// Throws for what would otherwise be found out after the mesh has changed.

@@ -218,12 +218,10 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
     return;
   Real_timer timer;
   timer.start();
-  const std::size_t end = std::size_t(options.quadrics_above * double(target));
-  std::vector<char> kept;
-  for(std::size_t s = 0; s < n; ++s)
-    kept.push_back(state.core().is_kept(Spectral_slot(s)));
+  // One collapse at least is left to the loop: a run that is cancelled before it ends above the target.
+  const std::size_t end = (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
   state.collapse_by_others([&](std::vector<Eigen::Index>& slots) {
-    return collapse_by_quadrics(mesh, n, end, kept, options, np, slots);
+    return collapse_by_quadrics(mesh, n, end, state.core().kept(), options, np, slots);
   });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();

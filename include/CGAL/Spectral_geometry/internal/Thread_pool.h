@@ -237,7 +237,7 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
   {};
   Thread_pool<Nothing> pool(int((std::min)(Eigen::Index(threads), count / grain)));
   pool.for_each(std::size_t((std::max)(Eigen::Index(0), count)), std::size_t(grain),
-                [&f](const std::size_t i, Nothing&) { f(int(i)); });
+                [&f](const std::size_t i, Nothing&) { f(Eigen::Index(i)); });
 }
 
 } // namespace internal

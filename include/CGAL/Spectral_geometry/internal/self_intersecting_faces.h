@@ -23,8 +23,8 @@ namespace internal {
 using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 /// The pairs of faces of the mesh (V, T) that meet in more than a common vertex or edge.
-template <class Positions>
-Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
+template <class Positions, class Found>
+bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, const Found& found)
 {
   std::vector<Corners> faces;
   std::vector<Box_tree::Box> boxes;
@@ -34,13 +34,23 @@ Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
   }
   Box_tree tree;
   tree.build(boxes);
-  Face_pairs pairs;
   for(std::size_t f = 0; f < faces.size(); ++f)
-    tree.any(boxes[f], [&](const std::size_t g) {
-      if(f < g && triangles_intersect(faces[f], faces[g]))
-        pairs.emplace_back(Eigen::Index(f), Eigen::Index(g));
-      return false;
-    });
+    if(tree.any(boxes[f], [&](const std::size_t g) {
+         return f < g && triangles_intersect(faces[f], faces[g]) && found(Eigen::Index(f), Eigen::Index(g));
+       }))
+      return true;
+  return false;
+}
+
+/// All of them, in ascending order.
+template <class Positions>
+Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
+{
+  Face_pairs pairs;
+  any_self_intersecting_faces(V, T, [&](const Eigen::Index f, const Eigen::Index g) {
+    pairs.emplace_back(f, g);
+    return false;
+  });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -165,7 +165,8 @@ private:
  * computing a single cost.
  *
  * Each merge is done by `Euler::collapse_edge()` on the edge that the run collapsed. On a copy (`Mesh copy = mesh;`
- * before the run) the mesh of N vertices is therefore the very one that a run stopped at N leaves: the same connectivity
+ * before the run) the mesh of N vertices is therefore the very one that a run of the same options stopped at N leaves (those that
+ * depend on the target, see `Collapse_log`, set alike): the same connectivity
  * and coordinates, and the same order of vertices, faces and edges, before garbage is collected. On the same mesh
  * rebuilt in another way (read from a file again, in another type) connectivity and coordinates are the same, but
  * the vertex that goes on after a collapse may be the other one of the two, so that the order may differ;

@@ -75,7 +75,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const bool solves = options.signals.size() == 0 && !options.eigenpairs;
 
   // Bytes per vertex: rings, inner products, candidates and CGAL's queue; the first stage.
-  const double first_stage = 500;
+  const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;
   double loop = 1900;
   if(options.shape > 0)
     loop += sizeof(internal::Spectral_quadric);

@@ -64,8 +64,9 @@ enum class Spectral_phase {
 /// The argument of `Spectral_options::progress`.
 struct Spectral_progress
 {
-  Spectral_phase phase;           ///< what is being done
-  double fraction;                ///< of this phase, in [0,1]; never decreases within a phase
+  Spectral_phase phase; ///< what is being done
+  double
+      fraction; ///< of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may come twice
   std::size_t number_of_vertices; ///< of the mesh as it is now
 };
 
@@ -118,6 +119,7 @@ struct Spectral_options
   /// found would, the ends and the middle of the edge are tried, and then the edge stays until a collapse beside it. Beside faces
   /// that cross already, as in scans, this holds until n / 20 collapses were refused for it: more of them would hold up a run
   /// that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
+  /// Of collapses by quadrics it holds for the mesh that they end with, and an edge whose collapse would waits.
   bool keep_free_of_self_intersections = true;
 
   /// Whether every cost that CGAL asks for is evaluated at once. Otherwise an edge that costs much more than the collapses of late keeps the
@@ -184,8 +186,7 @@ struct Spectral_options
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
-  /// cancels: while the eigenpairs or the first costs are computed `Spectral_geometry::Cancelled` is thrown and
-  /// the mesh is untouched; inside a loop `spectral_edge_collapse()` stops between two collapses and returns a
+  /// cancels: until the first collapse `Spectral_geometry::Cancelled` is thrown and the mesh is untouched; afterwards `spectral_edge_collapse()` stops between two collapses and returns a
   /// valid mesh with the P of what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
 

@@ -55,6 +55,7 @@ public:
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
+    , m_single_precision(mesh.single_precision)
     , m_vertex(std::move(mesh.vertex))
     , m_opposite(std::move(mesh.opposite))
     , m_border_is_apart(border_is_apart)
@@ -91,6 +92,7 @@ public:
         if(stuck && m_largest_degree == unlimited)
           return;
         before = m_log.number_of_vertices_left();
+        progress(before);
         m_largest_degree = stuck ? unlimited : (std::min)(4 * m_largest_degree, unlimited);
         for(const int c : std::exchange(m_refused, {}))
           if(m_vertex[at(c)] != removed && m_state[at(c)] == refused)
@@ -121,7 +123,8 @@ public:
       if(m_vertex[c] != removed)
         T.row(faces++) << m_vertex[c], m_vertex[c + 1], m_vertex[c + 2];
     T.conservativeResize(faces, 3);
-    return !Spectral_geometry::internal::self_intersecting_faces(V, T).empty();
+    return Spectral_geometry::internal::any_self_intersecting_faces(
+        V, T, [](Eigen::Index, Eigen::Index) { return true; });
   }
 
 private:
@@ -254,7 +257,10 @@ private:
     Eigen::Vector3d x = m_fixed[at(u)] ? p : m_fixed[at(v)] ? q : sum.minimiser();
     if(!x.allFinite())
       x = (p + q) / 2;
-    x = (x + m_origin) - m_origin; // what the mesh will hold
+    x = x + m_origin;
+    if(m_single_precision)
+      x = x.cast<float>().cast<double>();
+    x = (x - m_origin).eval(); // what the mesh will hold
     return {float((std::max)(m_cost_scale * sum(x), 0.)), x};
   }
 
@@ -438,6 +444,7 @@ private:
   Eigen::Vector3d m_origin;
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
+  bool m_single_precision;
   std::vector<int> m_vertex, m_opposite; // of each corner
   bool m_border_is_apart;
   std::vector<char> m_fixed;             // of each vertex, as what follows
@@ -455,7 +462,7 @@ private:
   boost::heap::d_ary_heap<Entry, boost::heap::arity<4>> m_queue;
 };
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(const Triangle_arrays& mesh,
+CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mesh,
                                                              const std::vector<char>& fixed,
                                                              const bool border_is_apart,
                                                              const bool keep_free_of_self_intersections,
@@ -469,9 +476,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(const Triangle_arra
     progress(least);
   };
   for(bool guarded = false;; guarded = true) {
-    Quadric_collapser run(mesh, fixed, border_is_apart, guarded);
+    const bool last = guarded || !keep_free_of_self_intersections;
+    Quadric_collapser run(last ? std::move(mesh) : mesh, fixed, border_is_apart, guarded);
     run.run(target, report);
-    if(!keep_free_of_self_intersections || guarded || !run.has_intersections())
+    if(last || !run.has_intersections())
       return run.take_log();
   }
 }

@@ -75,6 +75,7 @@ public:
   /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
   void set_kept(std::vector<char> kept) { m_kept = std::move(kept); }
 
+  const std::vector<char>& kept() const { return m_kept; }
   bool is_kept(const Spectral_slot s) const { return s < m_kept.size() && m_kept[s]; }
 
   /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
@@ -85,6 +86,7 @@ public:
   const Spectral_cost_parameters& parameters() const { return m_parameters; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
   const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+  const Spectral_shape_term& shape() const { return m_shape; }
   const Spectral_candidates& candidates() const { return m_candidates; }
 
   /// E, the sum of E_w over the current vertices (Eq. 2).
