@@ -543,10 +543,10 @@ def degree(output):
     def curve(words, column, style):
         return Curve(words, [(r["vertices"] - 1, r[column]) for r in rows], style)
 
-    axis = Axis("neighbours of the vertex", 8, 4000, log=True)
+    axis = Axis("neighbours of the vertex", 8, 15000, log=True)
     curves = [curve("spectral, best", "us_per_collapse", 0), curve("Garland-Heckbert, plane quadrics", "us_per_collapse_garland_heckbert", 1)]
-    body = panel(70, 36, 320, 240, "microseconds per collapse", axis, Axis("", 5, 50000, log=True), curves)
-    body += panel(480, 36, 320, 240, "seconds in all, eigenpairs included", axis, Axis("", 0.001, 1, log=True),
+    body = panel(70, 36, 320, 240, "microseconds per collapse", axis, Axis("", 5, 500000, log=True), curves)
+    body += panel(480, 36, 320, 240, "seconds in all, eigenpairs included", axis, Axis("", 0.001, 10, log=True),
                   [curve("", "seconds_total", 0)])
     body += legend(70, 336, 160, curves)
     with open(os.path.join(output, "degree.svg"), "w") as file:
