@@ -31,8 +31,9 @@ struct Option_words
 inline bool quadrics_above_is_passed_over(
     const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options, std::string& said)
 {
-  said = " goes with free placement and a shape term, and not with a binary restriction, a border to "
-         "preserve, the Dirichlet condition or an error bound, where all collapses are those of the metric: "
+  said = " goes with free placement and a shape term, and not with coefficients, a binary restriction, "
+         "a border to preserve, the Dirichlet condition or an error bound, where all collapses are those of "
+         "the metric: "
          "leave it out.";
   return std::isfinite(options.quadrics_above) &&
          !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options);

@@ -80,8 +80,9 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// `pre_simplify`, but F, Z and P follow: eigenpairs, relocation, fitted operators and the error are about the input. Few collapses
   /// decide what the result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took half
   /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the metric, where it could
-  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `binary`, `preserve_border`,
-  /// the Dirichlet condition or `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
+  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `coefficients`, `binary`,
+  /// `preserve_border`, the Dirichlet condition or `maximum_error`, with a filter or a visitor. Levels of
+  /// `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
   double quadrics_above = 15;
 
   /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
@@ -120,7 +121,8 @@ inline bool quadrics_come_first(const Spectral_edge_collapse_options& options)
 {
   return std::isfinite(options.quadrics_above) && options.shape > 0 &&
          options.placement == Spectral_placement_strategy::free && !options.binary &&
-         !options.preserve_border && options.boundary != Spectral_geometry::Boundary_condition::dirichlet &&
+         !options.preserve_border && options.coefficients.rows() == 0 &&
+         options.boundary != Spectral_geometry::Boundary_condition::dirichlet &&
          !std::isfinite(options.maximum_error);
 }
 
