@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -447,36 +448,19 @@ TEST_CASE(
   CHECK(quadric_collapses(none) == 1062);
   CHECK(quadric_collapses(CGAL::parameters::visitor(SMS::internal::No_visitor())) == 0);
   CHECK(quadric_collapses(CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>())) == 0);
-  switch(GENERATE(range(0, 9))) {
-  case 0:
-    options.quadrics_above = std::numeric_limits<double>::infinity();
-    break;
-  case 1:
-    options.quadrics_above = 26;
-    break;
-  case 2:
-    options.shape = 0;
-    break;
-  case 3:
-    options.placement = SMS::Spectral_placement_strategy::on_edge;
-    break;
-  case 4:
-    options.binary = true;
-    break;
-  case 5:
-    options.preserve_border = true;
-    break;
-  case 6:
-    options.maximum_error = 100;
-    break;
-  case 7:
-    options.boundary = SG::Boundary_condition::dirichlet;
-    break;
-  case 8:
-    options.coefficients = SG::weighted_coefficients(Eigen::VectorXd::Ones(input.V.rows()),
-                                                     Eigen::VectorXd::Ones(input.V.rows()));
-    break;
-  }
+  using Options = SMS::Spectral_edge_collapse_options;
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(input.V.rows());
+  const std::function<void(Options&)> changes[] = {
+      [](Options& o) { o.quadrics_above = std::numeric_limits<double>::infinity(); },
+      [](Options& o) { o.quadrics_above = 26; },
+      [](Options& o) { o.shape = 0; },
+      [](Options& o) { o.placement = SMS::Spectral_placement_strategy::on_edge; },
+      [](Options& o) { o.binary = true; },
+      [](Options& o) { o.preserve_border = true; },
+      [](Options& o) { o.maximum_error = 100; },
+      [](Options& o) { o.boundary = SG::Boundary_condition::dirichlet; },
+      [&](Options& o) { o.coefficients = SG::weighted_coefficients(ones, ones); }};
+  changes[GENERATE(range(0, 9))](options);
   CHECK(quadric_collapses(none) == 0);
 }
 

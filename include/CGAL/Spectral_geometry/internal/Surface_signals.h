@@ -44,20 +44,21 @@ public:
     Z.resize(V.rows(), m_F.cols());
     const bool first = m_answers.size() != std::size_t(V.rows());
     m_answers.resize(std::size_t(V.rows()));
-    for_each_vertex(V.rows(), [&](const Eigen::Index w) {
+    const auto read_off = [&](const Eigen::Index w) {
       Closest_point_query::Answer& a = m_answers[std::size_t(w)];
       a = first ? m_closest(V.row(w), m_parts[std::size_t(w)]) : m_closest(V.row(w), a);
       const Eigen::RowVector3i t = m_T.row(a.face);
       F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
       Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
-    });
+    };
+    for_each_task(V.rows(), m_threads, read_off, 16);
   }
 
   // The signals are linear in the face. A closest point on an edge stays on it for a while, one in a corner does
   // not move at all.
   void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
   {
-    for_each_vertex(gradient.rows(), [&](const Eigen::Index w) {
+    const auto add = [&](const Eigen::Index w) {
       const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
       const Eigen::Matrix3d& p = m_closest.corners(a.face);
       const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
@@ -81,16 +82,11 @@ public:
         g = edge.dot(g) * edge;
       }
       gradient.row(w) += g.transpose();
-    });
+    };
+    for_each_task(gradient.rows(), m_threads, add, 16);
   }
 
 private:
-  template <class Function>
-  void for_each_vertex(const Eigen::Index n, const Function& function) const
-  {
-    for_each_task(n, m_threads, function, 16);
-  }
-
   const Closest_point_query& m_closest;
   const std::vector<Eigen::Index>& m_parts;
   const Eigen::MatrixXi& m_T;

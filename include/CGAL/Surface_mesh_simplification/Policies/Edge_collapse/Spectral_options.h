@@ -65,8 +65,8 @@ enum class Spectral_phase {
 struct Spectral_progress
 {
   Spectral_phase phase; ///< what is being done
-  double
-      fraction; ///< of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may come twice
+  /// of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may come twice
+  double fraction;
   std::size_t number_of_vertices; ///< of the mesh as it is now
 };
 

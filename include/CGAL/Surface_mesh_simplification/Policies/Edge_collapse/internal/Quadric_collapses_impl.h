@@ -200,21 +200,12 @@ private:
   void add_corner(const int c)
   {
     const int v = source(c);
-    const Eigen::Vector3d p = m_points[at(v)], a = m_points[at(target(c))] - p,
-                          b = m_points[at(source(previous(c)))] - p;
-    const Eigen::Vector3d cross = a.cross(b);
-    const double double_area = cross.norm();
+    const Eigen::Vector3d& p = m_points[at(v)];
     m_degree[at(v)] += is_border(c) ? 2 : 1;
     if(m_outgoing[at(v)] < 0 || is_border(c))
       m_outgoing[at(v)] = c;
-    if(!(double_area > 0))
-      return;
-    const Eigen::Vector3d normal = cross / double_area;
-    m_quadrics[at(v)].add_face(normal, p, double_area / 2);
-    if(is_border(c))
-      m_quadrics[at(v)].add_border(a, normal, p);
-    if(is_border(previous(c)))
-      m_quadrics[at(v)].add_border(b, normal, p);
+    m_quadrics[at(v)].add_corner(p, m_points[at(target(c))] - p, is_border(c),
+                                 m_points[at(source(previous(c)))] - p, is_border(previous(c)));
   }
 
   void check_fans() const

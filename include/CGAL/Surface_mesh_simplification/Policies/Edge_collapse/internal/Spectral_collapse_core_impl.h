@@ -164,14 +164,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
 CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
 {
   double sum = 0;
-  for(std::size_t w = 0; w < m_fields.points.size(); ++w) {
-    const Spectral_ring& ring = m_fields.rings[Spectral_slot(w)];
-    for(std::size_t i = 0; i < ring.size(); ++i)
-      if(ring[i].face)
-        sum += spectral_triangle(m_fields.points[w], m_fields.points[ring[i].vertex],
-                                 m_fields.points[ring[Spectral_rings::next(ring, i)].vertex])
-                   .area;
-  }
+  for(std::size_t w = 0; w < m_fields.points.size(); ++w)
+    m_fields.rings.for_triangles(Spectral_slot(w), [&](const Spectral_slot a, const Spectral_slot b) {
+      sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
+    });
   return sum / 3; // each triangle from its three corners
 }
 

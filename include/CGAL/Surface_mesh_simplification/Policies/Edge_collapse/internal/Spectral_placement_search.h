@@ -196,14 +196,11 @@ private:
   Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
   {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for(const Spectral_slot c : {u, v}) {
-      const Spectral_ring& ring = m_fields->rings[c];
-      for(std::size_t i = 0; i < ring.size(); ++i)
-        if(ring[i].face)
-          normal +=
-              (m_fields->points[ring[i].vertex] - m_fields->points[c])
-                  .cross(m_fields->points[ring[Spectral_rings::next(ring, i)].vertex] - m_fields->points[c]);
-    }
+    for(const Spectral_slot c : {u, v})
+      m_fields->rings.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
+        normal +=
+            (m_fields->points[a] - m_fields->points[c]).cross(m_fields->points[b] - m_fields->points[c]);
+      });
     return normal;
   }
 

@@ -38,16 +38,21 @@ public:
   /// Where it is least; not finite where A is singular.
   Eigen::Vector3d minimiser() const { return -A.llt().solve(b); }
 
-  /// The plane of a face of this area and unit normal through its corner p.
-  void add_face(const Eigen::Vector3d& normal, const Eigen::Vector3d& p, const double area)
+  /// The plane of a face with a corner p, from which edges lead along a and b, and the planes at right angles to it through those of
+  /// them that are border edges. Nothing for a face without area.
+  void add_corner(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const bool a_is_border,
+                  const Eigen::Vector3d& b, const bool b_is_border)
   {
-    add_plane(normal, p, area);
-  }
-
-  /// The plane through a border edge that ends in p, at right angles to its face.
-  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal, const Eigen::Vector3d& p)
-  {
-    add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm());
+    const Eigen::Vector3d cross = a.cross(b);
+    const double double_area = cross.norm();
+    if(!(double_area > 0))
+      return;
+    const Eigen::Vector3d normal = cross / double_area;
+    add_plane(normal, p, double_area / 2);
+    if(a_is_border)
+      add_border(a, normal, p);
+    if(b_is_border)
+      add_border(b, normal, p);
   }
 
 private:
@@ -55,6 +60,11 @@ private:
   static constexpr double variance = 0.0225;
   // Of a border edge beside a face of as much area; 100 is as good, 1 lets the border wear off.
   static constexpr double border_weight = 10;
+
+  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal, const Eigen::Vector3d& p)
+  {
+    add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm());
+  }
 
   // Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane through p whose unit normal n
   // has that variance in each coordinate (Trettner and Kobbelt, *Fast and Robust QEF Minimization using Probabilistic

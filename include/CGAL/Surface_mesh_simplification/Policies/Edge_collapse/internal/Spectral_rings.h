@@ -133,7 +133,7 @@ public:
     return i == 0 ? ring.size() - 1 : i - 1;
   }
 
-  /// What `Spectral_crossing_guard` asks for.
+  /// Calls function(a, b) for each triangle (c, a, b).
   template <class Function>
   void for_triangles(const Spectral_slot c, const Function& function) const
   {
@@ -142,6 +142,7 @@ public:
       if(ring[i].face)
         function(ring[i].vertex, ring[next(ring, i)].vertex);
   }
+  /// Calls function(a) for each neighbour.
   template <class Function>
   void for_neighbours(const Spectral_slot c, const Function& function) const
   {

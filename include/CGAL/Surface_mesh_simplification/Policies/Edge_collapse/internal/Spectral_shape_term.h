@@ -81,18 +81,8 @@ private:
       if(!ring[i].face)
         continue;
       const std::size_t before = Spectral_rings::prev(ring, i), after = Spectral_rings::next(ring, i);
-      const Eigen::Vector3d a = points[ring[i].vertex] - points[w],
-                            b = points[ring[after].vertex] - points[w];
-      const Eigen::Vector3d cross = a.cross(b);
-      const double double_area = cross.norm();
-      if(!(double_area > 0))
-        continue;
-      const Eigen::Vector3d normal = cross / double_area;
-      m_quadrics[w].add_face(normal, p, double_area / 2);
-      if(!ring[before].face)
-        m_quadrics[w].add_border(a, normal, p);
-      if(!ring[after].face)
-        m_quadrics[w].add_border(b, normal, p);
+      m_quadrics[w].add_corner(p, points[ring[i].vertex] - points[w], !ring[before].face,
+                               points[ring[after].vertex] - points[w], !ring[after].face);
     }
   }
 
