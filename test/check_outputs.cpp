@@ -24,6 +24,8 @@
 using Sparse = Eigen::SparseMatrix<double>;
 using Dense = Eigen::MatrixXd;
 
+namespace {
+
 void require(bool holds, const std::string& sentence)
 {
   if(!holds)
@@ -201,6 +203,8 @@ void check_json(const nlohmann::json& json)
   for(const char* name : {"mass", "stop_reason"})
     require(json.contains(name) && json[name].is_string(), std::string(name) + " is a text in the JSON file");
 }
+
+} // namespace
 
 int main(int argc, char* argv[])
 {

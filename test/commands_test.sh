@@ -30,6 +30,7 @@ for program in spectral_simplify spectral_compare shape_matching spectral_distan
   done
 done
 grep -q -e '--preserve-border' <<<"$("$programs/spectral_simplify" --help advanced)" || fail "--help advanced lacks --preserve-border"
+"$programs/spectral_simplify" --help=everything >/dev/null 2>&1 && fail "--help=everything is taken"
 grep -q -e '--preserve-border' <<<"$("$programs/spectral_simplify" --help)" && fail "--help has advanced options"
 
 # completes LINE WORDS: what is offered at the end of LINE.

@@ -57,7 +57,7 @@ endif()
 if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "compare" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/compare_test.sh" $<TARGET_FILE:spectral_compare>
                                   $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")
-  set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 140)
 endif()
 
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
@@ -70,7 +70,7 @@ endif()
 if(TARGET shape_matching AND TARGET make_demo_shape)
   add_test(NAME "matching" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/matching_test.sh" $<TARGET_FILE:shape_matching>
                                    $<TARGET_FILE:make_demo_shape> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/matching")
-  set_tests_properties("matching" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("matching" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 150)
 endif()
 
 if(TARGET spectral_distances_on_proxy AND TARGET make_demo_shape)
@@ -84,7 +84,7 @@ if(TARGET spectral_simplification AND TARGET spectral_simplify)
   function(spectral_add_python_test name)
     add_test(NAME "${name}" COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=$<TARGET_FILE_DIR:spectral_simplification>"
                                     PYTHONDONTWRITEBYTECODE=1 "${SPECTRAL_PYTHON_EXECUTABLE}" ${ARGN})
-    set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT 600)
+    set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT 600 COST 145) # long ones come first
   endfunction()
   spectral_add_python_test("python" "${CMAKE_CURRENT_SOURCE_DIR}/python_test.py" $<TARGET_FILE:spectral_simplify>)
   set(adapters_test "${CMAKE_CURRENT_SOURCE_DIR}/python_adapters_test.py" "${PROJECT_SOURCE_DIR}/examples/python")

@@ -5,10 +5,10 @@
 #ifndef SPECTRAL_EXAMPLES_COMPARE_MODE_ALIGNMENT_H
 #define SPECTRAL_EXAMPLES_COMPARE_MODE_ALIGNMENT_H
 
+#include <CGAL/Spectral_geometry/functional_map_estimation.h>
 #include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <utility>
@@ -32,16 +32,14 @@ inline std::vector<std::pair<Eigen::Index, Eigen::Index>> eigenvalue_clusters(co
 }
 
 // The rotation R, orthogonal and block diagonal, for which the coarse modes R' = Phi~ R are closest to the
-// restricted fine ones, block by block (orthogonal Procrustes: R = U V^T of the block's C = U S V^T). C
-// becomes R^T C.
+// restricted fine ones, block by block. C becomes R^T C.
 inline Eigen::MatrixXd aligning_rotation(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values)
 {
   Eigen::MatrixXd R = Eigen::MatrixXd::Identity(C.rows(), C.rows());
   for(const auto& [first, last] : eigenvalue_clusters(fine_values, (std::min)(C.rows(), C.cols()))) {
     const Eigen::Index n = last - first;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C.block(first, first, n, n),
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    R.block(first, first, n, n) = svd.matrixU() * svd.matrixV().transpose();
+    R.block(first, first, n, n) =
+        CGAL::Spectral_geometry::nearest_orthogonal_map(C.block(first, first, n, n));
   }
   return R;
 }

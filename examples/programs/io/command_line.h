@@ -133,6 +133,9 @@ public:
       const std::string word = argv[k];
       if(word == "--help" || word.rfind("--help=", 0) == 0) {
         const std::string which = word != "--help" ? word.substr(7) : k + 1 < argc ? argv[k + 1] : "";
+        if(word != "--help" && which != "advanced" && which != "markdown")
+          throw std::runtime_error("'" + word +
+                                   "' is unknown: use --help, --help advanced or --help markdown.");
         return which == "markdown" ? markdown() : text(which == "advanced");
       }
     }

@@ -7,9 +7,8 @@
 #include "matcher.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/functional_map_estimation.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -208,12 +207,6 @@ Map covering(const Surface& from, const Surface& to, Map map, const Map& back)
   return map;
 }
 
-Eigen::MatrixXd nearest_rotation(const Eigen::MatrixXd& C)
-{
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
-
 class Bcicp
 {
 public:
@@ -243,17 +236,17 @@ private:
     Eigen::MatrixXd to_X = functional_map(m_Y, m_X, m_maps.X_to_Y),
                     to_Y = functional_map(m_X, m_Y, m_maps.Y_to_X);
     // There and back is to be the identity: what it rotates is taken out.
-    to_X *= nearest_rotation(to_Y * to_X).transpose();
-    to_Y *= nearest_rotation(to_X * to_Y).transpose();
+    to_X *= SG::nearest_orthogonal_map(to_Y * to_X).transpose();
+    to_Y *= SG::nearest_orthogonal_map(to_X * to_Y).transpose();
     find(m_X.modes, m_X.modes * to_Y.transpose(), m_Y.modes * to_X.transpose(), m_Y.modes);
   }
 
   // The same with the other shape's modes taken at the images, less what there and back rotates.
   void by_images()
   {
-    const Eigen::MatrixXd loop_X = nearest_rotation(
+    const Eigen::MatrixXd loop_X = SG::nearest_orthogonal_map(
                               functional_map(m_X, m_X, chained(m_maps.X_to_Y, m_maps.Y_to_X))),
-                          loop_Y = nearest_rotation(
+                          loop_Y = SG::nearest_orthogonal_map(
                               functional_map(m_Y, m_Y, chained(m_maps.Y_to_X, m_maps.X_to_Y)));
     find(m_X.modes, at(m_Y.modes, m_maps.X_to_Y) * loop_Y.transpose(),
          at(m_X.modes, m_maps.Y_to_X) * loop_X.transpose(), m_Y.modes);

@@ -105,7 +105,8 @@ inline nlohmann::json to_json(const Matching_comparison& c)
                                {"error_mean", number_json(r.mean_error())},
                                {"error_median", number_json(r.quantile(0.5))},
                                {"error_90_percent", number_json(r.quantile(0.9))},
-                               {"error_max", number_json(r.quantile(1))}});
+                               {"error_max", number_json(r.quantile(1))},
+                               {"part_below_0.05", number_json(r.part_below(0.05))}});
   }
   return json;
 }

@@ -83,6 +83,14 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
                               const Functional_map_weights& weights = {});
 
 /*!
+returns the orthogonal matrix nearest to a functional map in the Frobenius norm, \f$ U V^\top \f$ of \f$ C = U S V^\top \f$
+(orthogonal Procrustes): a map between surfaces that keeps areas has an orthogonal one (Ovsjanikov et al. 2012).
+
+@param C square
+*/
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C);
+
+/*!
 refines a functional map by spectral up-sampling: ZoomOut (Melzi, Ren, Rodola, Sharma, Wonka and Ovsjanikov 2019). The map of k
 modes gives a map of points, that one a functional map of k + `step` modes, until `last` modes are reached.
 

@@ -64,8 +64,10 @@ public:
     const Eigen::Map<const Eigen::MatrixXd> rhs(x, rows(), 1);
     Eigen::Map<Eigen::MatrixXd> result(y, rows(), 1);
     m_cholesky.solve(rhs, result);
-    if(m_known != nullptr)
-      result -= *m_known * (m_known->transpose() * (m_problem.B() * result));
+    if(m_known != nullptr) {
+      const Eigen::VectorXd overlap = m_known->transpose() * (m_problem.B() * result);
+      result.noalias() -= *m_known * overlap;
+    }
     m_problem.report(0.9 * (std::min)(1., double(++m_solves) / double(m_expected_solves)));
   }
 

@@ -11,6 +11,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/SVD>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -143,6 +144,13 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
     throw std::runtime_error("functional map: the descriptors do not determine it, pass more of them.");
   const Eigen::VectorXd c = solver.solve(Eigen::Map<const Eigen::VectorXd>(ba.data(), ba.size()));
   return Eigen::Map<const Eigen::MatrixXd>(c.data(), k, k);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C)
+{
+  internal::check_dimension("the number of columns of a map that is to be orthogonal", C.cols(), C.rows());
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return svd.matrixU() * svd.matrixV().transpose();
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X,
