@@ -88,7 +88,7 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
   const bool given = options.signals.size() != 0;
   Basis basis =
       given ? signal_basis(fine, local, options.signals) : basis_of_pairs(op, *outcome.pairs, local);
-  if(!given && SMS::internal::pairs_are_rough(SMS::internal::spectral_residuals(op, *outcome.pairs)))
+  if(!given && SMS::internal::pairs_are_rough(outcome.pairs->residuals))
     basis.Z = signal_basis(fine, local, basis.F).Z; // as the policies do where needles have left them rough
   const SG::Laplace_operator now =
       SG::laplace_operator(coarse.V, coarse.T, {options.mass, outcome.coefficients, options.boundary});

@@ -55,10 +55,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_op
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op,
                                                          const Eigen::MatrixXd& F);
 
-/// || L phi_k - lambda_k B phi_k ||_{M^-1}, relative to lambda_k + 4 pi / area in the unit of L, for each pair.
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd
-spectral_residuals(const Spectral_geometry::Laplace_operator& op, const Spectral_geometry::Eigenpairs& pairs);
-
 /// Z = F Lambda needs converged pairs: E of the fine mesh must be 0 beside what collapses add. Here it is at most 1e-10 of
 /// sum lambda_k^2, a millionth of what a thousand collapses cost. Rougher pairs get a Z = B^-1 L F of its own.
 inline bool pairs_are_rough(const Eigen::VectorXd& residuals)

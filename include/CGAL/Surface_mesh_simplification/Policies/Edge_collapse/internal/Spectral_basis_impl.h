@@ -147,18 +147,6 @@ inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& 
   return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd
-spectral_residuals(const Spectral_geometry::Laplace_operator& op, const Spectral_geometry::Eigenpairs& pairs)
-{
-  Eigen::VectorXd result(pairs.size());
-  const double shift = Spectral_geometry::internal::pencil_shift(op.L, op.mass);
-  for(Eigen::Index k = 0; k < pairs.size(); ++k) {
-    const Eigen::VectorXd r = op.L * pairs.vectors.col(k) - pairs.values[k] * (op.B * pairs.vectors.col(k));
-    result[k] = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values[k] + shift);
-  }
-  return result;
-}
-
 /// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K = 1 on a mesh with
 /// needles, where the solver may leave a lambda of 1e-5 for 0.
 inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
@@ -172,25 +160,26 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
   return true;
 }
 
-/// Refuses ready pairs that are not those of this mesh: their residuals must be small, or the very ones that they came
-/// with, as those of rough pairs are.
-inline void check_eigenpairs(const Spectral_geometry::Eigenpairs& pairs, const Eigen::VectorXd& residuals,
-                             const Spectral_geometry::Laplace_operator& op,
-                             const Spectral_geometry::Mass mass)
+/// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals must be small, or the very ones that
+/// they came with, as those of rough pairs are.
+inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
+                                         const Spectral_geometry::Laplace_operator& op,
+                                         const Spectral_geometry::Mass mass)
 {
-  const bool recorded = pairs.residuals.size() == residuals.size();
   const std::function<bool(double)> nobody;
-  const Eigen::VectorXd now = Spectral_geometry::internal::Eigen_problem(op.L, op.B, op.mass, nobody)
-                                  .residuals({pairs.values, pairs.vectors}); // as the solver measures them
+  const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op.L, op.B, op.mass, nobody)
+                                        .residuals({pairs.values, pairs.vectors});
+  const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
-    if(!(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - now[k]) < 1e-3 * now[k])))
+    if(!(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - r) < 1e-3 * r)))
       throw std::invalid_argument("Spectral_options: eigenpair " + std::to_string(k) +
                                   " is not one of this mesh and operator in the " +
                                   Spectral_geometry::mass_name(mass) + " mass (relative residual " +
                                   std::to_string(r) +
                                   "); compute it with eigenpairs(), or pass the vectors as signals.");
   }
+  return residuals;
 }
 
 inline void check_signals_on_border(const Spectral_options& options, const Eigen::MatrixXi& T)
@@ -238,9 +227,8 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
 {
   Spectral_basis basis;
   const Eigen::VectorXd weights = spectral_weights(options, pairs->size());
-  const Eigen::VectorXd residuals = spectral_residuals(op, *pairs);
-  if(options.eigenpairs)
-    check_eigenpairs(*pairs, residuals, op, options.mass);
+  const Eigen::VectorXd residuals =
+      options.eigenpairs ? checked_residuals(*pairs, op, options.mass) : pairs->residuals;
   const Eigen::Index seen = number_in_metric(options, op, *pairs);
   basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
   basis.lambda = area * pairs->values.head(seen);
@@ -282,7 +270,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
     basis = basis_of_eigenpairs(op, options, pairs, area);
   }
   // L f of a constant f is a rounding of 0 beside its diagonal times f, and Z is that over a mass of about 1 / n.
-  const double norm_of_F = basis.F.cwiseProduct(op.B * basis.F).sum() / area;
+  const double norm_of_F = (op.mass.asDiagonal() * basis.F.cwiseAbs2()).sum() / area;
   const double rounding = 1e-14 * double(V.rows());
   if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
     basis.sum_of_squares = 0;
