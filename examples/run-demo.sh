@@ -24,7 +24,7 @@ if [ ! -f "$build/CMakeCache.txt" ]; then
 else
   set --
 fi
-echo "Building (two to three minutes with two cores) ..."
+echo "Building (about two minutes with two cores) ..."
 cmake -S "$root" -B "$build" "$@" ${CMAKE_ARGS:-} >"$output/build.log" 2>&1 &&
   cmake --build "$build" -j "${JOBS:-2}" --target make_demo_shape spectral_simplify >>"$output/build.log" 2>&1 || {
   tail -n 20 "$output/build.log" >&2

@@ -14,6 +14,9 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -348,6 +351,16 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
   const Eigen::MatrixXd fast = SG::product_manifold_scores(wanted, x, y, t);
   CHECK((slow - fast).norm() < 1e-6 * slow.norm());
   CHECK_THROWS_AS(SG::product_manifold_scores(wanted, x, y, -1.), std::invalid_argument);
+}
+
+TEST_CASE("The orthogonal map nearest to another is the one of its polar decomposition")
+{
+  const Eigen::MatrixXd C = (Eigen::MatrixXd(3, 3) << 1, 2, 0, -1, 3, 0.5, 0, 1, -2).finished();
+  const Eigen::MatrixXd R = SG::nearest_orthogonal_map(C), S = R.transpose() * C;
+  CHECK((R.transpose() * R - Eigen::MatrixXd::Identity(3, 3)).norm() < 1e-14);
+  CHECK((S - S.transpose()).norm() < 1e-14);
+  CHECK(Eigen::LLT<Eigen::MatrixXd>(S).info() == Eigen::Success); // positive definite
+  CHECK_THROWS_AS(SG::nearest_orthogonal_map(Eigen::MatrixXd::Ones(2, 3)), std::invalid_argument);
 }
 
 } // namespace test_shape_matching

@@ -87,6 +87,8 @@ returns the orthogonal matrix nearest to a functional map in the Frobenius norm,
 (orthogonal Procrustes): a map between surfaces that keeps areas has an orthogonal one (Ovsjanikov et al. 2012).
 
 @param C square
+
+Throws `std::invalid_argument` if it is not.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C);
 

@@ -102,22 +102,22 @@ public:
       throw Cancelled();
   }
 
-  Eigen::VectorXd residuals(const Ritz_pairs& pairs) const
+  Eigen::VectorXd residuals(const Eigen::VectorXd& values, const Eigen::MatrixXd& vectors) const
   {
     // Eight columns by rows: faster than one by one, and no second n x K matrix.
     using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
-    const Eigen::Index K = pairs.values.size();
+    const Eigen::Index K = values.size();
     Eigen::VectorXd result(K);
     for(Eigen::Index k = 0; k < K; k += 8) {
       const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
-      const Block phi = pairs.vectors.middleCols(k, columns);
+      const Block phi = vectors.middleCols(k, columns);
       Block r = m_L * phi;
       const Block b = m_B * phi;
-      r -= b * pairs.values.segment(k, columns).asDiagonal();
+      r -= b * values.segment(k, columns).asDiagonal();
       const Eigen::RowVectorXd squares = m_mass.cwiseInverse().transpose() * r.cwiseAbs2();
       result.segment(k, columns) = squares.transpose().cwiseSqrt();
     }
-    return result.cwiseQuotient((pairs.values.array() + m_shift).matrix());
+    return result.cwiseQuotient((values.array() + m_shift).matrix());
   }
 
 private:

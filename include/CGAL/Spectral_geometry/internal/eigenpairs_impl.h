@@ -53,7 +53,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   internal::clear_uncoupled_rows(problem, pairs);
   internal::fix_signs(pairs.vectors);
   result.zeros = number_of_zero_eigenvalues(op);
-  result.residuals = problem.residuals(pairs);
+  result.residuals = problem.residuals(pairs.values, pairs.vectors);
   result.values = std::move(pairs.values);
   result.vectors = std::move(pairs.vectors);
   problem.report(1.);

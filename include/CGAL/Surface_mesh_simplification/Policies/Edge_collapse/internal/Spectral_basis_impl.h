@@ -168,7 +168,7 @@ inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pa
 {
   const std::function<bool(double)> nobody;
   const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op.L, op.B, op.mass, nobody)
-                                        .residuals({pairs.values, pairs.vectors});
+                                        .residuals(pairs.values, pairs.vectors);
   const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
