@@ -44,7 +44,7 @@ other's values.
 Throws `std::invalid_argument` for a coordinate that is not finite, an index out of range, a surface without a
 face, or matrices that do not have three columns.
 
-Complexity: one AABB tree of the faces, then O(log m) per point for points close to the surface.
+Complexity: one tree of the faces' boxes, then O(log m) per point for points close to the surface.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface);

@@ -19,7 +19,7 @@ namespace Spectral_geometry {
 namespace internal {
 
 /*!
- * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each. CGAL's AABB tree and Boost's
+ * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and which is asked for what is near. CGAL's AABB tree and Boost's
  * R-tree would be built anew or restructured at every collapse; here leaves stay where they are, along a Morton curve through
  * the first boxes, as what is merged lies side by side.
  */
@@ -70,7 +70,30 @@ public:
     return !is_empty() && any_below(1, box, found);
   }
 
+  /// Calls `visit(item)` for items whose boxes are nearer to `p` than the root of `bound`, which `visit` lowers; near boxes first.
+  template <class Visit>
+  void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit) const
+  {
+    if(!is_empty() && m_nodes[1].squaredExteriorDistance(p) < bound)
+      visit_near_below(1, p, bound, visit);
+  }
+
 private:
+  template <class Visit>
+  void visit_near_below(const std::size_t node, const Eigen::Vector3d& p, const double& bound,
+                        const Visit& visit) const
+  {
+    if(node >= m_first_leaf)
+      return visit(std::size_t(m_item[node - m_first_leaf]));
+    const double left = m_nodes[2 * node].squaredExteriorDistance(p),
+                 right = m_nodes[2 * node + 1].squaredExteriorDistance(p);
+    const std::size_t nearer = 2 * node + (right < left);
+    if((std::min)(left, right) < bound)
+      visit_near_below(nearer, p, bound, visit);
+    if((std::max)(left, right) < bound)
+      visit_near_below(nearer ^ 1, p, bound, visit);
+  }
+
   template <class Found>
   bool any_below(const std::size_t node, const Box& box, const Found& found) const
   {
