@@ -244,6 +244,10 @@ class Results(Shapes):
         change = abs(kernel - kernel[3]) / (kernel + kernel[3])
         self.close(ss.distances(pairs, 3, "wave_kernel", energies=energies),
                    np.trapz(change, np.linspace(energies[0], energies[1], 30), axis=1))
+        points = scipy.sparse.csr_matrix(([1, 0.25, 0.75], ([0, 1, 1], [3, 4, 9])), (2, len(phi)))
+        at_point = ss.distances(pairs, points)
+        self.close(at_point[:, 0], ss.distances(pairs, 3))
+        self.close(at_point[:, 1], (phi - 0.25 * phi[4] - 0.75 * phi[9]) ** 2 @ values ** -2)
         self.close(ss.heat_kernel_signature(pairs, [0.1, 1]),
                    pairs.vectors ** 2 @ np.exp(-np.outer(pairs.values, [0.1, 1])))
 
@@ -651,6 +655,8 @@ class Wrong_input(Shapes):
         self.refused(ValueError, "kind is 'euclidean', it must be", ss.distances, pairs, 0, "euclidean")
         self.refused(ValueError, "sources is 2562, it must be an integer from 0 to 2561", ss.distances, pairs, 2562)
         self.refused(ValueError, r"sources\[0\] is -1, but the mesh has 2562", ss.distances, pairs, [-1])
+        self.refused(ValueError, r"sources has the shape \(1, 3\), it must be \(any, 2562\), sources x vertices", ss.distances, pairs,
+                     scipy.sparse.csr_matrix((1, 3)))
         self.refused(ValueError, "time belongs to the kind 'diffusion'", ss.distances, pairs, 0, time=1)
         self.refused(ValueError, "time is -1, it must be", ss.distances, pairs, 0, "diffusion", time=-1)
         self.refused(TypeError, r"energies is \(1, 2\), it must be a tuple \(t_min, t_max, sigma, steps\)", ss.distances, pairs,

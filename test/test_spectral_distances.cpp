@@ -492,6 +492,38 @@ TEST_CASE("results follow the unit of length as documented")
                  SG::wave_kernel_distance(pairs, 9, SG::wave_kernel_energies(pairs)), 1.));
 }
 
+TEST_CASE("distances from points are those of interpolated eigenfunctions")
+{
+  const Eigenpairs& pairs = bumpy();
+  const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(pairs, 20);
+  const double t = SG::default_diffusion_time(pairs);
+  Eigen::SparseMatrix<double> W(2, 642);
+  W.insert(0, 17) = 1.;
+  W.insert(1, 4) = 0.25;
+  W.insert(1, 9) = 0.75;
+  Eigenpairs with_point = pairs; // vertex 642 is the point
+  with_point.vectors.conservativeResize(643, Eigen::NoChange);
+  with_point.vectors.row(642) = 0.25 * pairs.vectors.row(4) + 0.75 * pairs.vectors.row(9);
+  const auto check = [&](const MatrixXd& of_points, const MatrixXd& of_vertices) {
+    REQUIRE(of_points.rows() == 642);
+    REQUIRE(of_points.cols() == 2);
+    CHECK(of_points.isApprox(of_vertices.topRows(642), 1e-12));
+    CHECK(of_points.col(1).minCoeff() > 0.); // no vertex is there
+  };
+  check(SG::squared_diffusion_distance(pairs, W, t),
+        SG::squared_diffusion_distance(with_point, {17, 642}, t));
+  check(SG::squared_biharmonic_distance(pairs, W), SG::squared_biharmonic_distance(with_point, {17, 642}));
+  check(SG::squared_commute_time_distance(pairs, W),
+        SG::squared_commute_time_distance(with_point, {17, 642}));
+  check(SG::wave_kernel_distance(pairs, W, energies),
+        SG::wave_kernel_distance(with_point, {17, 642}, energies));
+  CHECK(SG::heat_kernel(pairs, W, t).isApprox(SG::heat_kernel(with_point, {17, 642}, t).topRows(642), 1e-12));
+  CHECK_THROWS_WITH(SG::squared_biharmonic_distance(with_point, W),
+                    ContainsSubstring("of a mesh of 642 vertices, but there are 643"));
+  W.coeffRef(1, 9) = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(SG::heat_kernel(pairs, W, t), ContainsSubstring("source 1 has a weight"));
+}
+
 TEST_CASE("distances and signatures reject bad input")
 {
   const Eigenpairs& pairs = bumpy();

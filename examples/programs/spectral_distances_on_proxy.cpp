@@ -52,8 +52,6 @@ struct Distance_arguments
   bool repair = false, strict = false, quiet = false;
 };
 
-using Sources = std::vector<Eigen::Index>;
-
 double seconds_of(const std::function<void()>& work)
 {
   CGAL::Real_timer timer;
@@ -88,7 +86,7 @@ struct Unit_shape
 struct Distance
 {
   std::string name;
-  std::function<Eigen::MatrixXd(const SG::Eigenpairs&, const Sources&)> compute;
+  std::function<Eigen::MatrixXd(const SG::Eigenpairs&, const SG::Distance_sources&)> compute;
 };
 
 // Times and energies are those of the fine mesh, for both.
@@ -97,12 +95,14 @@ std::vector<Distance> distances(const SG::Eigenpairs& fine)
   const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(fine);
   return {
       {"diffusion, t = 0.01",
-       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_diffusion_distance(p, s, 0.01); }},
-      {"biharmonic",
-       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_biharmonic_distance(p, s); }},
-      {"commute time",
-       [](const SG::Eigenpairs& p, const Sources& s) { return SG::squared_commute_time_distance(p, s); }},
-      {"wave kernel", [energies](const SG::Eigenpairs& p, const Sources& s) {
+       [](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
+         return SG::squared_diffusion_distance(p, s, 0.01);
+       }},
+      {"biharmonic", [](const SG::Eigenpairs& p,
+                        const SG::Distance_sources& s) { return SG::squared_biharmonic_distance(p, s); }},
+      {"commute time", [](const SG::Eigenpairs& p,
+                          const SG::Distance_sources& s) { return SG::squared_commute_time_distance(p, s); }},
+      {"wave kernel", [energies](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
          return SG::wave_kernel_distance(p, s, energies);
        }}};
 }
@@ -198,11 +198,13 @@ struct Distance_row
   Eigen::VectorXd fine, coarse; // of the first source
 };
 
-Distance_row compare(const Distance& distance, const Pair& pair, const Sources& sources)
+// The sources on the coarse mesh are their closest points: the coarse vertices nearest to them are up to half an edge away.
+Distance_row compare(const Distance& distance, const Pair& pair, const std::vector<Eigen::Index>& sources)
 {
-  Sources coarse_sources;
-  for(const Eigen::Index s : sources)
-    coarse_sources.push_back(static_cast<Eigen::Index>(pair.vertex_map[static_cast<std::size_t>(s)]));
+  Eigen::SparseMatrix<double> chosen(static_cast<Eigen::Index>(sources.size()), pair.Q.rows());
+  for(std::size_t s = 0; s < sources.size(); ++s)
+    chosen.insert(static_cast<Eigen::Index>(s), sources[s]) = 1;
+  const Eigen::SparseMatrix<double> coarse_sources = chosen * pair.Q;
   Distance_row row;
   row.name = distance.name;
   Eigen::MatrixXd fine, coarse;
@@ -388,7 +390,7 @@ void run(const Distance_arguments& a)
     files.add(a.report);
   const Pair pair = simplify(a);
   std::mt19937 random(1);
-  Sources sources;
+  std::vector<Eigen::Index> sources;
   for(long s = 0; s < a.sources; ++s)
     sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(pair.fine.op.mass.size())));
   Summary summary;

@@ -255,18 +255,19 @@ public:
     return result;
   }
 
-  // P, of any format of SciPy's.
-  Eigen::SparseMatrix<double> sparse(const char* name, const Index rows, const Index columns) const
+  // Of any format of SciPy's; rows < 0: any number of them.
+  Eigen::SparseMatrix<double> sparse(const char* name, const Index rows, const Index columns,
+                                     const char* what = "coarse x fine vertices") const
   {
     const py::module_ scipy = py::module_::import("scipy.sparse");
     const py::object value = (*this)[name];
     if(!scipy.attr("issparse")(value).cast<bool>())
       throw py::type_error(std::string(name) + " is " + type_name(value) +
                            ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
-    if(value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows ||
+    if((rows >= 0 && value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows) ||
        value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
       refuse(std::string(name) + " has the shape " + shown(value.attr("shape")) + ", it must be (" +
-             to_string(rows) + ", " + to_string(columns) + "), coarse x fine vertices.");
+             (rows < 0 ? "any" : to_string(rows)) + ", " + to_string(columns) + "), " + what + ".");
     const std::string kind = py::str(value.attr("dtype").attr("kind"));
     if(kind != "f" && kind != "i" && kind != "u")
       throw py::type_error(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +

@@ -20,15 +20,17 @@
 
 // Distances and signatures from eigenpairs.
 
-// One source, and true, or a sequence of them.
-inline std::pair<std::vector<Index>, bool> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
+// One source, and true, or a sequence of them, or a matrix that interpolates at points.
+inline std::pair<SG::Distance_sources, bool> sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
 {
   const auto n = std::size_t(pairs.vectors.rows());
   if(PyIndex_Check(a["sources"].ptr()) &&
      py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0)
-    return {{a.integer("sources", 0, Index(n) - 1, ", a vertex")}, true};
+    return {a.integer("sources", 0, Index(n) - 1, ", a vertex"), true};
+  if(py::module_::import("scipy.sparse").attr("issparse")(a["sources"]).cast<bool>())
+    return {a.sparse("sources", -1, Index(n), "sources x vertices"), false};
   const std::vector<std::size_t> sources = a.indices("sources", n, "the mesh");
-  return {{sources.begin(), sources.end()}, false};
+  return {std::vector<Index>(sources.begin(), sources.end()), false};
 }
 
 inline SG::Wave_kernel_energies energies_of(const Arguments& a, const SG::Eigenpairs& pairs)

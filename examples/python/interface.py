@@ -208,10 +208,11 @@ def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
     return _functional_map(locals())
 
 
-def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int], kind: str = 'biharmonic', *,
+def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int] | scipy.sparse.spmatrix, kind: str = 'biharmonic', *,
               time: float | None = None, energies: tuple | None = None) -> numpy.ndarray:
-    """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for a sequence of them.
+    """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for s of them.
 
+    sources    a vertex, a sequence of vertices, or points: a sparse interpolation (s, v), such as run.Q[fine vertices]
     kind       'diffusion', 'biharmonic' or 'commute_time', which are squared, or 'wave_kernel', which is not
     time       of 'diffusion', in the unit of area; 1 / (4 lambda_1)
     energies   of 'wave_kernel', (t_min, t_max, sigma, steps); wave_kernel_energies(eigenpairs)

@@ -8,12 +8,14 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 /*!
@@ -26,8 +28,7 @@ Common to all functions:
 - Sums with \f$ 1/\lambda \f$ or \f$ \log\lambda \f$ skip the zero eigenvalues, one per connected component
   (`Eigenpairs::zeros`); the others run over all pairs. Distances between different components by such sums
   are finite numbers without a meaning.
-- One source gives a vector of `n` values, several sources give an `n` x (number of sources) matrix, one
-  column each.
+- The result has a column of `n` values for each source, see `Distance_sources`.
 - Units are given for a mesh measured in a unit of length `u`, time `t` of heat in `u^2`. Defaults of times
   and energies are multiples of the spectrum's own, so that results do not depend on the unit. To compare two
   meshes use *one* set of times or energies for both: take them from one and pass them to both.
@@ -42,16 +43,77 @@ namespace Spectral_geometry {
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
 /// @{
 
-namespace internal {
+/*!
+is where distances are measured from: a vertex, several of them, or points anywhere on the surface.
 
-inline void check_sources(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources)
+A point is a row of an interpolation, of which `closest_point_interpolation()` makes one for each point: its eigenfunctions are
+\f$ W \phi_i \f$. On a simplified mesh take the closest points of the input's vertices, not the coarse vertices nearest to them:
+half an edge of difference is most of the error.
+*/
+class Distance_sources
 {
-  for(const Eigen::Index s : sources)
-    if(s < 0 || s >= pairs.vectors.rows())
-      throw std::invalid_argument("spectral distances: source " + std::to_string(s) + " is not one of the " +
-                                  std::to_string(pairs.vectors.rows()) +
-                                  " vertices, pass an index in [0, n).");
-}
+public:
+  /// the vertex `source`.
+  Distance_sources(Eigen::Index source)
+    : m_vertices{source}
+  {}
+  /// the given vertices.
+  Distance_sources(std::vector<Eigen::Index> sources)
+    : m_vertices(std::move(sources))
+  {}
+  /// the given vertices.
+  Distance_sources(std::initializer_list<Eigen::Index> sources)
+    : m_vertices(sources)
+  {}
+  /// a point for each row of `W`, (number of sources) x n.
+  Distance_sources(Eigen::SparseMatrix<double> W)
+    : m_points(std::move(W))
+    , m_are_points(true)
+  {}
+
+  bool are_vertices() const { return !m_are_points; }
+
+  Eigen::Index size() const
+  {
+    return m_are_points ? m_points.rows() : static_cast<Eigen::Index>(m_vertices.size());
+  }
+
+  /// returns the rows of `functions`, one per vertex, at the sources. Throws `std::invalid_argument` for a vertex out of range and a
+  /// matrix of another size or with an entry that is not finite.
+  Eigen::MatrixXd values(const Eigen::MatrixXd& functions) const
+  {
+    const Eigen::Index n = functions.rows();
+    if(m_are_points) {
+      if(m_points.cols() != n)
+        throw std::invalid_argument("spectral distances: the sources are points of a mesh of " +
+                                    std::to_string(m_points.cols()) + " vertices, but there are " +
+                                    std::to_string(n) + ", pass an interpolation on this mesh.");
+      for(Eigen::Index v = 0; v < n; ++v)
+        for(Eigen::SparseMatrix<double>::InnerIterator w(m_points, v); w; ++w)
+          if(!std::isfinite(w.value()))
+            throw std::invalid_argument("spectral distances: source " + std::to_string(w.row()) +
+                                        " has a weight that is not finite, pass an interpolation.");
+      return m_points * functions;
+    }
+    Eigen::MatrixXd result(size(), functions.cols());
+    for(Eigen::Index s = 0; s < size(); ++s) {
+      const Eigen::Index v = m_vertices[s];
+      if(v < 0 || v >= n)
+        throw std::invalid_argument("spectral distances: source " + std::to_string(v) +
+                                    " is not one of the " + std::to_string(n) +
+                                    " vertices, pass an index in [0, n).");
+      result.row(s) = functions.row(v);
+    }
+    return result;
+  }
+
+private:
+  std::vector<Eigen::Index> m_vertices;
+  Eigen::SparseMatrix<double> m_points;
+  bool m_are_points = false;
+};
+
+namespace internal {
 
 inline void check_time(double t)
 {
@@ -87,16 +149,15 @@ inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
 
 // Squared distances in the embedding v -> (sqrt(w_i) phi_i(v)), i >= first. Differences first: the expansion
 // of the square would lose the distances of close vertices.
-inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
+inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const Distance_sources& sources,
                                          const Eigen::ArrayXd& weights, Eigen::Index first)
 {
-  check_sources(pairs, sources);
-  const Eigen::MatrixXd embedding =
-      (pairs.vectors.rightCols(pairs.size() - first) * weights.sqrt().matrix().asDiagonal()).transpose();
-  Eigen::MatrixXd distances(pairs.vectors.rows(), static_cast<Eigen::Index>(sources.size()));
-  for(std::size_t s = 0; s < sources.size(); ++s)
-    distances.col(static_cast<Eigen::Index>(s)) =
-        (embedding.colwise() - embedding.col(sources[s])).colwise().squaredNorm().transpose();
+  const Eigen::MatrixXd functions =
+      pairs.vectors.rightCols(pairs.size() - first) * weights.sqrt().matrix().asDiagonal();
+  const Eigen::MatrixXd embedding = functions.transpose(), at_sources = sources.values(functions).transpose();
+  Eigen::MatrixXd distances(embedding.cols(), sources.size());
+  for(Eigen::Index s = 0; s < sources.size(); ++s)
+    distances.col(s) = (embedding.colwise() - at_sources.col(s)).colwise().squaredNorm().transpose();
   return distances;
 }
 
@@ -114,21 +175,15 @@ returns the **squared** diffusion distances \f$ \sum_i (\phi_i(u) - \phi_i(v))^2
 u^-2 (Coifman and Lafon 2006). Lescoat et al. 2020 write this sum without a root.
 
 @param pairs all of them are used, the zeros included
-@param sources the vertices `u`, one column of the result each
+@param sources `u`, one column of the result each
 @param t time of heat in u^2, at least 0, see `default_diffusion_time()`
 @return n x (number of sources)
 */
-inline Eigen::MatrixXd squared_diffusion_distance(const Eigenpairs& pairs,
-                                                  const std::vector<Eigen::Index>& sources, double t)
+inline Eigen::MatrixXd squared_diffusion_distance(const Eigenpairs& pairs, const Distance_sources& sources,
+                                                  double t)
 {
   internal::check_time(t);
   return internal::squared_distances(pairs, sources, (-2 * t * pairs.values.array()).exp(), 0);
-}
-
-/// the squared diffusion distances of one source, `n` values.
-inline Eigen::VectorXd squared_diffusion_distance(const Eigenpairs& pairs, Eigen::Index source, double t)
-{
-  return squared_diffusion_distance(pairs, std::vector<Eigen::Index>{source}, t);
 }
 
 /*!
@@ -137,21 +192,14 @@ returns the **squared** biharmonic distances \f$ \sum_i (\phi_i(u) - \phi_i(v))^
 between antipodes of the unit sphere the sum is pi/12, of which 100 pairs give 99.4 %.
 
 @param pairs at least one with a nonzero eigenvalue
-@param sources the vertices `u`, one column of the result each
+@param sources `u`, one column of the result each
 @return n x (number of sources)
 */
-inline Eigen::MatrixXd squared_biharmonic_distance(const Eigenpairs& pairs,
-                                                   const std::vector<Eigen::Index>& sources)
+inline Eigen::MatrixXd squared_biharmonic_distance(const Eigenpairs& pairs, const Distance_sources& sources)
 {
   const Eigen::Index first = internal::first_nonzero(pairs);
   const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
   return internal::squared_distances(pairs, sources, values.square().inverse(), first);
-}
-
-/// the squared biharmonic distances of one source, `n` values.
-inline Eigen::VectorXd squared_biharmonic_distance(const Eigenpairs& pairs, Eigen::Index source)
-{
-  return squared_biharmonic_distance(pairs, std::vector<Eigen::Index>{source});
 }
 
 /*!
@@ -161,48 +209,29 @@ network of cotangent weights, whatever the mass; the commute time of a random wa
 the network. On surfaces the sum grows with the logarithm of `K`: compare at one `K`.
 
 @param pairs at least one with a nonzero eigenvalue
-@param sources the vertices `u`, one column of the result each
+@param sources `u`, one column of the result each
 @return n x (number of sources)
 */
-inline Eigen::MatrixXd squared_commute_time_distance(const Eigenpairs& pairs,
-                                                     const std::vector<Eigen::Index>& sources)
+inline Eigen::MatrixXd squared_commute_time_distance(const Eigenpairs& pairs, const Distance_sources& sources)
 {
   const Eigen::Index first = internal::first_nonzero(pairs);
   const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
   return internal::squared_distances(pairs, sources, values.inverse(), first);
 }
 
-/// the squared commute-time distances of one source, `n` values.
-inline Eigen::VectorXd squared_commute_time_distance(const Eigenpairs& pairs, Eigen::Index source)
-{
-  return squared_commute_time_distance(pairs, std::vector<Eigen::Index>{source});
-}
-
 /*!
 returns the heat kernel \f$ \sum_i \phi_i(u) \phi_i(v) e^{-\lambda_i t} \f$, in u^-2.
 
 @param pairs all of them are used, the zeros included
-@param sources the vertices `u`, one column of the result each
+@param sources `u`, one column of the result each
 @param t time of heat in u^2, at least 0
 @return n x (number of sources)
 */
-inline Eigen::MatrixXd heat_kernel(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
-                                   double t)
+inline Eigen::MatrixXd heat_kernel(const Eigenpairs& pairs, const Distance_sources& sources, double t)
 {
   internal::check_time(t);
-  internal::check_sources(pairs, sources);
-  const Eigen::ArrayXd decay = (-t * pairs.values.array()).exp();
-  Eigen::MatrixXd at_sources(pairs.size(), static_cast<Eigen::Index>(sources.size()));
-  for(std::size_t s = 0; s < sources.size(); ++s)
-    at_sources.col(static_cast<Eigen::Index>(s)) =
-        (pairs.vectors.row(sources[s]).transpose().array() * decay).matrix();
-  return pairs.vectors * at_sources;
-}
-
-/// the heat kernel of one source, `n` values.
-inline Eigen::VectorXd heat_kernel(const Eigenpairs& pairs, Eigen::Index source, double t)
-{
-  return heat_kernel(pairs, std::vector<Eigen::Index>{source}, t);
+  const Eigen::VectorXd decay = (-t * pairs.values.array()).exp();
+  return pairs.vectors * (sources.values(pairs.vectors) * decay.asDiagonal()).transpose();
 }
 
 /*!
@@ -337,34 +366,35 @@ without unit, not squared, by the trapezoidal rule on the steps of the energies.
 distance 0. Energies at which both signatures vanish count as equal.
 
 @param pairs, energies as for `wave_kernel_signature()`, with at least 2 steps
-@param sources the vertices `u`, one column of the result each
+@param sources `u`, one column of the result each
 @return n x (number of sources)
 */
-inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs, const std::vector<Eigen::Index>& sources,
+inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs, const Distance_sources& sources,
                                             const Wave_kernel_energies& energies)
 {
   internal::check_steps(energies.steps, 2);
-  internal::check_sources(pairs, sources);
-  const Eigen::ArrayXXd signature = wave_kernel_signature(pairs, energies).array();
+  const Eigen::MatrixXd signature = wave_kernel_signature(pairs, energies);
+  Eigen::MatrixXd of_sources;
+  if(sources.are_vertices())
+    of_sources = sources.values(signature);
+  else { // a sum of squares of what is interpolated
+    Eigenpairs at_points;
+    at_points.values = pairs.values;
+    at_points.vectors = sources.values(pairs.vectors);
+    at_points.zeros = pairs.zeros;
+    of_sources = wave_kernel_signature(at_points, energies);
+  }
   const double step = (energies.t_max - energies.t_min) / static_cast<double>(energies.steps - 1);
-  Eigen::MatrixXd distances =
-      Eigen::MatrixXd::Zero(signature.rows(), static_cast<Eigen::Index>(sources.size()));
-  for(std::size_t s = 0; s < sources.size(); ++s)
+  Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(signature.rows(), sources.size());
+  for(Eigen::Index s = 0; s < sources.size(); ++s)
     for(Eigen::Index i = 0; i < energies.steps; ++i) {
-      const double source = signature(sources[s], i);
-      const Eigen::ArrayXd sum = signature.col(i) + source;
-      const Eigen::ArrayXd ratio = (sum > 0).select((signature.col(i) - source).abs() / sum, 0.);
+      const Eigen::ArrayXd sum = signature.col(i).array() + of_sources(s, i);
+      const Eigen::ArrayXd ratio =
+          (sum > 0).select((signature.col(i).array() - of_sources(s, i)).abs() / sum, 0.);
       const double weight = (i == 0 || i == energies.steps - 1) ? step / 2 : step;
-      distances.col(static_cast<Eigen::Index>(s)) += weight * ratio.matrix();
+      distances.col(s) += weight * ratio.matrix();
     }
   return distances;
-}
-
-/// the wave kernel distances of one source, `n` values.
-inline Eigen::VectorXd wave_kernel_distance(const Eigenpairs& pairs, Eigen::Index source,
-                                            const Wave_kernel_energies& energies)
-{
-  return wave_kernel_distance(pairs, std::vector<Eigen::Index>{source}, energies);
 }
 
 /// @}
