@@ -26,6 +26,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 #include <random>
 #include <set>
 #include <utility>
@@ -544,6 +545,41 @@ TEST_CASE("A tree of boxes finds what looking at all of them finds, while they c
         tree.update(i, boxes[i]);
       }
     }
+  }
+}
+
+TEST_CASE("A tree of boxes looks at few of them, however unevenly they lie")
+{
+  using Box = SG::internal::Box_tree::Box;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for(const double far : {1., 1e9, 1e300}) { // of the last one
+    std::vector<Box> boxes;
+    for(int i = 0; i < 4097; ++i) {
+      const Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
+      boxes.push_back(Box(p, p + Eigen::Vector3d::Constant(0.01)));
+    }
+    boxes.back() = Box(Eigen::Vector3d::Constant(far));
+    SG::internal::Box_tree tree;
+    tree.build(boxes);
+    int looked_at = 0;
+    for(int round = 0; round < 100; ++round) {
+      const Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
+      double bound = std::numeric_limits<double>::max();
+      std::size_t nearest = boxes.size();
+      tree.visit_near(p, bound, [&](const std::size_t i) {
+        ++looked_at;
+        const double distance = boxes[i].squaredExteriorDistance(p);
+        if(distance < bound) {
+          bound = distance;
+          nearest = i;
+        }
+      });
+      REQUIRE(nearest < boxes.size());
+      for(const Box& box : boxes)
+        REQUIRE(box.squaredExteriorDistance(p) >= bound);
+    }
+    CHECK(looked_at < 100 * 20);
   }
 }
 

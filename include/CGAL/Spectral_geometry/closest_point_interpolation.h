@@ -36,7 +36,7 @@ Where several points of the surface are equally close one of them is taken, alwa
 input. A closest point says nothing of the orientation: sheets of a surface that nearly touch can take each
 other's values.
 
-@param points `r` x 3, coordinates in the unit of the surface.
+@param points `r` x 3, coordinates in the unit of the surface, whose squares do not overflow.
 @param surface `n` vertices and `m` triangles, `m > 0`. Faces without area count as their edges, vertices
   without a face get an empty column.
 @return `r` x `n`.

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -19,9 +20,9 @@ namespace Spectral_geometry {
 namespace internal {
 
 /*!
- * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and which is asked for what is near. CGAL's AABB tree and Boost's
- * R-tree would be built anew or restructured at every collapse; here leaves stay where they are, along a Morton curve through
- * the first boxes, as what is merged lies side by side.
+ * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and which is asked for what is
+ * near. CGAL's AABB tree and Boost's R-tree would be built anew or restructured at every collapse; here leaves stay where the
+ * first boxes put them: halves by the median of their centres along the longest side, however unevenly these lie.
  */
 class Box_tree
 {
@@ -39,9 +40,12 @@ public:
     m_nodes.assign(2 * m_first_leaf, Box());
     m_item.resize(n);
     m_leaf.resize(n);
-    const std::vector<std::pair<std::uint64_t, std::uint32_t>> order = along_curve(boxes);
+    std::iota(m_item.begin(), m_item.end(), 0u);
+    std::vector<Eigen::Vector3d> centres;
+    for(const Box& box : boxes)
+      centres.push_back(box.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : box.center());
+    halve(0, m_first_leaf, centres);
     for(std::size_t i = 0; i < n; ++i) {
-      m_item[i] = order[i].second;
       m_leaf[m_item[i]] = std::uint32_t(m_first_leaf + i);
       m_nodes[m_first_leaf + i] = boxes[m_item[i]];
     }
@@ -104,32 +108,25 @@ private:
     return any_below(2 * node, box, found) || any_below(2 * node + 1, box, found);
   }
 
-  static std::uint64_t spread(std::uint64_t x) // two zeros before each of 21 bits
+  // Orders the items of `places` leaves, a power of two, the first of which is `begin`.
+  void halve(const std::size_t begin, const std::size_t places, const std::vector<Eigen::Vector3d>& centres)
   {
-    x = (x | x << 32) & 0x001f00000000ffff;
-    x = (x | x << 16) & 0x001f0000ff0000ff;
-    x = (x | x << 8) & 0x100f00f00f00f00f;
-    x = (x | x << 4) & 0x10c30c30c30c30c3;
-    return (x | x << 2) & 0x1249249249249249;
-  }
-
-  static std::vector<std::pair<std::uint64_t, std::uint32_t>> along_curve(const std::vector<Box>& boxes)
-  {
-    Box all;
-    for(const Box& box : boxes)
-      all.extend(box);
-    const double extent = all.isEmpty() ? 0. : all.sizes().maxCoeff();
-    const double scale = extent > 0 ? double((1 << 21) - 1) / extent : 0.;
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(boxes.size());
-    for(std::size_t i = 0; i < boxes.size(); ++i) {
-      std::uint64_t code = 0;
-      if(!boxes[i].isEmpty())
-        for(int c = 0; c < 3; ++c)
-          code |= spread(std::uint64_t(scale * (boxes[i].center()[c] - all.min()[c]))) << c;
-      order[i] = {code, std::uint32_t(i)};
+    if(places < 2)
+      return;
+    const std::size_t middle = begin + places / 2, end = (std::min)(begin + places, m_item.size());
+    if(middle < end) {
+      Box all;
+      for(std::size_t i = begin; i < end; ++i)
+        all.extend(centres[m_item[i]]);
+      Eigen::Index side;
+      all.sizes().maxCoeff(&side);
+      const auto at = [this](const std::size_t i) { return m_item.begin() + std::ptrdiff_t(i); };
+      std::nth_element(at(begin), at(middle), at(end), [&](const std::uint32_t a, const std::uint32_t b) {
+        return std::make_pair(centres[a][side], a) < std::make_pair(centres[b][side], b);
+      });
+      halve(middle, places / 2, centres);
     }
-    std::sort(order.begin(), order.end());
-    return order;
+    halve(begin, places / 2, centres);
   }
 
   std::size_t m_first_leaf = 0; // node i has the children 2 i and 2 i + 1; the root is 1

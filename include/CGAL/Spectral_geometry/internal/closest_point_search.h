@@ -56,12 +56,13 @@ public:
       m_parts[part].tree.build(boxes[part]);
   }
 
+  /// In a part, which has a face.
   Answer operator()(const Eigen::Vector3d& query, const Eigen::Index part = 0) const
   {
     return closest(query, m_parts[std::size_t(part)].faces.front());
   }
 
-  /// The same from the answer to a query nearby, in its part, which saves half of the search.
+  /// The same from the answer to a query nearby, in its part, which saves most of the search.
   Answer operator()(const Eigen::Vector3d& query, const Answer& nearby) const
   {
     return closest(query, nearby.face);
