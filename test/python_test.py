@@ -655,6 +655,7 @@ class Wrong_input(Shapes):
         self.refused(ValueError, "kind is 'euclidean', it must be", ss.distances, pairs, 0, "euclidean")
         self.refused(ValueError, "sources is 2562, it must be an integer from 0 to 2561", ss.distances, pairs, 2562)
         self.refused(ValueError, r"sources\[0\] is -1, but the mesh has 2562", ss.distances, pairs, [-1])
+        self.refused(TypeError, "sources is of the type ndarray, it must be a sparse matrix", ss.distances, pairs, np.ones((1, 2562)) / 2562)
         self.refused(ValueError, r"sources has the shape \(1, 3\), it must be \(any, 2562\), sources x vertices", ss.distances, pairs,
                      scipy.sparse.csr_matrix((1, 3)))
         self.refused(ValueError, "time belongs to the kind 'diffusion'", ss.distances, pairs, 0, time=1)

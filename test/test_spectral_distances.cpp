@@ -7,6 +7,8 @@
 #include "catch.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -520,8 +522,16 @@ TEST_CASE("distances from points are those of interpolated eigenfunctions")
   CHECK(SG::heat_kernel(pairs, W, t).isApprox(SG::heat_kernel(with_point, {17, 642}, t).topRows(642), 1e-12));
   CHECK_THROWS_WITH(SG::squared_biharmonic_distance(with_point, W),
                     ContainsSubstring("of a mesh of 642 vertices, but there are 643"));
-  W.coeffRef(1, 9) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(SG::heat_kernel(pairs, W, t), ContainsSubstring("source 1 has a weight"));
+  // What converts to them: an expression, another order of storage, an index of CGAL's.
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_rows = W;
+  const MatrixXd biharmonic = SG::squared_biharmonic_distance(pairs, W);
+  CHECK(SG::squared_biharmonic_distance(pairs, by_rows).isApprox(biharmonic, 1e-14));
+  CHECK(SG::squared_biharmonic_distance(pairs, W * 1.).isApprox(biharmonic, 1e-14));
+  CHECK(SG::squared_biharmonic_distance(pairs, CGAL::SM_Vertex_index(17)).isApprox(biharmonic.col(0), 1e-12));
+  for(const double w : {std::numeric_limits<double>::quiet_NaN(), 0.5}) {
+    W.coeffRef(1, 9) = w;
+    CHECK_THROWS_WITH(SG::heat_kernel(pairs, W, t), ContainsSubstring("the weights of source 1 sum to"));
+  }
 }
 
 TEST_CASE("distances and signatures reject bad input")

@@ -198,18 +198,18 @@ struct Distance_row
   Eigen::VectorXd fine, coarse; // of the first source
 };
 
-// The sources on the coarse mesh are their closest points: the coarse vertices nearest to them are up to half an edge away.
+// The sources on the coarse mesh are their closest points.
 Distance_row compare(const Distance& distance, const Pair& pair, const std::vector<Eigen::Index>& sources)
 {
   Eigen::SparseMatrix<double> chosen(static_cast<Eigen::Index>(sources.size()), pair.Q.rows());
   for(std::size_t s = 0; s < sources.size(); ++s)
     chosen.insert(static_cast<Eigen::Index>(s), sources[s]) = 1;
-  const Eigen::SparseMatrix<double> coarse_sources = chosen * pair.Q;
+  const SG::Distance_sources at_vertices = sources, at_points = chosen * pair.Q;
   Distance_row row;
   row.name = distance.name;
   Eigen::MatrixXd fine, coarse;
-  row.seconds_fine = seconds_of([&] { fine = distance.compute(pair.fine.pairs, sources); });
-  row.seconds_coarse = seconds_of([&] { coarse = distance.compute(pair.coarse.pairs, coarse_sources); });
+  row.seconds_fine = seconds_of([&] { fine = distance.compute(pair.fine.pairs, at_vertices); });
+  row.seconds_coarse = seconds_of([&] { coarse = distance.compute(pair.coarse.pairs, at_points); });
   for(int way = 0; way < 3; ++way)
     row.errors[way] = relative_error(pair.fine.op.mass, pair.bring_back(way, coarse), fine);
   row.fine = fine.col(0);

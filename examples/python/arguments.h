@@ -264,7 +264,8 @@ public:
     if(!scipy.attr("issparse")(value).cast<bool>())
       throw py::type_error(std::string(name) + " is " + type_name(value) +
                            ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
-    if((rows >= 0 && value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows) ||
+    if(py::len(value.attr("shape")) != 2 ||
+       (rows >= 0 && value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows) ||
        value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
       refuse(std::string(name) + " has the shape " + shown(value.attr("shape")) + ", it must be (" +
              (rows < 0 ? "any" : to_string(rows)) + ", " + to_string(columns) + "), " + what + ".");

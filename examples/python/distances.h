@@ -27,7 +27,8 @@ inline std::pair<SG::Distance_sources, bool> sources_of(const Arguments& a, cons
   if(PyIndex_Check(a["sources"].ptr()) &&
      py::module_::import("numpy").attr("ndim")(a["sources"]).cast<int>() == 0)
     return {a.integer("sources", 0, Index(n) - 1, ", a vertex"), true};
-  if(py::module_::import("scipy.sparse").attr("issparse")(a["sources"]).cast<bool>())
+  if(py::module_::import("scipy.sparse").attr("issparse")(a["sources"]).cast<bool>() ||
+     (py::isinstance<py::array>(a["sources"]) && a["sources"].attr("ndim").cast<int>() == 2))
     return {a.sparse("sources", -1, Index(n), "sources x vertices"), false};
   const std::vector<std::size_t> sources = a.indices("sources", n, "the mesh");
   return {std::vector<Index>(sources.begin(), sources.end()), false};

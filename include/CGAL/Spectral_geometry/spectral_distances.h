@@ -10,11 +10,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,15 +47,16 @@ namespace Spectral_geometry {
 is where distances are measured from: a vertex, several of them, or points anywhere on the surface.
 
 A point is a row of an interpolation, of which `closest_point_interpolation()` makes one for each point: its eigenfunctions are
-\f$ W \phi_i \f$. On a simplified mesh take the closest points of the input's vertices, not the coarse vertices nearest to them:
-half an edge of difference is most of the error.
+\f$ W \phi_i \f$. On a simplified mesh take the closest points of the input's vertices, not the coarse vertices that the vertex
+map gives for them: those lie up to an edge away.
 */
 class Distance_sources
 {
 public:
-  /// the vertex `source`.
-  Distance_sources(Eigen::Index source)
-    : m_vertices{source}
+  /// the vertex `source`: an integer, or what converts to one such as `Surface_mesh::Vertex_index`.
+  template <class Vertex, class = std::enable_if_t<std::is_convertible<const Vertex&, Eigen::Index>::value>>
+  Distance_sources(const Vertex& source)
+    : m_vertices{static_cast<Eigen::Index>(source)}
   {}
   /// the given vertices.
   Distance_sources(std::vector<Eigen::Index> sources)
@@ -65,22 +66,25 @@ public:
   Distance_sources(std::initializer_list<Eigen::Index> sources)
     : m_vertices(sources)
   {}
-  /// a point for each row of `W`, (number of sources) x n.
-  Distance_sources(Eigen::SparseMatrix<double> W)
-    : m_points(std::move(W))
+  /// a point for each row of `W`, (number of sources) x n, whose entries sum to 1.
+  template <class Interpolation>
+  Distance_sources(const Eigen::SparseMatrixBase<Interpolation>& W)
+    : m_points(W)
     , m_are_points(true)
   {}
 
+  /// whether they were given as vertices.
   bool are_vertices() const { return !m_are_points; }
 
+  /// the number of sources.
   Eigen::Index size() const
   {
     return m_are_points ? m_points.rows() : static_cast<Eigen::Index>(m_vertices.size());
   }
 
-  /// returns the rows of `functions`, one per vertex, at the sources. Throws `std::invalid_argument` for a vertex out of range and a
-  /// matrix of another size or with an entry that is not finite.
-  Eigen::MatrixXd values(const Eigen::MatrixXd& functions) const
+  /// returns `functions`, which have a row for each vertex, at the sources. Throws `std::invalid_argument` for a vertex out of
+  /// range, an interpolation of another mesh, and a row of it that does not sum to 1 within 1e-6.
+  Eigen::MatrixXd values(const Eigen::Ref<const Eigen::MatrixXd>& functions) const
   {
     const Eigen::Index n = functions.rows();
     if(m_are_points) {
@@ -88,11 +92,12 @@ public:
         throw std::invalid_argument("spectral distances: the sources are points of a mesh of " +
                                     std::to_string(m_points.cols()) + " vertices, but there are " +
                                     std::to_string(n) + ", pass an interpolation on this mesh.");
-      for(Eigen::Index v = 0; v < n; ++v)
-        for(Eigen::SparseMatrix<double>::InnerIterator w(m_points, v); w; ++w)
-          if(!std::isfinite(w.value()))
-            throw std::invalid_argument("spectral distances: source " + std::to_string(w.row()) +
-                                        " has a weight that is not finite, pass an interpolation.");
+      const Eigen::VectorXd sums = m_points * Eigen::VectorXd::Ones(n);
+      for(Eigen::Index s = 0; s < size(); ++s)
+        if(!(std::abs(sums(s) - 1) <= 1e-6))
+          throw std::invalid_argument("spectral distances: the weights of source " + std::to_string(s) +
+                                      " sum to " + std::to_string(sums(s)) +
+                                      ", pass an interpolation, whose rows sum to 1.");
       return m_points * functions;
     }
     Eigen::MatrixXd result(size(), functions.cols());
@@ -152,9 +157,10 @@ inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
 inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const Distance_sources& sources,
                                          const Eigen::ArrayXd& weights, Eigen::Index first)
 {
-  const Eigen::MatrixXd functions =
-      pairs.vectors.rightCols(pairs.size() - first) * weights.sqrt().matrix().asDiagonal();
-  const Eigen::MatrixXd embedding = functions.transpose(), at_sources = sources.values(functions).transpose();
+  const auto functions = pairs.vectors.rightCols(pairs.size() - first);
+  const Eigen::VectorXd scales = weights.sqrt().matrix();
+  const Eigen::MatrixXd at_sources = scales.asDiagonal() * sources.values(functions).transpose();
+  const Eigen::MatrixXd embedding = scales.asDiagonal() * functions.transpose();
   Eigen::MatrixXd distances(embedding.cols(), sources.size());
   for(Eigen::Index s = 0; s < sources.size(); ++s)
     distances.col(s) = (embedding.colwise() - at_sources.col(s)).colwise().squaredNorm().transpose();
@@ -373,17 +379,14 @@ inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs, const Dista
                                             const Wave_kernel_energies& energies)
 {
   internal::check_steps(energies.steps, 2);
+  Eigenpairs at_sources;
+  at_sources.values = pairs.values;
+  at_sources.vectors = sources.values(pairs.vectors);
+  at_sources.zeros = pairs.zeros;
   const Eigen::MatrixXd signature = wave_kernel_signature(pairs, energies);
-  Eigen::MatrixXd of_sources;
-  if(sources.are_vertices())
-    of_sources = sources.values(signature);
-  else { // a sum of squares of what is interpolated
-    Eigenpairs at_points;
-    at_points.values = pairs.values;
-    at_points.vectors = sources.values(pairs.vectors);
-    at_points.zeros = pairs.zeros;
-    of_sources = wave_kernel_signature(at_points, energies);
-  }
+  // Of a point: a sum of squares of what is interpolated. Of a vertex: the same numbers, to the last bit.
+  const Eigen::MatrixXd of_sources =
+      sources.are_vertices() ? sources.values(signature) : wave_kernel_signature(at_sources, energies);
   const double step = (energies.t_max - energies.t_min) / static_cast<double>(energies.steps - 1);
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(signature.rows(), sources.size());
   for(Eigen::Index s = 0; s < sources.size(); ++s)
