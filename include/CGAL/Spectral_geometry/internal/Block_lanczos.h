@@ -33,6 +33,8 @@ namespace internal {
 /// vectors at a time share each access to the factor and to the basis, and find up to eight copies of a multiple
 /// eigenvalue. S V = V T + W E^T, where T is block tridiagonal (with an arrow after a restart).
 /// See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
+///
+/// Small matrices are MatrixXd, and products have such factors, not expressions: each further type is compiled by itself.
 class Block_lanczos
 {
 public:
@@ -85,7 +87,6 @@ private:
   {
     fill_randomly();
     m_factor.solve(m_W, m_W, m_space.threads()); // smooth vectors are a better start
-    m_link.setZero();
     orthogonalise_against_all();
     orthogonalise_against_all();
     orthonormalise();
@@ -108,14 +109,14 @@ private:
     const Index j = m_panels - 1, row = j * panel_width;
     std::swap(m_BV, m_BW); // left by orthonormalise()
     m_factor.solve(m_BV, m_W, m_space.threads());
-    const Small_matrix A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
+    const Eigen::MatrixXd A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
     m_space.subtract(m_W, m_basis[j], A);
     if(m_after_restart)
       orthogonalise_against_all();
     else if(j > 0)
       m_space.subtract(m_W, m_basis[j - 1], m_link.transpose());
     m_after_restart = false;
-    m_T.block<panel_width, panel_width>(row, row) = 0.5 * (A + A.transpose());
+    m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
 
     if(m_loss > 1e-11 || m_locked)
       reorthogonalise();
@@ -127,8 +128,8 @@ private:
   void advance()
   {
     const Index row = (m_panels - 1) * panel_width;
-    m_T.block<panel_width, panel_width>(row + panel_width, row) = m_link;
-    m_T.block<panel_width, panel_width>(row, row + panel_width) = m_link.transpose();
+    m_T.block(row + panel_width, row, panel_width, panel_width) = m_link;
+    m_T.block(row, row + panel_width, panel_width, panel_width) = m_link.transpose();
     push_panel();
   }
 
@@ -158,31 +159,28 @@ private:
   // W = Q R by Cholesky, twice; m_link = R, m_BW = s B Q.
   void orthonormalise()
   {
-    m_link.setIdentity();
+    m_link.setIdentity(panel_width, panel_width);
     m_space.multiply_mass(m_W, m_BW);
     for(int pass = 0; pass < 2; ++pass) {
-      const Small_matrix G = m_space.product(m_W, m_BW);
-      const Eigen::LLT<Small_matrix> llt(G);
-      const Small_matrix R = llt.matrixU();
+      const Eigen::MatrixXd G = m_space.product(m_W, m_BW);
+      const Eigen::LLT<Eigen::MatrixXd> llt(G);
+      const Eigen::MatrixXd R = llt.matrixU();
       if(llt.info() != Eigen::Success || !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
          !(R.diagonal().minCoeff() > 1e-12)) {
         replace_dependent_vectors(G);
         return;
       }
-      const Small_matrix inverse = R.triangularView<Eigen::Upper>().solve(Small_matrix::Identity());
-      m_space.transform(m_W, inverse);
-      m_space.transform(m_BW, inverse);
+      transform(inverse_of(llt));
       m_link = R * m_link;
     }
   }
 
   // The space is (nearly) invariant along some directions: those become random vectors without a link.
-  void replace_dependent_vectors(const Small_matrix& G)
+  void replace_dependent_vectors(const Eigen::MatrixXd& G)
   {
-    // The type used below as well: that of the fixed size takes long to compile.
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
-    const Small_matrix Q = solver.eigenvectors();
-    Small_matrix T = Small_matrix::Zero(), R = Small_matrix::Zero();
+    const Eigen::MatrixXd& Q = solver.eigenvectors();
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(panel_width, panel_width), R = T;
     std::vector<int> replaced;
     for(int c = 0; c < panel_width; ++c) {
       const double value = solver.eigenvalues()(c);
@@ -196,24 +194,35 @@ private:
     for(Index i = 0; i < m_space.size(); ++i)
       for(const int c : replaced)
         m_W.row(i)[c] = random_entry() / std::sqrt(m_problem.size());
-    const Small_matrix link = R * m_link;
+    const Eigen::MatrixXd link = R * m_link;
     for(int pass = 0; pass < 3; ++pass) {
       orthogonalise_against_all();
       m_space.multiply_mass(m_W, m_BW);
-      const Small_matrix U = Eigen::LLT<Small_matrix>(m_space.product(m_W, m_BW)).matrixU();
-      if(!(U.diagonal().minCoeff() > 0.))
+      const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
+      if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
         throw std::runtime_error(
-            "Eigenpairs: the block Lanczos iteration broke down; choose the method 'spectra'.");
-      const Small_matrix inverse = U.triangularView<Eigen::Upper>().solve(Small_matrix::Identity());
-      m_space.transform(m_W, inverse);
-      m_space.transform(m_BW, inverse);
+            "Eigenpairs: the block Lanczos iteration broke down; use spectra_eigenpairs().");
+      transform(inverse_of(llt));
     }
     m_link = link;
   }
 
-  static double smallest_singular_value(const Small_matrix& R)
+  // Of U, G = U^T U.
+  static Eigen::MatrixXd inverse_of(const Eigen::LLT<Eigen::MatrixXd>& llt)
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(R.transpose() * R, Eigen::EigenvaluesOnly);
+    return llt.matrixU().solve(Eigen::MatrixXd::Identity(panel_width, panel_width));
+  }
+
+  void transform(const Eigen::MatrixXd& T)
+  {
+    m_space.transform(m_W, T);
+    m_space.transform(m_BW, T);
+  }
+
+  static double smallest_singular_value(const Eigen::MatrixXd& R)
+  {
+    const Eigen::MatrixXd transposed = R.transpose(), product = transposed * R;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product, Eigen::EigenvaluesOnly);
     return (std::max)(1e-12, std::sqrt((std::max)(0., solver.eigenvalues()(0))));
   }
 
@@ -293,13 +302,14 @@ private:
   double solve_projected()
   {
     const Index m = dimension();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(m_T.topLeftCorner(m, m));
+    const Eigen::MatrixXd T = m_T.topLeftCorner(m, m);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(T);
     if(solver.info() != Eigen::Success)
       throw std::runtime_error("Eigenpairs: the projected eigenproblem did not converge.");
     m_theta = solver.eigenvalues().reverse();
     m_Y = solver.eigenvectors().rowwise().reverse();
-    const Eigen::MatrixXd bottom = m_link * m_Y.bottomRows(panel_width).leftCols(m_K);
-    return bottom.colwise().norm().transpose().cwiseQuotient(m_theta.head(m_K)).maxCoeff();
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, m_K), link = m_link * bottom;
+    return link.colwise().norm().transpose().cwiseQuotient(m_theta.head(m_K)).maxCoeff();
   }
 
   // Replaces the basis by its first Ritz vectors.
@@ -315,7 +325,7 @@ private:
   void restart()
   {
     const Index kept = m_kept_panels * panel_width, m = dimension();
-    const Eigen::MatrixXd arrow = m_link * m_Y.block(m - panel_width, 0, panel_width, kept);
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept), arrow = m_link * bottom;
     compress(kept);
     m_T.block(kept, 0, panel_width, kept) = arrow;
     m_T.block(0, kept, kept, panel_width) = arrow.transpose();
@@ -354,9 +364,9 @@ private:
   Index m_K = 0, m_maximum_panels = 0, m_kept_panels = 0;
   std::vector<Panel> m_basis; // the first m_panels are in use
   Index m_panels = 0;
-  Panel m_W, m_BW, m_BV; // the next panel, its product with s B, that of the last panel
-  Small_matrix m_link;   // R of the next panel
-  Eigen::MatrixXd m_T;   // projected operator
+  Panel m_W, m_BW, m_BV;  // the next panel, its product with s B, that of the last panel
+  Eigen::MatrixXd m_link; // R of the next panel
+  Eigen::MatrixXd m_T;    // projected operator
   Eigen::VectorXd m_theta;
   Eigen::MatrixXd m_Y; // its eigenpairs, descending
   double m_loss = 1.;  // estimated loss of orthogonality

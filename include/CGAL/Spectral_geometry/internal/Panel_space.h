@@ -19,8 +19,8 @@ namespace CGAL {
 namespace Spectral_geometry {
 namespace internal {
 
-using Small_matrix = Eigen::Matrix<double, panel_width, panel_width, Eigen::RowMajor>;
-// Coefficients with respect to several panels: 8 rows for each of them.
+// Coefficients with respect to several panels: 8 rows for each of them. Of one they are an Eigen::MatrixXd outside of this class: its
+// products and factorisations are compiled for others, too, and a row-major type of eight columns would have its own.
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>;
 
 /// Linear algebra on panels in the inner product of a mass matrix. Sums run over a fixed number of row ranges,
@@ -82,7 +82,7 @@ public:
     });
   }
 
-  Small_matrix product(const Panel& P, const Panel& W) const
+  Eigen::MatrixXd product(const Panel& P, const Panel& W) const
   {
     std::vector<Coefficients> parts(number_of_ranges, Coefficients::Zero(panel_width, panel_width));
     for_each_range([&](Index begin, Index end, int range) {
@@ -95,17 +95,18 @@ public:
   }
 
   // W -= P H
-  void subtract(Panel& W, const Panel& P, const Small_matrix& H) const
+  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& coefficients) const
   {
+    const Coefficients H = coefficients;
     for_each_range([&](Index begin, Index end, int) {
       subtract_product(W.row(begin), P.row(begin), end - begin, H.data());
     });
   }
 
   // W = W T
-  void transform(Panel& W, const Small_matrix& T) const
+  void transform(Panel& W, const Eigen::MatrixXd& T) const
   {
-    const Small_matrix minus_T = -T;
+    const Coefficients minus_T = -T;
     for_each_range([&](Index begin, Index end, int) {
       alignas(64) double copy[rows_in_cache * panel_width];
       for(Index i = begin; i < end; i += rows_in_cache) {
