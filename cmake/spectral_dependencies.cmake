@@ -50,7 +50,8 @@ elseif(Eigen3_VERSION VERSION_LESS 3.4)
   return()
 endif()
 
-find_package(Spectra CONFIG QUIET)
+# For spectra_eigenpairs.h alone.
+find_package(Spectra 1.0 CONFIG QUIET)
 if(NOT TARGET Spectra::Spectra)
   # Spectra is often used as a plain folder of headers.
   find_path(SPECTRA_INCLUDE_DIR NAMES Spectra/SymEigsShiftSolver.h)
@@ -70,12 +71,6 @@ if(NOT TARGET Spectra::Spectra)
     endif()
   endif()
 endif()
-if(NOT TARGET Spectra::Spectra OR Spectra_VERSION VERSION_LESS 1.0)
-  set(Spectral_mesh_simplification_MISSING
-      "Spectra 1.0 or later was not found: install it (on Debian: apt-get install libspectra-dev) or set Spectra_DIR or SPECTRA_INCLUDE_DIR.")
-  return()
-endif()
-
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads QUIET)
 if(NOT TARGET Threads::Threads)
@@ -89,9 +84,12 @@ if(SPECTRAL_WITH_CHOLMOD AND NOT TARGET SuiteSparse::CHOLMOD)
   find_package(CHOLMOD QUIET)
 endif()
 
-# Links `target`, an INTERFACE library, to CHOLMOD if it was found. It is kept out of the exported target: whoever
+# Links `target`, an INTERFACE library, to Spectra and CHOLMOD if they were found. They are kept out of the exported target: whoever
 # uses an installed copy may have other libraries than who installed it.
 function(spectral_link_optional_libraries target)
+  if(TARGET Spectra::Spectra)
+    target_link_libraries(${target} INTERFACE $<BUILD_INTERFACE:Spectra::Spectra>)
+  endif()
   if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
     target_link_libraries(${target} INTERFACE $<BUILD_INTERFACE:SuiteSparse::CHOLMOD>)
     target_compile_definitions(${target} INTERFACE $<BUILD_INTERFACE:CGAL_SPECTRAL_WITH_CHOLMOD=1>)

@@ -7,12 +7,6 @@
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
 set(consumer_options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
-if(Spectra_DIR)
-  list(APPEND consumer_options -DSpectra_DIR=${Spectra_DIR})
-endif()
-if(SPECTRA_INCLUDE_DIR)
-  list(APPEND consumer_options -DSPECTRA_INCLUDE_DIR=${SPECTRA_INCLUDE_DIR})
-endif()
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
 # Not optimised and without debug symbols it takes half the time to compile.

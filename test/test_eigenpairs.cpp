@@ -4,8 +4,8 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
-#include <CGAL/Spectral_geometry/internal/Lanczos_eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
+#include <CGAL/Spectral_geometry/spectra_eigenpairs.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -52,6 +52,18 @@ SG::Eigenpairs_options with_method(Method method, double tolerance = 1e-10)
   return options;
 }
 
+template <Method method>
+Eigenpairs by(const Laplace_operator& op, Eigen::Index K, const SG::Eigenpairs_options& options)
+{
+  SG::Eigenpairs_options with = options;
+  with.method = method;
+  return SG::eigenpairs(op, K, with);
+}
+
+using Solver = Eigenpairs (*)(const Laplace_operator&, Eigen::Index, const SG::Eigenpairs_options&);
+constexpr Solver by_block = by<Method::block>, by_dense = by<Method::dense>,
+                 by_spectra = SG::spectra_eigenpairs;
+
 double orthonormality_error(const Laplace_operator& op, const Eigenpairs& pairs)
 {
   const Eigen::MatrixXd gram = pairs.vectors.transpose() * (op.B * pairs.vectors);
@@ -93,12 +105,12 @@ TEST_CASE("Residuals and orthonormality of eigenpairs in either mass, by either 
   for(const shapes::Matrices& mesh :
       {shapes::bumpy_icosphere_matrices(3), shapes::irregular_grid_matrices(25, 20)})
     for(const double theta : thetas)
-      for(const Method method : {Method::block, Method::spectra}) {
+      for(const Solver solver : {by_block, by_spectra}) {
         const Laplace_operator op = laplace(mesh, theta);
-        const Eigenpairs pairs = SG::eigenpairs(op, 40, with_method(method));
+        const Eigenpairs pairs = solver(op, 40, {});
         check_pairs(op, pairs);
         CHECK(pairs.complete);
-        CHECK(pairs.solver.find(method == Method::block ? "block+" : "spectra+") == 0);
+        CHECK(pairs.solver.find(solver == by_block ? "block+" : "spectra+") == 0);
         CHECK(pairs.values(0) * op.mass.sum() < 1e-10);
         CHECK(pairs.values(1) * op.mass.sum() > 1.);
       }
@@ -152,9 +164,9 @@ TEST_CASE("Copies of eigenvalues on several components are all found, by either 
 {
   const shapes::Matrices mesh = shapes::components_matrices(shapes::icosphere_matrices(3), 3);
   for(const double theta : thetas)
-    for(const Method method : {Method::block, Method::spectra}) {
+    for(const Solver solver : {by_block, by_spectra}) {
       const Laplace_operator op = laplace(mesh, theta);
-      const Eigenpairs pairs = SG::eigenpairs(op, 48, with_method(method)); // three times 1 + 3 + 5 + 7
+      const Eigenpairs pairs = solver(op, 48, {}); // three times 1 + 3 + 5 + 7
       check_pairs(op, pairs);
       CHECK(pairs.complete);
       const Eigenpairs single = SG::eigenpairs(laplace(shapes::icosphere_matrices(3), theta), 16);
@@ -190,8 +202,8 @@ TEST_CASE("Copies are found where the last block of the first round was not full
 TEST_CASE("A kernel larger than K is returned as such")
 {
   const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
-  for(const Method method : {Method::block, Method::spectra}) {
-    const Eigenpairs pairs = SG::eigenpairs(op, 7, with_method(method));
+  for(const Solver solver : {by_block, by_spectra}) {
+    const Eigenpairs pairs = solver(op, 7, {});
     check_pairs(op, pairs);
     CHECK(pairs.values.maxCoeff() * op.mass.sum() < 1e-9);
   }
@@ -200,7 +212,7 @@ TEST_CASE("A kernel larger than K is returned as such")
 TEST_CASE("The block method agrees with the reference at every tolerance")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4));
-  const Eigenpairs reference = SG::eigenpairs(op, 60, with_method(Method::spectra));
+  const Eigenpairs reference = SG::spectra_eigenpairs(op, 60);
   for(const double tolerance : {1e-2, 1e-5, 1e-8, 1e-12}) {
     const Eigenpairs pairs = SG::eigenpairs(op, 60, with_method(Method::block, tolerance));
     const double error = (pairs.values - reference.values).cwiseAbs().maxCoeff() / reference.values(59);
@@ -242,8 +254,8 @@ TEST_CASE("Spaces that are exhausted are continued with random vectors")
   // 320 vertices of high symmetry, and nearly half of the spectrum.
   const Laplace_operator op = laplace(shapes::torus_matrices(20, 16));
   const Eigenpairs dense = SG::eigenpairs(op, 150, with_method(Method::dense));
-  for(const Method method : {Method::block, Method::spectra}) {
-    const Eigenpairs pairs = SG::eigenpairs(op, 150, with_method(method));
+  for(const Solver solver : {by_block, by_spectra}) {
+    const Eigenpairs pairs = solver(op, 150, {});
     check_pairs(op, pairs);
     CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(149));
   }
@@ -259,10 +271,15 @@ TEST_CASE("Either method takes problems of any size")
     const Eigen::Index n = op.mass.size();
     for(Eigen::Index K = 1; K <= n; K += K < 10 ? 1 : 7) {
       const Eigenpairs dense = SG::eigenpairs(op, K, with_method(Method::dense));
-      for(const Method method : {Method::block, Method::spectra}) {
-        SG::Eigenpairs_options options = with_method(method);
+      for(const Solver solver : {by_block, by_spectra}) {
+        if(solver == by_spectra && K == n) {
+          CHECK_THROWS_WITH(solver(op, K, {}),
+                            ContainsSubstring("K must be less than the number of vertices"));
+          continue;
+        }
+        SG::Eigenpairs_options options;
         options.maximum_iterations = 100;
-        const Eigenpairs pairs = SG::eigenpairs(op, K, options);
+        const Eigenpairs pairs = solver(op, K, options);
         CHECK(pairs.complete);
         CHECK(orthonormality_error(op, pairs) < 1e-10);
         const double spacing = 4. * shapes::pi / op.mass.sum();
@@ -301,10 +318,10 @@ TEST_CASE("Eigenpairs of a stiffness in any unit")
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
   const Eigenpairs reference = SG::eigenpairs(op, 30);
   for(const double unit : {1e-12, 1e-6, 1e6, 1e12})
-    for(const Method method : {Method::block, Method::spectra, Method::dense}) {
+    for(const Solver solver : {by_block, by_spectra, by_dense}) {
       Laplace_operator scaled = op;
       scaled.L *= unit;
-      const Eigenpairs pairs = SG::eigenpairs(scaled, 30, with_method(method));
+      const Eigenpairs pairs = solver(scaled, 30, {});
       CHECK(pairs.complete);
       CHECK(pairs.residuals.maxCoeff() < 1e-8);
       CHECK((pairs.values / unit - reference.values).cwiseAbs().maxCoeff() < 1e-9 * reference.values(29));
@@ -342,7 +359,7 @@ TEST_CASE("CHOLMOD's failures are told apart")
     block = e.what();
   }
   try {
-    SG::eigenpairs(op, 20, with_method(Method::spectra));
+    SG::spectra_eigenpairs(op, 20);
   } catch(const std::runtime_error& e) {
     spectra = e.what();
   }
@@ -359,7 +376,7 @@ TEST_CASE("Eigenpairs that the iteration has missed are counted and found")
   const Laplace_operator op = laplace(shapes::icosphere_matrices(3));
   const std::function<bool(double)> silent;
   const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
-  SG::internal::Lanczos_eigenpairs lanczos(problem, 1e-10, 100);
+  SG::internal::Spectra_solver lanczos(problem, 1e-10, 100);
   const SG::internal::Ritz_pairs all = lanczos.compute(25);
   for(const std::vector<int>& dropped : {std::vector<int>{0}, {2}, {5, 7, 13}, {1, 2, 3}}) {
     SG::internal::Ritz_pairs pairs{Eigen::VectorXd(20), Eigen::MatrixXd(all.vectors.rows(), 20)};
@@ -494,16 +511,16 @@ TEST_CASE("Eigenpairs are the same in every run")
 TEST_CASE("Progress is reported in [0, 1] and can cancel")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
-  for(const Method method : {Method::block, Method::spectra, Method::dense}) {
+  for(const Solver solver : {by_block, by_spectra, by_dense}) {
     std::vector<double> fractions;
-    SG::Eigenpairs_options options = with_method(method);
+    SG::Eigenpairs_options options;
     options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
-    SG::eigenpairs(op, 20, options);
+    solver(op, 20, options);
     CHECK(std::is_sorted(fractions.begin(), fractions.end()));
     CHECK(fractions.front() == 0.);
     CHECK(fractions.back() == 1.);
     options.progress = [](double fraction) { return fraction < 0.5; };
-    CHECK_THROWS_AS(SG::eigenpairs(op, 20, options), SG::Cancelled);
+    CHECK_THROWS_AS(solver(op, 20, options), SG::Cancelled);
   }
 }
 
@@ -516,6 +533,9 @@ TEST_CASE("Bad requests for eigenpairs are refused")
   SG::Eigenpairs_options options;
   options.tolerance = 0.;
   CHECK_THROWS_WITH(SG::eigenpairs(op, 5, options), ContainsSubstring("tolerance"));
+  CHECK_THROWS_WITH(SG::spectra_eigenpairs(op, 5, options), ContainsSubstring("tolerance"));
+  CHECK_THROWS_WITH(SG::spectra_eigenpairs(op, 5, with_method(Method::block)),
+                    ContainsSubstring("leave them as they are"));
   Laplace_operator broken = op;
   broken.mass.conservativeResize(7);
   CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
@@ -530,9 +550,9 @@ TEST_CASE("Bad requests for eigenpairs are refused")
 TEST_CASE("An iteration that may not restart takes a larger space")
 {
   const Laplace_operator op = laplace(shapes::icosphere_matrices(4));
-  SG::Eigenpairs_options options = with_method(Method::spectra);
+  SG::Eigenpairs_options options;
   options.maximum_iterations = 1;
-  const Eigenpairs pairs = SG::eigenpairs(op, 50, options);
+  const Eigenpairs pairs = SG::spectra_eigenpairs(op, 50, options);
   check_pairs(op, pairs);
   CHECK(pairs.complete);
 }

@@ -28,8 +28,8 @@ struct Eigenpairs
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;
-  std::string
-      solver; ///< "block+cholmod", "block+simplicial", "spectra+cholmod", "spectra+simplicial" or "dense"
+  /// "block+cholmod", "block+simplicial" or "dense", of `spectra_eigenpairs()` "spectra+cholmod" or "spectra+simplicial"
+  std::string solver;
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
   bool complete = false;
   /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
@@ -41,10 +41,9 @@ struct Eigenpairs
 
 /// \brief how eigenpairs are computed.
 ///
-/// `automatic` is `dense` when n is at most 300 or K close to n, otherwise `block`: block Lanczos, eight vectors at a time.
-/// `spectra` is Spectra's implicitly restarted Lanczos method, the reference; a problem that is too small for the space that
-/// `spectra` (2 K + 20 vectors) or `block` (that, and K + 56) needs is solved densely all the same.
-enum class Eigenpairs_method { automatic, block, spectra, dense };
+/// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at a time. A problem of fewer
+/// than 2 K + 20 or K + 56 vertices is too small for that and solved densely all the same. `spectra_eigenpairs()` has another method.
+enum class Eigenpairs_method { automatic, block, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
 struct Eigenpairs_options
@@ -56,11 +55,10 @@ struct Eigenpairs_options
   double tolerance = 1e-10;
   /// restarts of the Krylov space, at least 1
   Eigen::Index maximum_iterations = 300;
-  /// search for copies of multiple eigenvalues that the Krylov space has missed. `spectra` starts from one vector: one more
-  /// factorisation counts the eigenvalues (Sylvester's law of inertia). `block` starts from eight random vectors, which
-  /// cannot miss a copy of an eigenvalue of smaller multiplicity; it counts when more than four of the values are equal as
-  /// far as the tolerance tells. With a tolerance above 1e-3 the values are too rough for a count, and the pairs of both
-  /// methods are not known to be complete.
+  /// search for copies of multiple eigenvalues that the Krylov space has missed: one more factorisation counts the eigenvalues
+  /// (Sylvester's law of inertia). `block` starts from eight random vectors, which cannot miss a copy of an eigenvalue of
+  /// smaller multiplicity; it counts when more than four of the values are equal as far as the tolerance tells. With a tolerance
+  /// above 1e-3 the values are too rough for a count, and the pairs are not known to be complete.
   bool verify = true;
   /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K, K + 120): fewer take less
   /// memory and more time
@@ -95,13 +93,12 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
         std::to_string(options.maximum_vectors) + ".");
 }
 
-// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. A Krylov space must fit into n dimensions; that
-// of `block` holds the vectors that a restart keeps and two panels more, and leaves room for random ones. Up to 300 vertices
-// a dense solver takes milliseconds.
+// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space must fit into n dimensions, with
+// the vectors that a restart keeps, two panels more, and room for random ones. Up to 300 vertices a dense solver takes
+// milliseconds.
 inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpairs_method method)
 {
-  return method == Eigenpairs_method::dense || 2 * K + 20 > n ||
-         (method == Eigenpairs_method::block && K + 56 > n) ||
+  return method == Eigenpairs_method::dense || 2 * K + 20 > n || K + 56 > n ||
          (method == Eigenpairs_method::automatic && n <= 300);
 }
 

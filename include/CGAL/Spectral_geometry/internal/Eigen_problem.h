@@ -13,10 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -114,8 +112,12 @@ public:
       Block r = m_L * phi;
       const Block b = m_B * phi;
       r -= b * values.segment(k, columns).asDiagonal();
-      const Eigen::RowVectorXd squares = m_mass.cwiseInverse().transpose() * r.cwiseAbs2();
-      result.segment(k, columns) = squares.transpose().cwiseSqrt();
+      double squares[8] = {};
+      for(Eigen::Index i = 0; i < size(); ++i)
+        for(Eigen::Index c = 0; c < columns; ++c)
+          squares[c] += r(i, c) * r(i, c) / m_mass(i);
+      for(Eigen::Index c = 0; c < columns; ++c)
+        result(k + c) = std::sqrt(squares[c]);
     }
     return result.cwiseQuotient((values.array() + m_shift).matrix());
   }
@@ -155,21 +157,6 @@ inline void fix_signs(Eigen::MatrixXd& vectors)
     if(vectors(i, k) < 0.)
       vectors.col(k) = -vectors.col(k);
   }
-}
-
-// Sorts in ascending order, keeps the first K, cuts the kernel's noise at 0.
-inline Ritz_pairs sorted(const Eigen::VectorXd& values, const Eigen::MatrixXd& vectors, Eigen::Index K)
-{
-  std::vector<Eigen::Index> order(values.size());
-  std::iota(order.begin(), order.end(), Eigen::Index(0));
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Eigen::Index i, Eigen::Index j) { return values(i) < values(j); });
-  Ritz_pairs result{Eigen::VectorXd(K), Eigen::MatrixXd(vectors.rows(), K)};
-  for(Eigen::Index k = 0; k < K; ++k) {
-    result.values(k) = (std::max)(0., values(order[k]));
-    result.vectors.col(k) = vectors.col(order[k]);
-  }
-  return result;
 }
 
 } // namespace internal

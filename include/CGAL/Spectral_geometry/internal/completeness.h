@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -73,36 +72,6 @@ inline bool may_be_incomplete(const Eigen_problem& problem, const Eigen::VectorX
       return true;
   }
   return false;
-}
-
-// Merges eigenpairs into a known set of K and keeps the first K.
-inline void merge(Ritz_pairs& pairs, const Ritz_pairs& more)
-{
-  const Eigen::Index K = pairs.values.size(), added = more.values.size();
-  Eigen::VectorXd values(K + added);
-  values << pairs.values, more.values;
-  Eigen::MatrixXd vectors(pairs.vectors.rows(), K + added);
-  vectors << pairs.vectors, more.vectors;
-  pairs = sorted(values, vectors, K);
-}
-
-// `find_missing(pairs, number)` returns eigenpairs in the complement of the known ones. Returns false when counting failed.
-template <class Find_missing>
-bool make_complete(const Eigen_problem& problem, Ritz_pairs& pairs, const Find_missing& find_missing)
-{
-  // Each search from one vector finds at least one copy of each multiple eigenvalue.
-  for(Eigen::Index attempt = 0; attempt <= pairs.values.size(); ++attempt) {
-    problem.report(0.92);
-    Eigen::Index missing;
-    if(!count_missing(problem, pairs.values, missing))
-      return false;
-    if(missing == 0)
-      return true;
-    merge(pairs, find_missing(pairs, missing));
-  }
-  throw std::runtime_error(
-      "Eigenpairs: copies of a multiple eigenvalue could not be found; lower the tolerance or solve "
-      "the connected components one by one.");
 }
 
 } // namespace internal

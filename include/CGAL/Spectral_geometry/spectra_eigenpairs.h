@@ -2,19 +2,23 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_LANCZOS_EIGENPAIRS_H
-#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_LANCZOS_EIGENPAIRS_H
+#ifndef CGAL_SPECTRAL_GEOMETRY_SPECTRA_EIGENPAIRS_H
+#define CGAL_SPECTRAL_GEOMETRY_SPECTRA_EIGENPAIRS_H
 
+#include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/Cholesky.h>
-#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/completeness.h>
+#include <CGAL/Spectral_geometry/internal/solve_eigen_problem.h>
 
 #include <Eigen/Core>
 #include <Spectra/SymGEigsShiftSolver.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -79,11 +83,10 @@ private:
   mutable Eigen::Index m_solves = 0;
 };
 
-/// The reference solver: Spectra's implicitly restarted Lanczos method with shift and invert.
-class Lanczos_eigenpairs
+class Spectra_solver
 {
 public:
-  Lanczos_eigenpairs(const Eigen_problem& problem, double tolerance, Eigen::Index maximum_iterations)
+  Spectra_solver(const Eigen_problem& problem, double tolerance, Eigen::Index maximum_iterations)
     : m_problem(problem)
     , m_tolerance(tolerance)
     , m_maximum_iterations(maximum_iterations)
@@ -99,15 +102,45 @@ public:
   // Returns whether the pairs are proved to be the first ones, after having added those that were missing.
   bool complete(Ritz_pairs& pairs)
   {
-    const auto find_missing = [this](const Ritz_pairs& known, Eigen::Index number) {
-      Shift_inverse inverse(m_problem, m_cholesky, 3 * number + 40);
-      inverse.deflate(known.vectors);
-      return iterate(inverse, number);
-    };
-    return counting_is_meaningful(m_tolerance) && make_complete(m_problem, pairs, find_missing);
+    if(!counting_is_meaningful(m_tolerance))
+      return false;
+    // Each search from one vector finds at least one copy of each multiple eigenvalue.
+    for(Eigen::Index attempt = 0; attempt <= pairs.values.size(); ++attempt) {
+      m_problem.report(0.92);
+      Eigen::Index missing;
+      if(!count_missing(m_problem, pairs.values, missing))
+        return false;
+      if(missing == 0)
+        return true;
+      Shift_inverse inverse(m_problem, m_cholesky, 3 * missing + 40);
+      inverse.deflate(pairs.vectors);
+      pairs = merged(pairs, iterate(inverse, missing));
+    }
+    throw std::runtime_error(
+        "Eigenpairs: copies of a multiple eigenvalue could not be found; lower the tolerance or solve "
+        "the connected components one by one.");
   }
 
 private:
+  // The first ones of both, as many as `pairs` are.
+  static Ritz_pairs merged(const Ritz_pairs& pairs, const Ritz_pairs& more)
+  {
+    const Eigen::Index K = pairs.values.size();
+    Eigen::VectorXd values(K + more.values.size());
+    values << pairs.values, more.values;
+    std::vector<Eigen::Index> order(values.size());
+    std::iota(order.begin(), order.end(), Eigen::Index(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index i, Eigen::Index j) { return values(i) < values(j); });
+    Ritz_pairs result = pairs;
+    for(Eigen::Index k = 0; k < K; ++k) {
+      const Eigen::Index from = order[k];
+      result.values(k) = values(from);
+      result.vectors.col(k) = from < K ? pairs.vectors.col(from) : more.vectors.col(from - K);
+    }
+    return result;
+  }
+
   // A space that was too small for clustered eigenvalues is enlarged.
   Ritz_pairs iterate(Shift_inverse& inverse, Eigen::Index K)
   {
@@ -144,7 +177,44 @@ private:
 };
 
 } // namespace internal
+
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
+/// \brief returns the pairs of `eigenpairs()` by Spectra's implicitly restarted Lanczos method, the independent reference.
+///
+/// It starts from one vector, with the shift and the factorisation of `eigenpairs()`, in a space of min(2 K + 20, n) vectors, and is
+/// several times slower. Needs the headers of Spectra 1.0 (https://spectralib.org), which nothing else in this package does.
+///
+/// \param op       the operator
+/// \param K        number of eigenpairs, 1 <= K < n; with the Dirichlet condition at most the number of vertices off the border
+/// \param options  tolerance, number of restarts, progress. With `verify` the eigenvalues are counted in any case, as one start
+///                 vector may miss each copy of a multiple one. The other members are of `eigenpairs()` and have to be left as they are.
+///
+/// \throws what `eigenpairs()` does, and std::invalid_argument for K = n and for a method, maximum_vectors or threads
+inline Eigenpairs spectra_eigenpairs(const Laplace_operator& op, const Eigen::Index K,
+                                     const Eigenpairs_options& options = {})
+{
+  if(options.method != Eigenpairs_method::automatic || options.maximum_vectors != 0 || options.threads != 1)
+    throw std::invalid_argument(
+        "spectra_eigenpairs: the options method, maximum_vectors and threads are those of "
+        "eigenpairs(); leave them as they are.");
+  return internal::solve_eigen_problem(
+      op, K, options, [&](const internal::Eigen_problem& problem, Eigenpairs& result) {
+        if(K == problem.size())
+          throw std::invalid_argument("spectra_eigenpairs: K must be less than the number of vertices " +
+                                      std::to_string(K) + "; ask for fewer or call eigenpairs().");
+        internal::Spectra_solver solver(problem, options.tolerance, options.maximum_iterations);
+        internal::Ritz_pairs pairs = solver.compute(K);
+        result.complete = options.verify && solver.complete(pairs);
+        result.solver = "spectra+" + internal::Cholesky::name();
+        return pairs;
+      });
+}
+
+/// @}
+
 } // namespace Spectral_geometry
 } // namespace CGAL
 
-#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LANCZOS_EIGENPAIRS_H
+#endif // CGAL_SPECTRAL_GEOMETRY_SPECTRA_EIGENPAIRS_H
