@@ -5,6 +5,7 @@
 // Collapses by quadrics, of a first stage or ahead of the spectral cost: their order against all costs computed anew, what they
 // keep, and what follows them.
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <CGAL/Polyhedron_3.h>
