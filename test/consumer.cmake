@@ -48,7 +48,7 @@ if(CMAKE_NM AND NOT APPLE)
   add_test(NAME "consumer-include-folder"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}" "${CMAKE_NM}"
                    "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                   "${CMAKE_CURRENT_BINARY_DIR}/include-folder" ${CGAL_INCLUDE_DIRS} ${Spectra_INCLUDE_DIR}
+                   "${CMAKE_CURRENT_BINARY_DIR}/include-folder" ${CGAL_INCLUDE_DIRS}
                    $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
   set_tests_properties("consumer-include-folder" PROPERTIES LABELS consumer TIMEOUT 1200 COST 200 FIXTURES_REQUIRED installed)
 endif()

@@ -5,7 +5,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
 #include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
-#include <CGAL/Spectral_geometry/spectra_eigenpairs.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -61,8 +60,7 @@ Eigenpairs by(const Laplace_operator& op, Eigen::Index K, const SG::Eigenpairs_o
 }
 
 using Solver = Eigenpairs (*)(const Laplace_operator&, Eigen::Index, const SG::Eigenpairs_options&);
-constexpr Solver by_block = by<Method::block>, by_dense = by<Method::dense>,
-                 by_spectra = SG::spectra_eigenpairs;
+constexpr Solver by_block = by<Method::block>, by_dense = by<Method::dense>;
 
 double orthonormality_error(const Laplace_operator& op, const Eigenpairs& pairs)
 {
@@ -105,12 +103,12 @@ TEST_CASE("Residuals and orthonormality of eigenpairs in either mass, by either 
   for(const shapes::Matrices& mesh :
       {shapes::bumpy_icosphere_matrices(3), shapes::irregular_grid_matrices(25, 20)})
     for(const double theta : thetas)
-      for(const Solver solver : {by_block, by_spectra}) {
+      for(const Solver solver : {by_block, by_dense}) {
         const Laplace_operator op = laplace(mesh, theta);
         const Eigenpairs pairs = solver(op, 40, {});
         check_pairs(op, pairs);
         CHECK(pairs.complete);
-        CHECK(pairs.solver.find(solver == by_block ? "block+" : "spectra+") == 0);
+        CHECK(pairs.solver.find(solver == by_block ? "block+" : "dense") == 0);
         CHECK(pairs.values(0) * op.mass.sum() < 1e-10);
         CHECK(pairs.values(1) * op.mass.sum() > 1.);
       }
@@ -164,7 +162,7 @@ TEST_CASE("Copies of eigenvalues on several components are all found, by either 
 {
   const shapes::Matrices mesh = shapes::components_matrices(shapes::icosphere_matrices(3), 3);
   for(const double theta : thetas)
-    for(const Solver solver : {by_block, by_spectra}) {
+    for(const Solver solver : {by_block, by_dense}) {
       const Laplace_operator op = laplace(mesh, theta);
       const Eigenpairs pairs = solver(op, 48, {}); // three times 1 + 3 + 5 + 7
       check_pairs(op, pairs);
@@ -202,23 +200,10 @@ TEST_CASE("Copies are found where the last block of the first round was not full
 TEST_CASE("A kernel larger than K is returned as such")
 {
   const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
-  for(const Solver solver : {by_block, by_spectra}) {
+  for(const Solver solver : {by_block, by_dense}) {
     const Eigenpairs pairs = solver(op, 7, {});
     check_pairs(op, pairs);
     CHECK(pairs.values.maxCoeff() * op.mass.sum() < 1e-9);
-  }
-}
-
-TEST_CASE("The block method agrees with the reference at every tolerance")
-{
-  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4));
-  const Eigenpairs reference = SG::spectra_eigenpairs(op, 60);
-  for(const double tolerance : {1e-2, 1e-5, 1e-8, 1e-12}) {
-    const Eigenpairs pairs = SG::eigenpairs(op, 60, with_method(Method::block, tolerance));
-    const double error = (pairs.values - reference.values).cwiseAbs().maxCoeff() / reference.values(59);
-    CHECK(error < (std::max)(10. * tolerance * tolerance, 1e-12));
-    CHECK(pairs.residuals.maxCoeff() < (std::max)(1e3 * tolerance, 1e-9));
-    CHECK(orthonormality_error(op, pairs) < 1e-10);
   }
 }
 
@@ -254,14 +239,12 @@ TEST_CASE("Spaces that are exhausted are continued with random vectors")
   // 320 vertices of high symmetry, and nearly half of the spectrum.
   const Laplace_operator op = laplace(shapes::torus_matrices(20, 16));
   const Eigenpairs dense = SG::eigenpairs(op, 150, with_method(Method::dense));
-  for(const Solver solver : {by_block, by_spectra}) {
-    const Eigenpairs pairs = solver(op, 150, {});
-    check_pairs(op, pairs);
-    CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(149));
-  }
+  const Eigenpairs pairs = SG::eigenpairs(op, 150, with_method(Method::block));
+  check_pairs(op, pairs);
+  CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(149));
 }
 
-TEST_CASE("Either method takes problems of any size")
+TEST_CASE("The block method takes problems of any size")
 {
   for(const shapes::Matrices& mesh :
       {shapes::grid_matrices(4, 3), shapes::torus_matrices(6, 5), shapes::icosphere_matrices(1),
@@ -271,20 +254,11 @@ TEST_CASE("Either method takes problems of any size")
     const Eigen::Index n = op.mass.size();
     for(Eigen::Index K = 1; K <= n; K += K < 10 ? 1 : 7) {
       const Eigenpairs dense = SG::eigenpairs(op, K, with_method(Method::dense));
-      for(const Solver solver : {by_block, by_spectra}) {
-        if(solver == by_spectra && K == n) {
-          CHECK_THROWS_WITH(solver(op, K, {}),
-                            ContainsSubstring("K must be less than the number of vertices"));
-          continue;
-        }
-        SG::Eigenpairs_options options;
-        options.maximum_iterations = 100;
-        const Eigenpairs pairs = solver(op, K, options);
-        CHECK(pairs.complete);
-        CHECK(orthonormality_error(op, pairs) < 1e-10);
-        const double spacing = 4. * shapes::pi / op.mass.sum();
-        CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-8 * (dense.values(K - 1) + spacing));
-      }
+      const Eigenpairs pairs = SG::eigenpairs(op, K, with_method(Method::block));
+      CHECK(pairs.complete);
+      CHECK(orthonormality_error(op, pairs) < 1e-10);
+      const double spacing = 4. * shapes::pi / op.mass.sum();
+      CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-8 * (dense.values(K - 1) + spacing));
     }
   }
 }
@@ -318,7 +292,7 @@ TEST_CASE("Eigenpairs of a stiffness in any unit")
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
   const Eigenpairs reference = SG::eigenpairs(op, 30);
   for(const double unit : {1e-12, 1e-6, 1e6, 1e12})
-    for(const Solver solver : {by_block, by_spectra, by_dense}) {
+    for(const Solver solver : {by_block, by_dense}) {
       Laplace_operator scaled = op;
       scaled.L *= unit;
       const Eigenpairs pairs = solver(scaled, 30, {});
@@ -352,45 +326,18 @@ TEST_CASE("CHOLMOD's failures are told apart")
   REQUIRE(allocators != nullptr);
   auto* const malloc_of_cholmod = allocators->malloc_func;
   allocators->malloc_func = [](size_t size) { return size > 100000 ? nullptr : std::malloc(size); };
-  std::string block, spectra;
+  std::string block;
   try {
     SG::eigenpairs(op, 20, with_method(Method::block));
   } catch(const std::runtime_error& e) {
     block = e.what();
   }
-  try {
-    SG::spectra_eigenpairs(op, 20);
-  } catch(const std::runtime_error& e) {
-    spectra = e.what();
-  }
   allocators->malloc_func = malloc_of_cholmod;
   CHECK_THAT(block, ContainsSubstring("not enough memory"));
-  CHECK_THAT(spectra, ContainsSubstring("not enough memory"));
 #endif
 }
 
 #endif
-
-TEST_CASE("Eigenpairs that the iteration has missed are counted and found")
-{
-  const Laplace_operator op = laplace(shapes::icosphere_matrices(3));
-  const std::function<bool(double)> silent;
-  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
-  SG::internal::Spectra_solver lanczos(problem, 1e-10, 100);
-  const SG::internal::Ritz_pairs all = lanczos.compute(25);
-  for(const std::vector<int>& dropped : {std::vector<int>{0}, {2}, {5, 7, 13}, {1, 2, 3}}) {
-    SG::internal::Ritz_pairs pairs{Eigen::VectorXd(20), Eigen::MatrixXd(all.vectors.rows(), 20)};
-    for(int k = 0, from = 0; k < 20; ++from)
-      if(std::find(dropped.begin(), dropped.end(), from) == dropped.end()) {
-        pairs.values(k) = all.values(from);
-        pairs.vectors.col(k++) = all.vectors.col(from);
-      }
-    CHECK(lanczos.complete(pairs));
-    CHECK((pairs.values - all.values.head(20)).cwiseAbs().maxCoeff() < 1e-8);
-    const Eigen::MatrixXd gram = pairs.vectors.transpose() * op.B * pairs.vectors;
-    CHECK((gram - Eigen::MatrixXd::Identity(20, 20)).cwiseAbs().maxCoeff() < 1e-9);
-  }
-}
 
 TEST_CASE("The dense path agrees with the iteration, and takes K up to n")
 {
@@ -511,7 +458,7 @@ TEST_CASE("Eigenpairs are the same in every run")
 TEST_CASE("Progress is reported in [0, 1] and can cancel")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
-  for(const Solver solver : {by_block, by_spectra, by_dense}) {
+  for(const Solver solver : {by_block, by_dense}) {
     std::vector<double> fractions;
     SG::Eigenpairs_options options;
     options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
@@ -533,9 +480,6 @@ TEST_CASE("Bad requests for eigenpairs are refused")
   SG::Eigenpairs_options options;
   options.tolerance = 0.;
   CHECK_THROWS_WITH(SG::eigenpairs(op, 5, options), ContainsSubstring("tolerance"));
-  CHECK_THROWS_WITH(SG::spectra_eigenpairs(op, 5, options), ContainsSubstring("tolerance"));
-  CHECK_THROWS_WITH(SG::spectra_eigenpairs(op, 5, with_method(Method::block)),
-                    ContainsSubstring("leave them as they are"));
   Laplace_operator broken = op;
   broken.mass.conservativeResize(7);
   CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
@@ -545,16 +489,6 @@ TEST_CASE("Bad requests for eigenpairs are refused")
   broken = op;
   broken.mass(3) = 0.;
   CHECK_THROWS_AS(SG::eigenpairs(broken, 5), std::invalid_argument);
-}
-
-TEST_CASE("An iteration that may not restart takes a larger space")
-{
-  const Laplace_operator op = laplace(shapes::icosphere_matrices(4));
-  SG::Eigenpairs_options options;
-  options.maximum_iterations = 1;
-  const Eigenpairs pairs = SG::spectra_eigenpairs(op, 50, options);
-  check_pairs(op, pairs);
-  CHECK(pairs.complete);
 }
 
 } // namespace test_eigenpairs

@@ -5,7 +5,7 @@
 # Included at the end of doc/cgal_layout.cmake, with its variables: stops unless what was laid out is complete.
 
 # Everything is there.
-set(wanted Installation/cmake/modules/CGAL_Spectra_support.cmake Installation/include/CGAL/license/Spectral_geometry.h)
+set(wanted Installation/include/CGAL/license/Spectral_geometry.h)
 foreach(package IN LISTS packages)
   foreach(name IN ITEMS PackageDescription.txt Doxyfile.in examples.txt dependencies)
     list(APPEND wanted ${package}/doc/${package}/${name})

@@ -5,11 +5,12 @@
 #include "subjects.h"
 
 #include "../../examples/programs/io/input_mesh.h"
+#include "../spectra_eigenpairs.h"
 #include "generated_shape.h"
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/spectra_eigenpairs.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -107,17 +108,15 @@ Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setti
 {
   const SG::Laplace_operator op = SG::cotangent_laplacian(load(name), mass(setting));
   SG::Eigenpairs_options options;
+  options.method = SG::Eigenpairs_method::block;
   options.tolerance = tolerance;
+  options.threads = threads;
   options.verify = false;
-  if(solver == Solver::block) {
-    options.method = SG::Eigenpairs_method::block;
-    options.threads = threads;
-  }
   CGAL::Real_timer timer;
   timer.start();
   const SG::Eigenpairs pairs = solver == Solver::block
                                    ? SG::eigenpairs(op, setting.eigenvectors, options)
-                                   : SG::spectra_eigenpairs(op, setting.eigenvectors, options);
+                                   : reference::spectra_eigenpairs(op, setting.eigenvectors, tolerance);
   return {timer.time(), pairs.residuals.maxCoeff()};
 }
 

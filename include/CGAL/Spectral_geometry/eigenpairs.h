@@ -28,8 +28,7 @@ struct Eigenpairs
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;
-  /// "block+cholmod", "block+simplicial" or "dense", of `spectra_eigenpairs()` "spectra+cholmod" or "spectra+simplicial"
-  std::string solver;
+  std::string solver; ///< "block+cholmod", "block+simplicial" or "dense"
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
   bool complete = false;
   /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
@@ -42,7 +41,7 @@ struct Eigenpairs
 /// \brief how eigenpairs are computed.
 ///
 /// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at a time. A problem of fewer
-/// than 2 K + 20 or K + 56 vertices is too small for that and solved densely all the same. `spectra_eigenpairs()` has another method.
+/// than 2 K + 20 or K + 56 vertices is too small for that and solved densely all the same.
 enum class Eigenpairs_method { automatic, block, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.

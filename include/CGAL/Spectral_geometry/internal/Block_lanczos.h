@@ -200,8 +200,8 @@ private:
       m_space.multiply_mass(m_W, m_BW);
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
-        throw std::runtime_error(
-            "Eigenpairs: the block Lanczos iteration broke down; use spectra_eigenpairs().");
+        throw std::runtime_error("Eigenpairs: the block Lanczos iteration broke down; check the mesh for "
+                                 "needles, or choose the method 'dense'.");
       transform(inverse_of(llt));
     }
     m_link = link;

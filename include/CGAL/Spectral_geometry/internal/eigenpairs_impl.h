@@ -7,12 +7,13 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/solve_eigen_problem.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -20,18 +21,36 @@ namespace Spectral_geometry {
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options)
 {
-  return internal::solve_eigen_problem(
-      op, K, options, [&](const internal::Eigen_problem& problem, Eigenpairs& result) {
-        if(internal::is_dense(problem.size(), K, options.method)) {
-          result.solver = "dense";
-          result.complete = true;
-          return internal::dense_eigenpairs(problem, K);
-        }
-        result.solver = "block+" + internal::Cholesky::name();
-        internal::Block_lanczos lanczos(problem, options.tolerance, options.maximum_iterations,
-                                        options.maximum_vectors, options.threads);
-        return lanczos.compute(K, options.verify, result.complete);
-      });
+  const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
+  problem.check(K, op.boundary == Boundary_condition::neumann);
+  if(K > problem.size() - op.vanishing)
+    throw std::invalid_argument("Eigenpairs: " + std::to_string(K) +
+                                " eigenvectors are asked for, but only " +
+                                std::to_string(problem.size() - op.vanishing) +
+                                " vertices are off the border, where functions vanish; ask for fewer.");
+  internal::check_eigenpairs_options(options, K);
+
+  internal::Ritz_pairs pairs;
+  Eigenpairs result;
+  problem.report(0.);
+  if(internal::is_dense(problem.size(), K, options.method)) {
+    pairs = internal::dense_eigenpairs(problem, K);
+    result.solver = "dense";
+    result.complete = true;
+  } else {
+    internal::Block_lanczos lanczos(problem, options.tolerance, options.maximum_iterations,
+                                    options.maximum_vectors, options.threads);
+    pairs = lanczos.compute(K, options.verify, result.complete);
+    result.solver = "block+" + internal::Cholesky::name();
+  }
+  internal::clear_uncoupled_rows(problem, pairs);
+  internal::fix_signs(pairs.vectors);
+  result.zeros = number_of_zero_eigenvalues(op);
+  result.residuals = problem.residuals(pairs.values, pairs.vectors);
+  result.values = std::move(pairs.values);
+  result.vectors = std::move(pairs.vectors);
+  problem.report(1.);
+  return result;
 }
 
 namespace internal {
