@@ -6,7 +6,7 @@
 # a build from the source tree and a build against an installed copy agree.
 #
 # Sets Spectral_mesh_simplification_MISSING to one sentence when something is missing or too old, to nothing
-# otherwise. SPECTRAL_WITH_CHOLMOD (default: on) says whether CHOLMOD is looked for.
+# otherwise.
 
 set(Spectral_mesh_simplification_MISSING "")
 
@@ -57,20 +57,6 @@ if(NOT TARGET Threads::Threads)
       "No thread library was found for this compiler: install its C library's development files (on Debian: apt-get install libc6-dev).")
   return()
 endif()
-
-option(SPECTRAL_WITH_CHOLMOD "Factorise with SuiteSparse's CHOLMOD when it is found" ON)
-if(SPECTRAL_WITH_CHOLMOD AND NOT TARGET SuiteSparse::CHOLMOD)
-  find_package(CHOLMOD QUIET)
-endif()
-
-# Links `target`, an INTERFACE library, to CHOLMOD if it was found. It is kept out of the exported target: whoever
-# uses an installed copy may have other libraries than who installed it.
-function(spectral_link_optional_libraries target)
-  if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
-    target_link_libraries(${target} INTERFACE $<BUILD_INTERFACE:SuiteSparse::CHOLMOD>)
-    target_compile_definitions(${target} INTERFACE $<BUILD_INTERFACE:CGAL_SPECTRAL_WITH_CHOLMOD=1>)
-  endif()
-endfunction()
 
 # Should CGAL ship a header of ours one day, two different files would compete for one name. Looks for `headers`
 # (names as they are included) in the CGAL that was found; ours (an earlier installation into CGAL's own prefix)

@@ -14,7 +14,7 @@ output=$build/demo
 
 . "$root/cmake/debian_packages.sh"
 install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
-  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev
+  libboost-program-options-dev nlohmann-json3-dev
 
 prefer_ninja "$build"
 # The tests are switched off by not asking for their targets: their settings in an existing folder stay.

@@ -23,15 +23,11 @@ endfunction()
 add_test(NAME "install" COMMAND ${CMAKE_COMMAND} --install "${PROJECT_BINARY_DIR}" --prefix "${prefix}")
 set_tests_properties("install" PROPERTIES LABELS consumer FIXTURES_SETUP installed)
 
-set(solver "simplicial")
-if(SPECTRAL_WITH_CHOLMOD AND TARGET SuiteSparse::CHOLMOD)
-  set(solver "cholmod")
-endif()
 spectral_add_consumer_test("consumer-find-package" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer ${solver})
+                           "-DSpectral_mesh_simplification_ROOT=${prefix}" consumer)
 set_tests_properties("consumer-find-package" PROPERTIES FIXTURES_REQUIRED installed)
 spectral_add_consumer_test("consumer-add-subdirectory" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
-                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR};-DSPECTRAL_WITH_CHOLMOD=OFF" consumer)
+                           "-DSPECTRAL_SOURCE_DIR=${PROJECT_SOURCE_DIR}" consumer)
 
 # The examples' own CMakeLists.txt, outside of the project, with its smallest program.
 if(TARGET make_demo_shape)
@@ -42,7 +38,7 @@ if(TARGET make_demo_shape)
 
 endif()
 
-# Headers alone, without CMake and the optional libraries: the compiler, the folder include/, and the flags of the manual. What nm prints
+# Headers alone, without CMake: the compiler, the folder include/, and the flags of the manual. What nm prints
 # is that of ELF.
 if(CMAKE_NM AND NOT APPLE)
   add_test(NAME "consumer-include-folder"

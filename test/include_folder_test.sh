@@ -5,8 +5,8 @@
 #
 #   include_folder_test.sh COMPILER NM INCLUDE CONSUMER FOLDER [DIRECTORY...]
 #
-# Copies the headers, compiles the program in the folder CONSUMER behind all of them, with the copy alone, and runs it: its eigenpairs
-# are to come from Eigen's solver. Of the headers nothing may be defined twice in a program of two files, which NM tells. The directories are those of CGAL and Eigen, should
+# Copies the headers, compiles the program in the folder CONSUMER behind all of them, with the copy alone, and runs it.
+# Of the headers nothing may be defined twice in a program of two files, which NM tells. The directories are those of CGAL and Eigen, should
 # they stand elsewhere than where the compiler looks. Not optimised, to save time.
 set -eu
 compiler=$1 nm=$2 include=$3 consumer=$4 folder=$5
@@ -34,4 +34,4 @@ echo "$symbols" | grep -q ' W ' || { echo "there are no inline functions, so tha
 strong=$(echo "$symbols" | sed -n 's/^[0-9a-f]* [TDBR] //p' | grep -v '^main$\|^simplify(\|^ellipsoid(' || true)
 [ -z "$strong" ] || { echo "not inline: $strong"; exit 1; }
 "$compiler" program.o -o program -pthread -lgmp
-./program simplicial
+./program

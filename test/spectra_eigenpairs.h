@@ -6,10 +6,14 @@
 #define SPECTRAL_TEST_SPECTRA_EIGENPAIRS_H
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/Cholesky.h>
 #include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 
 #include <Eigen/Core>
+#ifdef SPECTRAL_TEST_WITH_CHOLMOD
+#include <Eigen/CholmodSupport>
+#else
+#include <Eigen/SparseCholesky>
+#endif
 #include <Spectra/SymGEigsShiftSolver.h>
 
 #include <algorithm>
@@ -58,14 +62,16 @@ public:
   void set_shift(double) {} // factorised beforehand
   void perform_op(const double* x, double* y) const
   {
-    const Eigen::Map<const Eigen::MatrixXd> rhs(x, m_size, 1);
-    Eigen::Map<Eigen::MatrixXd> result(y, m_size, 1);
-    m_cholesky.solve(rhs, result);
+    Eigen::Map<Eigen::VectorXd>(y, m_size) = m_cholesky.solve(Eigen::Map<const Eigen::VectorXd>(x, m_size));
   }
 
 private:
   Eigen::Index m_size;
-  mutable SG::internal::Cholesky m_cholesky;
+#ifdef SPECTRAL_TEST_WITH_CHOLMOD
+  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> m_cholesky;
+#else
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
+#endif
 };
 
 // K < n. It starts from one vector: copies of multiple eigenvalues can be missing.

@@ -133,10 +133,10 @@ double default_tolerance()
 std::string build_description()
 {
   std::string result = "CGAL " CGAL_VERSION_STR;
-#ifdef CGAL_SPECTRAL_WITH_CHOLMOD
-  result += ", with CHOLMOD";
+#ifdef SPECTRAL_TEST_WITH_CHOLMOD
+  result += ", Spectra with CHOLMOD";
 #else
-  result += ", without CHOLMOD";
+  result += ", Spectra with Eigen's Cholesky factorisation";
 #endif
 #ifdef __AVX2__
   result += ", for this processor (AVX2)";

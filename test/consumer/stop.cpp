@@ -9,10 +9,6 @@
 
 #include <iostream>
 
-#if CGAL_SPECTRAL_WITH_CHOLMOD
-#error "CHOLMOD was switched off"
-#endif
-
 // The smallest thing that the package has: says whether a mesh of three vertices is small enough.
 int main()
 {

@@ -28,7 +28,7 @@ struct Eigenpairs
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;
-  std::string solver; ///< "block+cholmod", "block+simplicial" or "dense"
+  std::string solver; ///< "block" or "dense"
   /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
   bool complete = false;
   /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
@@ -106,8 +106,7 @@ inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpair
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.
 ///
 /// Shift and invert: \f$(L + s B)^{-1} B \phi = \nu \phi\f$, \f$\lambda = 1/\nu - s\f$, by a Lanczos method with a Cholesky
-/// factorisation of \f$L + s B\f$: CHOLMOD's where `CGAL_SPECTRAL_WITH_CHOLMOD` is defined (link with `-lcholmod`),
-/// otherwise Eigen's. The shift \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix
+/// factorisation of \f$L + s B\f$. The shift \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix
 /// is positive definite, its condition number stays that of the wanted spectrum, and the eigenvalues next to 0 are
 /// separated as well as with a smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
 /// has the shift in that unit. Start vectors are fixed, so the result is the same in every run.

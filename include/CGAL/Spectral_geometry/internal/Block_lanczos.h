@@ -44,7 +44,7 @@ public:
     , m_tolerance(tolerance)
     , m_maximum_iterations(maximum_iterations)
     , m_maximum_vectors(maximum_vectors)
-    , m_factor(problem.shifted(-problem.shift()))
+    , m_factor(problem.shifted(-problem.shift()), threads)
     , m_mass(problem.shift() * permuted(problem.B(), m_factor.order()))
     , m_space(m_mass, threads)
     , m_W(problem.size())

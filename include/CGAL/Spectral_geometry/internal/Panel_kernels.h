@@ -158,6 +158,51 @@ CGAL_SPECTRAL_INLINE void multiply_body(const int* start, const int* column, con
   }
 }
 
+// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers, zeros beyond the `columns` of C. Rows of
+// C and A lie `c` and `a` numbers apart.
+template <class Row, int Count>
+CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns, const double* A,
+                                        std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
+                                        bool subtracted)
+{
+  Row sum[Count], t;
+  for(int q = 0; q < Count; ++q)
+    clear(sum[q]);
+  for(std::ptrdiff_t k = 0; k < count; ++k) {
+    load(t, T + k * panel_width);
+    for(int q = 0; q < Count; ++q)
+      add(sum[q], A[q * a + k], t);
+  }
+  for(int q = 0; q < Count; ++q) {
+    double* const to = C + q * c;
+    if(columns == panel_width) {
+      if(subtracted) {
+        load(t, to);
+        subtract(t, 1., sum[q]);
+        store(to, t);
+      } else
+        store(to, sum[q]);
+    } else {
+      double row[panel_width];
+      store(row, sum[q]);
+      for(int j = 0; j < columns; ++j)
+        to[j] = subtracted ? to[j] - row[j] : row[j];
+    }
+  }
+}
+
+template <class Row>
+CGAL_SPECTRAL_INLINE void multiply_block_body(double* C, std::ptrdiff_t c, int columns, const double* A,
+                                              std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
+                                              std::ptrdiff_t rows, bool subtracted)
+{
+  std::ptrdiff_t i = 0;
+  for(; i + 4 <= rows; i += 4)
+    multiply_rows<Row, 4>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
+  for(; i < rows; ++i)
+    multiply_rows<Row, 1>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
+}
+
 /// One supernode of a Cholesky factor: `width` neighbouring columns that share their row structure. `L` holds
 /// width + below rows of `width` entries; the first `width` rows are a lower triangle with the *inverse* of the diagonal.
 struct Supernode
@@ -268,6 +313,14 @@ inline void multiply(const int* start, const int* column, const double* value, c
 {
   on_vector_units([&] { multiply_body<Wide_panel_row>(start, column, value, x, y, begin, end); },
                   [&] { multiply_body<Panel_row>(start, column, value, x, y, begin, end); });
+}
+
+inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A, std::ptrdiff_t a,
+                           const double* T, std::ptrdiff_t count, std::ptrdiff_t rows, bool subtracted)
+{
+  on_vector_units(
+      [&] { multiply_block_body<Wide_panel_row>(C, c, columns, A, a, T, count, rows, subtracted); },
+      [&] { multiply_block_body<Panel_row>(C, c, columns, A, a, T, count, rows, subtracted); });
 }
 
 inline void forward(const Supernode& s, double* x)

@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RANK_ONE_TERMS_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/Cholesky.h>
+#include <CGAL/Spectral_geometry/internal/supernodal_structure.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>

@@ -5,8 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_COMPLETENESS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_COMPLETENESS_H
 
-#include <CGAL/Spectral_geometry/internal/Cholesky.h>
 #include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/Supernodal_factor.h>
 
 #include <Eigen/Core>
 

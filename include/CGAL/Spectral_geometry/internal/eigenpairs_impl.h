@@ -41,7 +41,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
     internal::Block_lanczos lanczos(problem, options.tolerance, options.maximum_iterations,
                                     options.maximum_vectors, options.threads);
     pairs = lanczos.compute(K, options.verify, result.complete);
-    result.solver = "block+" + internal::Cholesky::name();
+    result.solver = "block";
   }
   internal::clear_uncoupled_rows(problem, pairs);
   internal::fix_signs(pairs.vectors);

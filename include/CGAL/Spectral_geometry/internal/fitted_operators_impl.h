@@ -8,8 +8,8 @@
 #include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
-#include <CGAL/Spectral_geometry/internal/Cholesky.h>
 #include <CGAL/Spectral_geometry/internal/Rank_one_terms.h>
+#include <CGAL/Spectral_geometry/internal/Supernodal_factor.h>
 #include <CGAL/Spectral_geometry/internal/Tall_products.h>
 #include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/connected_components.h>
@@ -419,18 +419,17 @@ private:
       Sparse_matrix M = (m_options.plain + 0.1) * m_H;
       M.diagonal() += m_tie + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
       if(m_cholesky)
-        m_cholesky->refactorise(M);
+        m_cholesky->factorise(M, m_options.threads);
       else
-        m_cholesky = std::make_unique<Cholesky>(M, true);
-      m_solved_total.resize(r.size());
-      m_cholesky->solve(m_total, m_solved_total);
+        m_cholesky = std::make_unique<Supernodal_factor>(M, m_options.threads);
+      m_solved_total = m_cholesky->solve(m_total, m_options.threads);
       // one term for each component, and none in common
       m_rank_one = penalty * (m_share + penalty * totals(m_solved_total)).cwiseInverse();
     }
     dx = Qdx = Vector::Zero(r.size());
     double first = 0., last = 0.;
     for(m_steps = 0; m_steps < 20; ++m_steps) {
-      m_cholesky->solve(r, y);
+      y = m_cholesky->solve(r, m_options.threads);
       y -= m_solved_total.cwiseProduct(spread(m_rank_one.cwiseProduct(totals(y))));
       const double next = r.dot(y);
       if(m_steps == 0)
@@ -469,14 +468,42 @@ private:
   std::vector<Index> m_component; // of each unknown
   Rank_one_terms m_stiffness, m_mass;
   Sparse_matrix m_H;
-  std::unique_ptr<Cholesky> m_cholesky; // of a recent preconditioner
-  Vector m_solved_total;                // its solution for m_total
+  std::unique_ptr<Supernodal_factor> m_cholesky; // of a recent preconditioner
+  Vector m_solved_total;                         // its solution for m_total
   Vector m_rank_one;
   int m_steps = 1000; // of conjugate gradients, the last time
   struct Nothing
   {};
   Thread_pool<Nothing> m_pool;
 };
+
+// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones has of each of these what its neighbours say: row v
+// of L g = lambda B g. That is used in place of what P reads there, which may be another sheet, as in a pocket of the surface: its entries
+// would be fitted to that, and its mode come down among the fitted ones.
+inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
+                                   Eigen::MatrixXd& G)
+{
+  const double area = own.mass.sum(), remote = 8. * lambda.maxCoeff();
+  std::vector<Eigen::Index> vertices;
+  for(Eigen::Index v = 0; v < own.mass.size(); ++v)
+    if(own.L.coeff(v, v) * area > remote * own.mass(v))
+      vertices.push_back(v);
+  for(int sweep = 0; sweep < 10; ++sweep)
+    for(const Eigen::Index v : vertices) {
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(lambda.size()), factor = sum;
+      for(const auto* A : {&own.L, &own.B})
+        for(Eigen::SparseMatrix<double>::InnerIterator it(*A, v); it; ++it) {
+          const Eigen::RowVectorXd entry =
+              A == &own.L ? Eigen::RowVectorXd::Constant(lambda.size(), it.value()).eval()
+                          : (-it.value() / area * lambda.transpose()).eval();
+          if(it.row() == v)
+            factor += entry;
+          else
+            sum -= entry.cwiseProduct(G.row(it.row()));
+        }
+      G.row(v) = sum.cwiseQuotient(factor);
+    }
+}
 
 inline void require_of_operator_fit(bool condition, const std::string& sentence)
 {
@@ -554,13 +581,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
   internal::check_operator_fit_options(options);
   internal::check_operator_fit(coarse, P, fine, fine_pairs);
   const double area = fine.mass.sum();
-  const Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
+  const Eigen::VectorXd lambda = area * fine_pairs.values.cwiseMax(0.);
+  Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
+  internal::settle_remote_vertices(coarse, lambda, G);
   Operator_fit_result result;
   try {
-    result = internal::Operator_fit(coarse, G, area * fine_pairs.values.cwiseMax(0.), options).run();
+    result = internal::Operator_fit(coarse, G, lambda, options).run();
   } catch(const Cancelled&) {
     throw;
-  } catch(const std::runtime_error&) { // of Cholesky, whose sentence is that of the eigensolvers
+  } catch(const std::runtime_error&) { // of the factorisation, whose sentence is that of the eigensolvers
     throw std::runtime_error(
         "operator fit: the preconditioner could not be factorised; look for needle faces in the "
         "coarse mesh, or raise Operator_fit_options::tie.");

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_COLUMN_GROUPS_H
-#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_COLUMN_GROUPS_H
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SUPERNODAL_STRUCTURE_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SUPERNODAL_STRUCTURE_H
 
 #include <Eigen/Core>
 #include <Eigen/OrderingMethods>
@@ -82,6 +82,23 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
   return result;
 }
 
+// The number of entries of each column of the Cholesky factor, the diagonal included: row k of the factor has those that the way up the
+// tree from an entry of row k of A meets.
+inline std::vector<int> column_counts(const Sparse_matrix& A, const std::vector<int>& parent)
+{
+  const int n = static_cast<int>(A.cols());
+  std::vector<int> count(n, 1), met_by(n, -1);
+  for(int k = 0; k < n; ++k) {
+    met_by[k] = k;
+    for(Sparse_matrix::InnerIterator it(A, k); it && it.row() < k; ++it)
+      for(int j = static_cast<int>(it.row()); met_by[j] != k; j = parent[j]) {
+        ++count[j];
+        met_by[j] = k;
+      }
+  }
+  return count;
+}
+
 // Neighbouring columns of a factor that are stored with one row structure.
 struct Column_group
 {
@@ -102,21 +119,18 @@ inline bool merge_groups(Column_group& child, const Column_group& group)
   return true;
 }
 
-inline std::vector<Column_group> group_columns(const Sparse_matrix& L)
+inline std::vector<Column_group> group_columns(const Sparse_matrix& A)
 {
-  const int n = static_cast<int>(L.cols());
-  const int* start = L.outerIndexPtr();
-  const auto below = [&](int j) { return start[j + 1] - start[j] - 1; };
-  const auto parent = [&](int j) { return below(j) > 0 ? L.innerIndexPtr()[start[j] + 1] : -1; };
-
+  const std::vector<int> parent = elimination_tree(A), count = column_counts(A, parent);
+  const int n = static_cast<int>(A.cols());
   std::vector<Column_group> groups;
   for(int j = 0; j < n;) {
-    Column_group group{j, 1, below(j), 0.};
-    for(++j; j < n && parent(j - 1) == j && below(j) + 1 == group.below; ++j) { // the very same structure
+    Column_group group{j, 1, count[j] - 1, 0.};
+    for(++j; j < n && parent[j - 1] == j && count[j] == group.below; ++j) { // the very same structure
       ++group.width;
-      group.below = below(j);
+      group.below = count[j] - 1;
     }
-    while(!groups.empty() && parent(group.first - 1) == group.first && merge_groups(groups.back(), group)) {
+    while(!groups.empty() && parent[group.first - 1] == group.first && merge_groups(groups.back(), group)) {
       group = groups.back();
       groups.pop_back();
     }
@@ -129,4 +143,4 @@ inline std::vector<Column_group> group_columns(const Sparse_matrix& L)
 } // namespace Spectral_geometry
 } // namespace CGAL
 
-#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_COLUMN_GROUPS_H
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SUPERNODAL_STRUCTURE_H
