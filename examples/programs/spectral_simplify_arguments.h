@@ -181,14 +181,13 @@ inline Command_line described(Arguments& a)
               "write {fine,coarse}_{eigenvalues,eigenvectors}.npy, {fine,coarse}_{L,mass}.mtx and C.npy, all "
               "at the scale of the meshes as they are");
   line.option("fit-operators", a.fit_operators, "DIR",
-              "choose the entries of a Laplacian and a mass on OUTPUT's edges so that they have INPUT's "
+              "choose the entries of a Laplacian and a mass on OUTPUT's vertices so that they have INPUT's "
               "spectrum as nearly as they can, and write L.mtx, mass.mtx, eigenvalues.npy and "
               "eigenvectors.npy: for functional maps and spectral distances");
   line.choice("fit-mass", a.fit_mass, {"diagonal", "edges"},
               "where the fitted mass has entries (lumped mass: diagonal, averaged: edges)");
   line.option("fit-rings", a.fit_rings, "1|2",
-              "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings (mass on edges: 1, "
-              "diagonal: 2)");
+              "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings (2)");
   line.choice("on-interrupt", a.on_interrupt, {"discard", "write"},
               "what Ctrl-C does once vertices have been removed: write nothing, or what there is, without "
               "evaluation; a second Ctrl-C ends the program at once");

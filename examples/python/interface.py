@@ -173,7 +173,7 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
     eigenpairs of the fine mesh, a fifth more than are to be judged
     k          how many eigenpairs of the fitted operators are computed; as many as eigenpairs are
     mass       'diagonal' (lumped mass) or 'edges' (averaged mass): where M has entries
-    rings      1, the edges (mass on edges), or 2, two rings (diagonal mass): where L has entries
+    rings      where L has entries: 1, the edges, or 2, two rings, the default
     low_modes  e: mode k has the weight (lambda_k + 4 pi)^-e; more is for distances, less for C_L
     orthonormality
                weight of orthonormality; more lowers C_D and raises C_L

@@ -31,8 +31,9 @@ struct Operator_fit_options
     edges     ///< on the edges of the mesh as well
   };
   Mass_pattern mass = Mass_pattern::edges; ///< the choice among them
-  /// Where the Laplacian has entries: 1, the edges of the mesh; 2, the pattern of L L, about 19 entries per row.
-  int rings = 1;
+  /// Where the Laplacian has entries: 2, the pattern of L L, about 19 entries per row; 1, the edges of the mesh alone, where \f$ \|C\|_D \f$
+  /// gains nothing: what a single ring adds for high modes it takes from the eigenvalues of low ones.
+  int rings = 2;
   /// e: the residual of signal k has the weight \f$ (\lambda_k + 4 \pi)^{-e} \f$. More is for distances and signatures, which
   /// live on the lowest modes, less for the functional map: with 1 in place of 2.5 \f$ \|C\|_L \f$ is 0.85 times as large, and
   /// errors of biharmonic distances are 1.8 times as large. From 0 to 20.
@@ -61,15 +62,11 @@ struct Operator_fit_options
   /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns false to cancel.
   std::function<bool(double)> progress;
 
-  /// For a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges, with one ring; where it is lumped on the
-  /// diagonal, with two rings, as on one it is at the expense of the low modes.
+  /// For a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges, where it is lumped on the diagonal.
   static Operator_fit_options for_mass(double theta)
   {
     Operator_fit_options options;
-    if(theta == 0.) {
-      options.mass = Mass_pattern::diagonal;
-      options.rings = 2;
-    }
+    options.mass = theta == 0. ? Mass_pattern::diagonal : Mass_pattern::edges;
     return options;
   }
 };
@@ -95,7 +92,8 @@ as the sparsity allows: for functional maps, spectral distances and signatures, 
 triangles. The result goes to `eigenpairs()`, `evaluate_spectrum()` and whatever takes an operator. It is not for what needs
 the cotangents or the areas of the actual triangles.
 
-With \f$ G = P \Phi \f$, all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
+With \f$ G = P \Phi \f$ (but for vertices whose own mode \f$ L_{vv} / M_v \f$ is more than eight times the highest fitted eigenvalue: there row v
+of \f$ L g = \lambda B g \f$ holds), all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
 it minimises
 \f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
    + \frac{\tau}{N} \sum_a \left( \frac{x_a - x_a^0}{x_a^0 + s_a} \right)^2 \f]
