@@ -89,7 +89,7 @@ inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& 
   return done;
 }
 
-// The largest difference of fast and slow cost, and of that from whole rows, over some edges of each kind, at points on and off the edge.
+// The largest difference of fast and slow cost, and of the change whatever arises, over some edges of each kind, at points on and off the edge.
 struct Comparison
 {
   double worst = 0;

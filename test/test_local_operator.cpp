@@ -390,7 +390,7 @@ TEST_CASE("With any operator the local cost of a collapse is the change of the g
                Kind_of_operator::anisotropic_voronoi, Kind_of_operator::dirichlet);
   const bool bordered = GENERATE(false, true);
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
-  const std::size_t largest_ring = GENERATE(256, 5); // with inner products, and by whole rows
+  const std::size_t largest_ring = GENERATE(256, 5); // without hubs, and with
   const bool by_name = kind == Kind_of_operator::voronoi || kind == Kind_of_operator::anisotropic_voronoi;
   if(by_name && mass == SG::Mass::averaged)
     return; // Voronoi is a mass itself
@@ -400,7 +400,7 @@ TEST_CASE("With any operator the local cost of a collapse is the change of the g
   const Basis basis = eigenbasis(input, operator_on(input.V, kind, mass), 10);
   Slow_mesh mesh(input, basis);
   Parameters parameters;
-  parameters.largest_degree_with_products = largest_ring;
+  parameters.largest_degree_of_others = largest_ring;
   Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
   std::mt19937 random(7);
   CHECK(core.total() < 1e-12 * basis.Z.squaredNorm());

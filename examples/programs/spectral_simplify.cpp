@@ -197,7 +197,7 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
 {
   const std::size_t n = num_vertices(mesh);
   const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
-  const double needed = SMS::estimated_memory(mesh, K, options), available = available_memory();
+  const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
   if(available > 0 && needed > available)
     throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " + std::to_string(K) +
                              " eigenvectors takes about " + formatted_memory(needed) +

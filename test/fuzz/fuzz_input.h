@@ -73,10 +73,10 @@ inline shapes::Matrices any_triangles(Bytes& bytes)
   return mesh;
 }
 
-// Now and then so many neighbours that costs come from whole rows.
+// Now and then a hub.
 inline int high_degree(Bytes& bytes)
 {
-  const int limit = int(SMS::internal::Spectral_fields().largest_degree_with_products);
+  const int limit = int(SMS::internal::Spectral_fields().largest_degree_of_others);
   return bytes.one_in(8) ? limit - 2 + bytes.below(12) : 3 + bytes.below(40);
 }
 

@@ -8,10 +8,7 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_shape_term.h>
-
-#include <CGAL/boost/graph/helpers.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
@@ -20,7 +17,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
@@ -57,8 +53,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
  * vertex of the input that does not depend on K. What `quadrics_above` saves in the loop is not subtracted.
  *
- * The shape term keeps a quadric for each vertex, `Spectral_options::keep_free_of_self_intersections` a tree of boxes. Fans are not
- * known here: where a mesh has many, use the form that takes it.
+ * The shape term keeps a quadric for each vertex, `Spectral_options::keep_free_of_self_intersections` a tree of boxes.
  *
  * @param number_of_vertices n of the input
  * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs are given
@@ -74,7 +69,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const double K = double(number_of_eigenvectors);
   const bool solves = options.signals.size() == 0 && !options.eigenpairs;
 
-  // Bytes per vertex: rings, inner products, candidates and CGAL's queue; the first stage.
+  // Bytes per vertex: rings, candidates and CGAL's queue; the first stage.
   const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;
   double loop = 1900;
   if(options.shape > 0)
@@ -92,26 +87,6 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
       5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
   return input * internal::bytes_of_mesh + coefficients +
          (reduced ? (std::max)(input * first_stage, both) : both);
-}
-
-/// The same for a mesh, with what its fans take: inner products quadratic in the number of neighbours, up to 256 of them, above which
-/// none are kept. Fans that collapses make are not foreseen. With `pre_simplify` it is an upper bound.
-template <class TriangleMesh, std::enable_if_t<!std::is_arithmetic<TriangleMesh>::value, int> = 0>
-double estimated_memory(const TriangleMesh& mesh, const Eigen::Index number_of_eigenvectors,
-                        const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
-{
-  const bool full = Spectral_geometry::mass_blend(options.mass) != 0;
-  const auto products = [full](const double d) { return 8 * ((full ? 3 : 2) * d * d + 3 * d); };
-  const std::size_t largest = internal::Spectral_fields().largest_degree_with_products;
-  std::size_t number_of_vertices = 0;
-  double fans = 0;
-  for(const auto v : vertices(mesh)) {
-    ++number_of_vertices;
-    const std::size_t d = degree(v, mesh);
-    if(d > 12 && d <= largest) // up to 12 they are in the constants
-      fans += products(double(d));
-  }
-  return estimated_memory(number_of_vertices, number_of_eigenvectors, options) + fans;
 }
 
 /*!

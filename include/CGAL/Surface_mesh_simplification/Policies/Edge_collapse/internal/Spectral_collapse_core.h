@@ -35,7 +35,6 @@ namespace internal {
 
 class Spectral_collapse_kernel;
 class Spectral_placement_search;
-class Spectral_ring_products;
 struct Spectral_row_entry;
 struct Spectral_weighted_shape;
 
@@ -197,9 +196,8 @@ private:
   void follow_around(const Spectral_slot removed, const Spectral_slot kept);
 
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
-  // accumulates, so E cannot drift. f changed at `kept` alone: the products in its ring are computed afresh, in those of
-  // its neighbours what f of `kept` or R of the centre is in. The rings around them hold neither.
-  void refresh_around(const Spectral_slot removed, const Spectral_slot kept);
+  // accumulates, so E cannot drift.
+  void refresh_around(const Spectral_slot kept);
 
   Spectral_slot kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const;
 
@@ -222,8 +220,6 @@ private:
   Spectral_crossing_guard m_crossing;
   std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;
-  std::vector<Spectral_ring_products> m_products;
-  std::vector<std::size_t> m_lost; // by the neighbours of the last kept vertex, see Spectral_rings::follow()
   std::vector<Edge> m_batch;
 
   Sum m_total;

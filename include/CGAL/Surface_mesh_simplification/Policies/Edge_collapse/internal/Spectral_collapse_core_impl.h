@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_placement_search.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_ring_products.h>
 
 #include <Eigen/Core>
 
@@ -32,7 +31,6 @@ namespace internal {
 struct alignas(cache_line) Spectral_collapse_core::Workspace
 {
   Spectral_collapse_kernel kernel;
-  Spectral_ring_product_builder builder;
   std::vector<Spectral_row_entry> row;
 };
 
@@ -86,7 +84,7 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
     m_fields.coefficients.push_back(c.row(v).transpose());
   m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
   m_fields.area_scale = area_scale;
-  m_fields.largest_degree_with_products = parameters.largest_degree_with_products;
+  m_fields.largest_degree_of_others = parameters.largest_degree_of_others;
   m_parameters = parameters;
   m_surface_scale = 0;
   m_fields.vanishing.clear();
@@ -137,22 +135,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_fields.R.assign(n, m_number_of_signals);
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
-  m_products.resize(std::size_t(n));
   m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
     m_fields.rings.find_back(Spectral_slot(w));
     m_fields.rings.update_triangles(Spectral_slot(w), triangle_in(m_fields));
     update_row(Spectral_slot(w), workspace.row);
-    if(m_fields.has_products(Spectral_slot(w)))
-      workspace.builder.compute(m_fields, Spectral_slot(w), m_products[w]);
-    else
-      m_products[w].clear();
   });
-  m_number_of_vertices = m_fields.largest_degree = 0;
-  for(std::size_t w = 0; w < std::size_t(n); ++w) {
-    const std::size_t degree = m_fields.rings[Spectral_slot(w)].size();
-    m_number_of_vertices += degree == 0 ? 0 : 1;
-    m_fields.largest_degree = (std::max)(m_fields.largest_degree, degree);
-  }
+  m_number_of_vertices = 0;
+  for(std::size_t w = 0; w < std::size_t(n); ++w)
+    m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
   if(m_parameters.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
@@ -189,7 +179,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
     std::swap(u, v);
   Spectral_candidate result;
   result.other = v;
-  if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
     return result;
   set_candidate(result, search().best(u, v, kernel, bound));
   result.deferred = result.collapsible && result.cost > bound;
@@ -201,11 +191,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
 {
   if(v < u)
     std::swap(u, v);
-  if(m_parameters.exact_costs || (m_fields.has_products(u) && m_fields.has_products(v)))
+  if(m_parameters.exact_costs || (!m_fields.is_hub(u) && !m_fields.is_hub(v)))
     return evaluate(u, v, kernel, bound);
   Spectral_candidate result;
   result.other = v;
-  if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
     return result;
   set_candidate(result, search().at_large_end(u, v, kernel));
   result.deferred = result.collapsible;
@@ -241,7 +231,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double
 Spectral_collapse_core::cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
 {
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
     return std::numeric_limits<double>::infinity();
   ++m_number_of_evaluations;
   Spectral_sample sample;
@@ -311,14 +301,13 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
-  m_fields.largest_degree = (std::max)(m_fields.largest_degree, ring.size());
   m_fields.rings.merge(removed, kept, std::move(ring));
   m_fields.rings.update_triangles(kept, triangle_in(m_fields));
   m_candidates.merge(removed);
   follow_around(removed, kept);
   if(m_crossing.is_active())
     m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
-  refresh_around(removed, kept);
+  refresh_around(kept);
   const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
   m_recent_cost = (std::max)(loss + shape_cost, m_recent_cost * recent_cost_decay);
 }
@@ -343,7 +332,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
   Spectral_candidate result;
   result.other = v;
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(kernel.prepare(m_fields, m_products, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
     return result;
   set_candidate(result, search().best_on_edge(u, v, kernel, [&](const Eigen::Vector3d& point) {
     return !crosses(u, v, point);
@@ -372,14 +361,20 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   for(std::size_t i = 0; i < ring.size(); ++i) {
     const Spectral_triangle &after = ring[i].triangle, &before = ring[Spectral_rings::prev(ring, i)].triangle;
     const double cot = (after.cot_second + before.cot_first) / 2;
-    row.push_back(
-        Spectral_row_entry{ring[i].vertex, cot,
-                           (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()});
+    row.push_back(Spectral_row_entry{
+        ring[i].vertex, Spectral_lanes{cot},
+        Spectral_lanes{(after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()}});
     to_self -= cot;
     area += m_fields.area_of_center(after) * m_fields.area_scale;
   }
-  row.push_back(Spectral_row_entry{w, to_self, area * m_fields.diagonal_share()});
-  const double square = spectral_combine_rows(m_fields, row, m_fields.R[w]);
+  row.push_back(
+      Spectral_row_entry{w, Spectral_lanes{to_self}, Spectral_lanes{area * m_fields.diagonal_share()}});
+  double square = 0;
+  Spectral_geometry::internal::on_vector_units([&] {
+    const Spectral_row_entry *const first = row.data(), *const end = first + row.size();
+    spectral_combine_rows<1>(m_fields, first, m_fields.theta == 0 ? end - 1 : first, end, nullptr,
+                             m_fields.R[w], &square);
+  });
   m_fields.mass[w] = area / 3;
   m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
 }
@@ -388,37 +383,20 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow_around(const S
                                                                          const Spectral_slot kept)
 {
   Spectral_rings& rings = m_fields.rings;
-  m_lost.resize(rings[kept].size());
   for(std::size_t i = 0; i < rings[kept].size(); ++i) {
     const Spectral_slot w = rings[kept][i].vertex;
-    m_lost[i] = rings.follow(removed, kept, i);
-    if(m_lost[i] != Spectral_rings::none)
-      rings.link_back(w, m_lost[i]);
+    rings.follow(removed, kept, i);
     m_candidates.forget(w, removed);
   }
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot removed,
-                                                                          const Spectral_slot kept)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot kept)
 {
   const std::size_t n = m_fields.rings[kept].size() + 1;
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(-m_fields.E[kept_or_neighbor(kept, i)]);
-  m_products[kept].take_memory(m_products[removed]);
   m_pool->for_each(n, 1, [this, kept](const std::size_t i, Workspace& workspace) {
-    const Spectral_slot c = kept_or_neighbor(kept, i);
-    const Spectral_rings& rings = m_fields.rings;
-    update_row(c, workspace.row);
-    if(!m_fields.has_products(c)) {
-      m_products[c].clear();
-      return;
-    }
-    if(i != 0 && m_lost[i - 1] != Spectral_rings::none && m_products[c].degree() == rings[c].size() + 1)
-      m_products[c].erase(m_lost[i - 1]);
-    if(i == 0 || rings[c].size() != m_products[c].degree())
-      workspace.builder.compute(m_fields, c, m_products[c]);
-    else
-      workspace.builder.update(m_fields, c, m_products[c], rings[kept][i - 1].back);
+    update_row(kept_or_neighbor(kept, i), workspace.row);
   });
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(m_fields.E[kept_or_neighbor(kept, i)]);

@@ -7,19 +7,15 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_change.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_link.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_merged_row.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_ring_products.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_residual_row.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
 
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -41,12 +37,16 @@ struct Spectral_sample
  * The local cost of collapsing one edge: cost = sum over H of E_w after - sum over H of E_w before,
  * where H is the merged vertex and its link (section 3.3 of the paper).
  *
- * For a vertex w of the link only the triangles around u and v change, so R_w after is R_w plus a
- * combination of z_w and of four differences of rows of F (and, with a mass that has off-diagonal entries, of the
- * rows of Z of the same vertices). Its square is a quadratic form in the coefficients, whose matrix is gathered from
- * `Spectral_ring_products`. The coefficients of up to four samples are computed side by side. Where a triangle that goes
- * has such cotangents that their squares leave nothing but rounding, and where a ring is too large to keep its products,
- * `Spectral_change` takes the place of all that.
+ *        a0 ---- s ---- b2         The rings of u and v run counterclockwise; s and t see both ends, the a_i see u alone, the
+ *       / \    / \    / \          b_i see v alone.
+ *     a1 --- u --- v --- b1        goes:      (u v s) and (v u t), the triangles of the edge
+ *       \ /    \ /    \ /          changes:   (u; a0 a1), (v; b1 b2), ... become (x; ., .), the outer triangles
+ *        .  --- t ---- .           H = {x} + link, whose E_w a collapse changes
+ *
+ * The row of x is summed anew. For a vertex w of the link R_w after is R_w plus what its triangles around u and v give after and gave
+ * before: a combination of a few rows of F and Z, however many neighbours w has. Where a vertex of many neighbours stays where it is with
+ * its values, so is its own row, and of its neighbours only those change that the other end shares. Up to four samples are combined
+ * side by side.
  *
  * The object holds the scratch memory of one thread; it allocates only while a larger ring than any
  * before comes along.
@@ -56,441 +56,390 @@ class Spectral_collapse_kernel
 public:
   static constexpr int max_samples = 4;
 
-  using Topology = Spectral_link::Topology;
+  enum class Topology { collapsible, link_condition, both_on_border };
 
-  /// Collects the neighbourhood of (u,v) as it is. Unless the answer is `collapsible`, CGAL's loop would
-  /// refuse the edge until something near changes, and nothing may be evaluated.
-  Topology prepare(const Spectral_fields& fields, const std::vector<Spectral_ring_products>& products,
-                   const Spectral_slot u, const Spectral_slot v)
+  /// Sets the edge. CGAL's link condition, and its refusal of inner edges between border vertices: both depend only on the rings of
+  /// u and v, and whenever those change CGAL costs the edge again. Unless the answer is `collapsible` nothing may be evaluated.
+  /// In time linear in the smaller ring, but for the border of the larger one.
+  Topology prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
   {
     m_fields = &fields;
-    m_products = products.data();
-    const Topology topology = m_link.set_edge(fields, u, v);
-    m_by_rows = topology == Topology::collapsible && !m_link.has_products(fields);
-    if(topology == Topology::collapsible && !m_by_rows)
-      Spectral_geometry::internal::on_vector_units([&] { prepare_body(products); });
-    return topology;
+    const Spectral_rings& rings = fields.rings;
+    const bool small_u = rings[u].size() <= rings[v].size();
+    const Spectral_slot c = small_u ? u : v, o = small_u ? v : u;
+    const Spectral_ring& ring = rings[c];
+    const std::size_t o_in_c = rings.find(c, o);
+    CGAL_assertion(o_in_c < ring.size());
+    m_end[0] = u;
+    m_end[1] = v;
+    m_other_in[small_u ? 0 : 1] = o_in_c;
+    m_other_in[small_u ? 1 : 0] = ring[o_in_c].back;
+    const std::size_t before = Spectral_rings::prev(ring, o_in_c), after = Spectral_rings::next(ring, o_in_c);
+    for(std::size_t j = 0; j < ring.size(); ++j) {
+      const bool shares_face = (j == after && ring[o_in_c].face) || (j == before && ring[before].face);
+      if(j != o_in_c && !shares_face && rings.are_adjacent(o, ring[j].vertex))
+        return Topology::link_condition;
+    }
+    if(ring[o_in_c].face && ring[before].face && rings.is_border(c) && rings.is_border(o))
+      return Topology::both_on_border;
+    return Topology::collapsible;
   }
 
   /// Fills `cost` of up to four samples; infinity where a triangle without area would arise.
   void evaluate(Spectral_sample* samples, const int count)
   {
     CGAL_precondition(count >= 1 && count <= max_samples);
-    if(m_by_rows) {
-      for(int s = 0; s < count; ++s)
-        samples[s].cost =
-            m_change.cost(*m_fields, m_link.u(), m_link.v(), samples[s].weight, samples[s].point);
-      return;
-    }
-    Spectral_geometry::internal::on_vector_units([&] { evaluate_body(samples, count); });
-    if(m_link.roughness() > rough_cotangent)
-      correct(samples, count);
+    Spectral_geometry::internal::on_vector_units([&] {
+      if(m_fields->theta == 0)
+        evaluate_body<false>(samples, count);
+      else
+        evaluate_body<true>(samples, count);
+    });
+    for(int s = 0; s < count; ++s)
+      samples[s].cost = m_invalid[s] != 0 || !std::isfinite(m_change[s])
+                            ? std::numeric_limits<double>::infinity()
+                            : m_change[s];
   }
 
-  /// The change of E to rounding, whatever the cotangents are, of any edge: see `Spectral_change`. Needs no prepare().
+  /// The change of E that a collapse makes, whatever triangles arise. Needs no prepare().
   double change(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
                 const double weight, const Eigen::Vector3d& point)
   {
-    return m_change(fields, u, v, weight, point);
+    prepare(fields, u, v);
+    Spectral_sample sample;
+    sample.point = point;
+    sample.weight = weight;
+    evaluate(&sample, 1);
+    return m_change[0];
   }
 
 private:
   using Lanes = Spectral_lanes;
-  using Ring = Spectral_ring_products::View;
+  using Entry = Spectral_row_entry;
+  using Slot = Spectral_slot;
 
-  // The vectors that R_w after is a combination of. For w next to one end c of the edge, with the other end o:
-  // f_c - f_w and f_o - f_c; for w next to both: f_u - f_w and f_v - f_w. Then the two neighbours along the link. The
-  // rows of Z are those of w, of c and o (or u and v), and of the same neighbours.
-  enum Column {
-    residual,
-    z_self,
-    g_near,
-    g_far,
-    g_first,
-    g_second,
-    z_near,
-    z_far,
-    z_first,
-    z_second,
-    columns
+  // A `Spectral_triangle` for each sample.
+  struct Triangles
+  {
+    Lanes cot_center, cot_first, cot_second, area;
+
+    CGAL_SPECTRAL_INLINE void set(const int s, const Spectral_triangle& t)
+    {
+      cot_center[s] = t.cot_center;
+      cot_first[s] = t.cot_first;
+      cot_second[s] = t.cot_second;
+      area[s] = t.area;
+    }
   };
-  static constexpr int lumped_columns = z_near;
-  static constexpr int number_of_coefficients = 7;
 
-  // The matrix of the quadratic form of one vertex of the link: inner products of its columns, upper triangle.
-  struct Gram
-  {
-    double at[columns][columns];
-    double* operator[](const int i) { return at[i]; }
-    const double* operator[](const int i) const { return at[i]; }
-  };
-  using Link_vertex = Spectral_link_vertex;
+  const Spectral_ring& ring(const int end) const { return m_fields->rings[m_end[end]]; }
 
-  CGAL_SPECTRAL_INLINE void prepare_body(const std::vector<Spectral_ring_products>& products)
+  // Whether what lies around an end is left as it is, but for what the other end shares.
+  bool is_left(const int end) const { return end == m_left; }
+
+  // Whether the i-th triangle around an end survives the collapse.
+  bool is_outer(const int end, const std::size_t i) const
   {
-    m_link.collect(*m_fields, products);
-    const std::size_t n = m_link.size();
-    if(m_gram.size() < n) {
-      m_gram.resize(n);
-      m_new.resize(n);
-    }
-    const Ring of_u = m_products[m_link.u()].view(), of_v = m_products[m_link.v()].view();
-    for(std::size_t i = 0; i < n; ++i)
-      gather_gram(m_link[i], of_u, of_v, m_gram[i]);
-    multiply_far_residuals();
-    m_merged.prepare(*m_fields, m_link, of_u, of_v);
+    const std::size_t o = m_other_in[end];
+    return ring(end)[i].face && i != o && Spectral_rings::next(ring(end), i) != o;
   }
 
-  // The square of 1e5, times the rounding of doubles, is 1e-6, of costs that matter from about 1e-3.
-  static constexpr double rough_cotangent = 1e5;
-  void correct(Spectral_sample* samples, const int count)
+  // `Full`: with a mass that has off-diagonal entries.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void evaluate_body(const Spectral_sample* samples, const int count)
   {
-    for(int s = 0; s < count; ++s)
-      if(std::isfinite(samples[s].cost))
-        samples[s].cost = m_change(*m_fields, m_link.u(), m_link.v(), samples[s].weight, samples[s].point);
-  }
-
-  CGAL_SPECTRAL_INLINE void gather_gram(const Link_vertex& w, const Ring& of_u, const Ring& of_v,
-                                        Gram& gram) const
-  {
-    const Ring own = m_products[w.slot].view();
-    gram[residual][residual] = m_fields->E[w.slot] * w.mass;
-    if(w.ends == next_to_u_and_v)
-      gather_own<true>(w, own, w.u_in, w.v_in, gram);
-    else if(w.ends == next_to_u) {
-      gather_own<false>(w, own, w.u_in, own.d, gram);
-      gather_far(w, of_u, w.in_u, m_link.v_in_u(), gram);
-    } else {
-      gather_own<false>(w, own, w.v_in, own.d, gram);
-      gather_far(w, of_v, w.in_v, m_link.u_in_v(), gram);
-    }
-  }
-
-  // Products among the differences and the rows of Z at ring indices near, far and those of the two neighbours in the
-  // ring of w; with the far one only if `Far`.
-  template <bool Far>
-  CGAL_SPECTRAL_INLINE void gather_own(const Link_vertex& w, const Ring& own, const std::size_t near,
-                                       const std::size_t far, Gram& gram) const
-  {
-    const std::size_t first = w.neighbor_in[0], second = w.neighbor_in[1], d = own.d;
-    const bool full = m_fields->theta != 0;
-    const double *const z = own.z_g(d), *const zz = own.z(d);
-    gram[residual][z_self] = own.rz[full ? d : 0];
-    gram[z_self][z_self] = zz[d];
-    const double* g = own.g(near);
-    gram[residual][g_near] = own.rg[near];
-    gram[z_self][g_near] = z[near];
-    gram[g_near][g_near] = g[near];
-    gram[g_near][g_first] = g[first];
-    gram[g_near][g_second] = g[second];
-    if(Far) {
-      gram[g_near][g_far] = g[far];
-      g = own.g(far);
-      gram[residual][g_far] = own.rg[far];
-      gram[z_self][g_far] = z[far];
-      gram[g_far][g_far] = g[far];
-      gram[g_far][g_first] = g[first];
-      gram[g_far][g_second] = g[second];
-    }
-    g = own.g(first);
-    gram[residual][g_first] = own.rg[first];
-    gram[z_self][g_first] = z[first];
-    gram[g_first][g_first] = g[first];
-    gram[g_first][g_second] = g[second];
-    gram[residual][g_second] = own.rg[second];
-    gram[z_self][g_second] = z[second];
-    gram[g_second][g_second] = own.g(second)[second];
-    if(!full)
-      return;
-    const std::size_t in[4] = {near, far, first, second};
-    for(int j = 0; j < 4; ++j) {
-      if(!Far && j == 1)
-        continue;
-      const double *const row_g = own.z_g(in[j]), *const row_z = own.z(in[j]);
-      gram[residual][z_near + j] = own.rz[in[j]];
-      gram[z_self][z_near + j] = zz[in[j]];
-      gram[g_near][z_near + j] = row_g[near];
-      if(Far)
-        gram[g_far][z_near + j] = row_g[far];
-      gram[g_first][z_near + j] = row_g[first];
-      gram[g_second][z_near + j] = row_g[second];
-      for(int i = 0; i <= j; ++i)
-        gram[z_near + i][z_near + j] = row_z[in[i]];
-    }
-  }
-
-  // The far end o is not in the ring of w, but both are in that of the near end c: e = f_o - f_c is one of
-  // its differences, and f_i - f_w = (f_i - f_c) - (f_w - f_c). `self` and `o` are the indices of w and o there.
-  CGAL_SPECTRAL_INLINE void gather_far(const Link_vertex& w, const Ring& near, const std::size_t self,
-                                       const std::size_t o, Gram& gram) const
-  {
-    const std::size_t first = w.neighbor_near[0], second = w.neighbor_near[1];
-    const double* const e = near.g(o);
-    gram[z_self][g_far] = near.z_g(self)[o];
-    gram[g_far][g_far] = e[o];
-    gram[g_near][g_far] = -e[self];
-    gram[g_far][g_first] = e[first] - e[self];
-    gram[g_far][g_second] = e[second] - e[self];
-    if(m_fields->theta == 0)
-      return;
-    const std::size_t in[4] = {near.d, o, first, second};
-    const double *const z_o = near.z_g(o), *const zz_o = near.z(o);
-    for(int j = 0; j < 4; ++j) {
-      gram[g_far][z_near + j] = near.z_g(in[j])[o];
-      if(j != 1)
-        gram[(std::min)(z_near + j, int(z_far))][(std::max)(z_near + j, int(z_far))] = zz_o[in[j]];
-    }
-    gram[z_self][z_far] = zz_o[self];
-    gram[z_far][z_far] = zz_o[o];
-    gram[g_near][z_far] = -z_o[self];
-    gram[g_first][z_far] = z_o[first] - z_o[self];
-    gram[g_second][z_far] = z_o[second] - z_o[self];
-  }
-
-  // R_w . (f_o - f_c), and R_w . z_o, for each w next to one end c alone: f_o - f_c is the same for both ends but for its
-  // sign.
-  CGAL_SPECTRAL_INLINE void multiply_far_residuals()
-  {
-    const Spectral_fields& fields = *m_fields;
-    const std::size_t length = std::size_t(fields.F.cols()), n = m_link.size();
-    if(m_rows.size() < n) {
-      m_rows.resize(n);
-      m_far.resize(n);
-    }
-    double* const scratch = m_scratch.at_least(length);
-    std::size_t count = 0, of_u = 0; // those next to u come first
-    for(std::size_t i = 0; i < n; ++i)
-      if(m_link[i].ends != next_to_u_and_v) {
-        of_u += m_link[i].ends == next_to_u ? 1 : 0;
-        m_rows[count++] = fields.r_row(m_link[i].slot);
-      }
-    const double *const f_u = fields.f_row(m_link.u()), *const f_v = fields.f_row(m_link.v());
-    spectral_subtract_rows(f_v, f_u, length, scratch);
-    spectral_dots_with(m_rows.data(), count, scratch, length, m_far.data());
-    std::size_t next = 0;
-    for(std::size_t i = 0; i < n; ++i)
-      if(m_link[i].ends != next_to_u_and_v) {
-        m_gram[i][residual][g_far] = m_link[i].ends == next_to_u ? m_far[next] : -m_far[next];
-        ++next;
-      }
-    if(fields.theta == 0)
-      return;
-    spectral_dots_with(m_rows.data(), of_u, fields.z_row(m_link.v(), scratch), length, m_far.data());
-    spectral_dots_with(m_rows.data() + of_u, count - of_u, fields.z_row(m_link.u(), scratch), length,
-                       m_far.data() + of_u);
-    next = 0;
-    for(std::size_t i = 0; i < n; ++i)
-      if(m_link[i].ends != next_to_u_and_v)
-        m_gram[i][residual][z_far] = m_far[next++];
-  }
-
-  CGAL_SPECTRAL_INLINE void evaluate_body(Spectral_sample* samples, const int count)
-  {
-    const double before = m_link.error();
-    Lanes weight, invalid = {}, cost = {-before, -before, -before, -before}, point[3];
+    m_count = count;
+    for(int end = 0; end < 2; ++end)
+      m_number_moving[end] = 0;
     for(int s = 0; s < max_samples; ++s) {
       const Spectral_sample& sample = samples[s < count ? s : 0];
-      weight[s] = sample.weight;
+      m_weight[s] = sample.weight;
       for(int c = 0; c < 3; ++c)
-        point[c][s] = sample.point[c];
+        m_point[c][s] = sample.point[c];
+      m_change[s] = -m_fields->E[m_end[0]] - m_fields->E[m_end[1]];
+      m_invalid[s] = 0;
+      for(int end = 0; end < 2; ++end)
+        if(s < count && (sample.weight != double(end) || sample.point != m_fields->points[m_end[end]]))
+          m_moving[end][m_number_moving[end]++] = s;
     }
-    Lanes total_area = {};
-    const bool full = m_fields->theta != 0, cotangent = m_fields->coefficients.empty() && !m_fields->voronoi;
-    if(full && cotangent)
-      add_link_terms<true, true>(point, weight, total_area, cost, invalid);
-    else if(full)
-      add_link_terms<true, false>(point, weight, total_area, cost, invalid);
-    else if(cotangent)
-      add_link_terms<false, true>(point, weight, total_area, cost, invalid);
-    else
-      add_link_terms<false, false>(point, weight, total_area, cost, invalid);
-    if(!m_fields->vanishes_at(m_link.u()) && !m_fields->vanishes_at(m_link.v()))
-      m_merged.add_term(m_new.data(), total_area, weight, m_fields->diagonal_share() * m_fields->area_scale,
-                        m_fields->off_diagonal_share() * m_fields->area_scale, m_fields->area_scale, cost);
-    for(int s = 0; s < count; ++s)
-      samples[s].cost =
-          invalid[s] == 0 && std::isfinite(cost[s]) ? cost[s] : std::numeric_limits<double>::infinity();
+    const int larger = ring(0).size() >= ring(1).size() ? 0 : 1;
+    const bool hub_stays = m_fields->is_hub(m_end[larger]) && m_number_moving[larger] == 0;
+    m_left = hub_stays ? larger : -1;
+    for(int end = 0; end < 2; ++end)
+      if(!is_left(end))
+        set_outer_triangles(end, samples);
+    add_merged_vertex<Full>();
+    for(int end = 0; end < 2; ++end)
+      for(std::size_t i = 0; !is_left(end) && i < ring(end).size(); ++i)
+        if(i != m_other_in[end])
+          add_link_vertex<Full>(end, i);
   }
 
-  // `Full`: with a mass that has off-diagonal entries. `Cotangent`: without coefficients and Voronoi areas.
-  template <bool Full, bool Cotangent>
-  CGAL_SPECTRAL_INLINE void add_link_terms(const Lanes* x, const Lanes& weight, Lanes& total_area,
-                                           Lanes& cost, Lanes& invalid)
+  CGAL_SPECTRAL_INLINE void set_outer_triangles(const int end, const Spectral_sample* samples)
   {
-    if constexpr(!Cotangent)
-      set_merged_coefficients(weight);
-    add_new_triangles<Full, Cotangent>(x, total_area, invalid);
-    // f_x = (1 - weight) f_u + weight f_v where w is next to both, f_near + far (f_o - f_c) where next to one end c.
-    const Lanes one = {1, 1, 1, 1}, rest = 1. - weight;
-    const Lanes near[number_of_link_ends] = {rest, one, one},
-                far[number_of_link_ends] = {weight, weight, rest};
-    for(std::size_t i = 0; i < m_link.size(); ++i)
-      if(!m_fields->vanishes_at(m_link[i].slot))
-        add_link_term<Full>(m_link[i], m_gram[i], m_new[i], near[m_link[i].ends], far[m_link[i].ends], cost,
-                            invalid);
+    const Spectral_ring& around = ring(end);
+    if(m_outer[end].size() < around.size())
+      m_outer[end].resize(around.size());
+    if(m_row.size() < ring(0).size() + ring(1).size() + 8)
+      m_row.resize(ring(0).size() + ring(1).size() + 8);
+    for(std::size_t i = 0; i < around.size(); ++i) {
+      if(!is_outer(end, i))
+        continue;
+      const Slot a = around[i].vertex, b = around[Spectral_rings::next(around, i)].vertex;
+      Lanes failed = {};
+      if(m_fields->coefficients.empty())
+        set_triangles(m_fields->points[a], m_fields->points[b], m_outer[end][i], failed);
+      else
+        for(int s = 0; s < m_count; ++s) {
+          const Spectral_triangle t = triangle(samples[s], a, b);
+          m_outer[end][i].set(s, t);
+          failed[s] = is_degenerate(t);
+        }
+      if(!is_degenerate(around[i].triangle))
+        m_invalid += failed;
+    }
   }
 
-  template <bool Full, bool Cotangent>
-  CGAL_SPECTRAL_INLINE void add_new_triangles(const Lanes* x, Lanes& total_area, Lanes& invalid)
+  // Those with the corners x, a, b. 1 is added to `failed` where one would have no area, to doubles.
+  CGAL_SPECTRAL_INLINE void set_triangles(const Eigen::Vector3d& pa, const Eigen::Vector3d& pb, Triangles& t,
+                                          Lanes& failed) const
   {
-    const Lanes zero = {};
-    for(std::size_t i = 0; i < m_link.size(); ++i)
-      m_new[i] = Spectral_new_entries{zero, {zero, zero}, zero, {zero, zero}};
-    for(const Spectral_outer_triangle *t = m_link.triangles_begin(), *end = m_link.triangles_end(); t != end;
-        ++t) {
-      const Spectral_outer_triangle& o = *t;
-      const Eigen::Vector3d &pa = m_fields->points[m_link[o.a].slot],
-                            &pb = m_fields->points[m_link[o.b].slot];
-      const Eigen::Vector3d ab = pb - pa;
-      const Lanes a[3] = {pa[0] - x[0], pa[1] - x[1], pa[2] - x[2]};
-      const Lanes b[3] = {pb[0] - x[0], pb[1] - x[1], pb[2] - x[2]};
-      const Lanes n[3] = {a[1] * ab[2] - a[2] * ab[1], a[2] * ab[0] - a[0] * ab[2],
-                          a[0] * ab[1] - a[1] * ab[0]};
-      const Lanes square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-      const Lanes a_ab = a[0] * ab[0] + a[1] * ab[1] + a[2] * ab[2];
-      const Lanes b_ab = b[0] * ab[0] + b[1] * ab[1] + b[2] * ab[2];
-      const Lanes a_b = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-      // Half of 1 / |cross|, so that the products are half cotangents. cot a + cot b + cot x < bound.
-      const Lanes sum = a_b - a_ab + b_ab;
-      constexpr double limit = Spectral_triangle::degenerate_cotangent;
-      const Lanes bound = sum * sum * (1 / (limit * limit));
-      Lanes half, failed = {};
-      spectral_inverse_sqrt(half, square, bound, failed);
-      half *= Lanes{0.5, 0.5, 0.5, 0.5};
-      if(!o.degenerate)
-        invalid += failed;
-      if constexpr(Cotangent) {
-        const Lanes cot_x = a_b * half, cot_a = -a_ab * half, cot_b = b_ab * half, area = square * half;
-        add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area);
-        add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area);
-        total_area += area;
-      } else {
-        Corner_products products{a_b, a_ab, b_ab};
-        Lanes area = square * half;
-        if(!m_fields->coefficients.empty())
-          apply_coefficients(o, a, b, n, 2. * half, products, area);
-        const Lanes cot_x = products.a_b * half, cot_a = -products.a_ab * half, cot_b = products.b_ab * half;
-        Lanes area_x = area, area_a = area, area_b = area;
-        if(m_fields->voronoi)
-          for(int s = 0; s < max_samples; ++s) {
-            using Spectral_geometry::internal::mixed_voronoi_share;
-            area_x[s] *= 3 * mixed_voronoi_share(cot_x[s], cot_a[s], cot_b[s]);
-            area_a[s] *= 3 * mixed_voronoi_share(cot_a[s], cot_b[s], cot_x[s]);
-            area_b[s] *= 3 * mixed_voronoi_share(cot_b[s], cot_x[s], cot_a[s]);
-          }
-        add_new_entries<Full>(m_new[o.a], o.column_of_b, cot_b, cot_x, area_a);
-        add_new_entries<Full>(m_new[o.b], o.column_of_a, cot_a, cot_x, area_b);
-        total_area += area_x;
+    const Eigen::Vector3d ab = pb - pa;
+    const Lanes a[3] = {pa[0] - m_point[0], pa[1] - m_point[1], pa[2] - m_point[2]};
+    const Lanes b[3] = {pb[0] - m_point[0], pb[1] - m_point[1], pb[2] - m_point[2]};
+    const Lanes n[3] = {a[1] * ab[2] - a[2] * ab[1], a[2] * ab[0] - a[0] * ab[2],
+                        a[0] * ab[1] - a[1] * ab[0]};
+    const Lanes square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const Lanes a_ab = a[0] * ab[0] + a[1] * ab[1] + a[2] * ab[2];
+    const Lanes b_ab = b[0] * ab[0] + b[1] * ab[1] + b[2] * ab[2];
+    const Lanes a_b = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    const Lanes sum = a_b - a_ab + b_ab; // of the cotangents, times twice the area
+    constexpr double limit = Spectral_triangle::degenerate_cotangent;
+    const Lanes bound = sum * sum * (1 / (limit * limit));
+    Lanes inverse;
+    spectral_inverse_sqrt(inverse, square, bound, failed);
+    t = Triangles{a_b * inverse, -a_ab * inverse, b_ab * inverse, square * inverse * 0.5};
+  }
+
+  Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
+  {
+    const Spectral_fields& fields = *m_fields;
+    if(fields.coefficients.empty())
+      return spectral_triangle(x.point, fields.points[a], fields.points[b]);
+    const Spectral_geometry::internal::Point_coefficients of_x =
+        (1 - x.weight) * fields.coefficients[m_end[0]] + x.weight * fields.coefficients[m_end[1]];
+    const Spectral_geometry::internal::Point_coefficients mean =
+        (of_x + fields.coefficients[a] + fields.coefficients[b]) / 3;
+    return spectral_triangle(x.point, fields.points[a], fields.points[b], &mean);
+  }
+
+  bool is_degenerate(const Spectral_triangle& t) const
+  {
+    return !(t.area > 0) || !(t.cot_center + t.cot_first + t.cot_second <
+                              Spectral_triangle::degenerate_cotangent * m_fields->conductivity);
+  }
+
+  // E_x. Where a hub stays its row is what it was and what the triangles around the other end change.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_merged_vertex()
+  {
+    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
+    Lanes to_self = {}, area = {};
+    double lost = 0, lost_area = 0; // in the row of the hub, of the other end
+    m_size = 2;
+    for(int end = 0; end < 2; ++end)
+      for(std::size_t i = 0; !is_left(end) && i < ring(end).size(); ++i) {
+        const Spectral_ring& around = ring(end);
+        const std::size_t before = Spectral_rings::prev(around, i);
+        Lanes cot = {}, both_areas = {};
+        if(is_outer(end, i)) {
+          const Triangles& t = m_outer[end][i];
+          cot += t.cot_second;
+          both_areas += t.area;
+          add_area(t, t.cot_center, t.cot_first, t.cot_second, area);
+        } else if(m_left >= 0 &&
+                  around[i].face) { // a triangle of the edge, of which the hub is the first or second corner
+          const Spectral_triangle& t = around[i].triangle;
+          const bool is_first = i == m_other_in[end];
+          Entry& e = m_row[m_size++];
+          e.vertex = around[is_first ? Spectral_rings::next(around, i) : i].vertex;
+          e.of_f = Lanes{} - t.cot_center / 2;
+          e.of_z = Lanes{} - t.area * off_diagonal;
+          lost += (is_first ? t.cot_second : t.cot_first) / 2;
+          lost_area += t.area * off_diagonal;
+          to_self += t.cot_center / 2 + (is_first ? t.cot_second : t.cot_first) / 2;
+          area -= m_fields->area_of_center(is_first ? t.from_first() : t.from_second());
+        }
+        if(i == m_other_in[end])
+          continue;
+        if(is_outer(end, before)) {
+          cot += m_outer[end][before].cot_first;
+          both_areas += m_outer[end][before].area;
+        }
+        Entry& e = m_row[m_size++];
+        e.vertex = around[i].vertex;
+        e.of_f = cot * 0.5;
+        e.of_z = both_areas * off_diagonal;
+        to_self -= e.of_f;
       }
+    area *= m_fields->area_scale;
+    set_ends(to_self, area * m_fields->diagonal_share());
+    if(m_left >= 0) {
+      m_row[1 - m_left].of_f -= lost;
+      m_row[1 - m_left].of_z -= lost_area;
     }
+    const bool vanishes = m_fields->vanishes_at(m_end[0]) || m_fields->vanishes_at(m_end[1]);
+    add_term<true>(m_left >= 0 ? m_end[m_left] : null_spectral_slot, area, vanishes, all_samples, m_count);
   }
 
-  // Of the edges a, b from x and ab of a new triangle.
-  struct Corner_products
+  // E_w after less before, of the i-th neighbour of an end. Those of both are met first around u.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_link_vertex(const int end, const std::size_t i)
   {
-    Lanes a_b, a_ab, b_ab;
+    const Spectral_ring &around = ring(end), &around_other = ring(1 - end);
+    const std::size_t o = m_other_in[end], at_other = m_other_in[1 - end];
+    const bool is_after = i == Spectral_rings::next(around, o) && around[o].face,
+               is_before = i == Spectral_rings::prev(around, o) && around[i].face,
+               is_both = is_after || is_before;
+    if(is_both && end == 1 && m_left < 0)
+      return;
+    Change change = {};
+    m_size = 2;
+    add_corner<Full>(end, i, true, change);
+    if(is_both && !is_left(1 - end))
+      add_corner<Full>(1 - end,
+                       is_after ? Spectral_rings::prev(around_other, at_other)
+                                : Spectral_rings::next(around_other, at_other),
+                       false, change);
+    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
+    set_ends(change.to_x, change.area_at_x * off_diagonal);
+    Lanes to_self = {};
+    for(int c = 0; c < 2; ++c) {
+      m_row[c].of_f -= change.lost[c];
+      if(Full)
+        m_row[c].of_z -= change.lost_area[c] * off_diagonal;
+    }
+    for(std::size_t e = 0; e < m_size; ++e)
+      to_self -= m_row[e].of_f;
+    const Slot w = around[i].vertex;
+    change.area *= m_fields->area_scale;
+    m_row[m_size++] = Entry{w, to_self, change.area * m_fields->diagonal_share()};
+    // Where its end stays as it is so does the row of one that is next to no other.
+    const int* const samples = is_both ? all_samples : m_moving[end];
+    const int count = is_both ? m_count : m_number_moving[end];
+    for(int j = 0; j < count; ++j)
+      m_change[samples[j]] -= m_fields->E[w];
+    add_term<Full>(w, change.area, m_fields->vanishes_at(w), samples, count);
+  }
+
+  // Of the row of a vertex of the link, beside the entries for others: what its triangles with x bring, and what those with u and v
+  // took away.
+  struct Change
+  {
+    Lanes to_x, area_at_x, area;
+    double lost[2], lost_area[2];
   };
 
-  CGAL_SPECTRAL_INLINE void set_merged_coefficients(const Lanes& weight)
-  {
-    if(m_fields->coefficients.empty())
-      return;
-    const auto &of_u = m_fields->coefficients[m_link.u()], &of_v = m_fields->coefficients[m_link.v()];
-    for(int i = 0; i < number_of_coefficients; ++i)
-      m_coefficients[i] = (1. - weight) * of_u[i] + weight * of_v[i];
-  }
-
-  // `triangle_element()` with coefficients: products of a and b, turned within the triangle, by the conductivity.
-  CGAL_SPECTRAL_INLINE void apply_coefficients(const Spectral_outer_triangle& o, const Lanes* a,
-                                               const Lanes* b, const Lanes* n, const Lanes& inverse_length,
-                                               Corner_products& products, Lanes& area) const
-  {
-    const auto &of_a = m_fields->coefficients[m_link[o.a].slot],
-               &of_b = m_fields->coefficients[m_link[o.b].slot];
-    Lanes c[number_of_coefficients];
-    for(int i = 0; i < number_of_coefficients; ++i)
-      c[i] = (m_coefficients[i] + (of_a[i] + of_b[i])) * (1. / 3);
-    Lanes turned_a[3], turned_b[3], image[3];
-    for(int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      turned_a[i] = (n[j] * a[k] - n[k] * a[j]) * inverse_length;
-      turned_b[i] = (n[j] * b[k] - n[k] * b[j]) * inverse_length;
-    }
-    const auto apply = [&](const Lanes* x) {
-      image[0] = c[1] * x[0] + c[2] * x[1] + c[3] * x[2];
-      image[1] = c[2] * x[0] + c[4] * x[1] + c[5] * x[2];
-      image[2] = c[3] * x[0] + c[5] * x[1] + c[6] * x[2];
-    };
-    apply(turned_a);
-    const Lanes aa = turned_a[0] * image[0] + turned_a[1] * image[1] + turned_a[2] * image[2];
-    products.a_b = turned_b[0] * image[0] + turned_b[1] * image[1] + turned_b[2] * image[2];
-    apply(turned_b);
-    const Lanes bb = turned_b[0] * image[0] + turned_b[1] * image[1] + turned_b[2] * image[2];
-    products.a_ab = products.a_b - aa;
-    products.b_ab = bb - products.a_b;
-    area *= c[0];
-  }
-
+  // What the triangles at the i-th neighbour of an end bring and take away. Those of the edge are in both rings.
   template <bool Full>
-  CGAL_SPECTRAL_INLINE static void add_new_entries(Spectral_new_entries& w, const int column,
-                                                   const Lanes& to_x, const Lanes& to_neighbor,
-                                                   const Lanes& area)
+  CGAL_SPECTRAL_INLINE void add_corner(const int end, const std::size_t i, const bool with_edge,
+                                       Change& change)
   {
-    w.to_x += to_x;
-    w.to_neighbor[column] += to_neighbor;
-    w.area += area;
-    if(Full)
-      w.area_neighbor[column] += area;
+    const Spectral_ring& around = ring(end);
+    const std::size_t o = m_other_in[end], before = Spectral_rings::prev(around, i),
+                      after = Spectral_rings::next(around, i);
+    for(const bool is_first : {true, false}) { // of the triangle that follows it, second of the one before
+      const std::size_t j = is_first ? i : before, neighbor = is_first ? after : before;
+      const Spectral_triangle& old = around[j].triangle;
+      if(!around[j].face || (neighbor == o && !with_edge))
+        continue;
+      change.lost[end] += (is_first ? old.cot_second : old.cot_first) / 2;
+      change.lost_area[end] += old.area;
+      change.area -= m_fields->area_of_center(is_first ? old.from_first() : old.from_second());
+      if(neighbor == o) {
+        change.lost[1 - end] += old.cot_center / 2;
+        change.lost_area[1 - end] += old.area;
+        continue;
+      }
+      const Triangles& t = m_outer[end][j];
+      Entry& e = m_row[m_size++];
+      e.vertex = around[neighbor].vertex;
+      e.of_f = (t.cot_center - old.cot_center) * 0.5;
+      if(Full)
+        e.of_z = (t.area - old.area) * (m_fields->off_diagonal_share() * m_fields->area_scale);
+      change.to_x += (is_first ? t.cot_second : t.cot_first) * 0.5;
+      change.area_at_x += t.area;
+      add_area(t, is_first ? t.cot_first : t.cot_second, t.cot_center, is_first ? t.cot_second : t.cot_first,
+               change.area);
+    }
   }
 
-  // E_w after, |R_w|^2 / M_w. Every new triangle of w has the corner x.
-  template <bool Full>
-  CGAL_SPECTRAL_INLINE void add_link_term(const Link_vertex& w, const Gram& gram,
-                                          const Spectral_new_entries& fresh, const Lanes& near,
-                                          const Lanes& far, Lanes& cost, Lanes& invalid) const
+  // What a triangle gives to the mass of a corner with a cotangent c, a and b being those of the others.
+  CGAL_SPECTRAL_INLINE void add_area(const Triangles& t, const Lanes& c, const Lanes& a, const Lanes& b,
+                                     Lanes& area) const
   {
-    constexpr int n = Full ? int(columns) : lumped_columns;
-    const Lanes area_change = fresh.area - w.old_area;
-    Lanes c[n];
-    c[residual] = Lanes{1, 1, 1, 1};
-    c[z_self] = area_change * (m_fields->diagonal_share() * m_fields->area_scale);
-    c[g_near] = near * fresh.to_x - w.old_near;
-    c[g_far] = far * fresh.to_x - w.old_far;
-    c[g_first] = fresh.to_neighbor[0] - w.old_neighbor[0];
-    c[g_second] = fresh.to_neighbor[1] - w.old_neighbor[1];
-    if constexpr(Full) {
-      const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
-      // Rows of Z are not taken as differences to their centre: the shares of near and far sum to 1.
-      c[z_near] = ((1. - far) * fresh.area - w.area_near) * off_diagonal;
-      c[z_far] = (far * fresh.area - w.area_far) * off_diagonal;
-      c[z_first] = (fresh.area_neighbor[0] - w.old_area_neighbor[0]) * off_diagonal;
-      c[z_second] = (fresh.area_neighbor[1] - w.old_area_neighbor[1]) * off_diagonal;
-    }
-    Lanes norm = {};
-    for(int i = 0; i < n; ++i) {
-      Lanes row = {};
-      for(int j = i + 1; j < n; ++j)
-        row += c[j] * gram[i][j];
-      norm += c[i] * (c[i] * gram[i][i] + 2. * row);
-    }
-    const Lanes mass = w.mass + area_change * (m_fields->area_scale / 3);
-    spectral_require_positive(mass, invalid);
-    cost += norm / mass;
+    if(!m_fields->voronoi)
+      area += t.area;
+    else
+      for(int s = 0; s < m_count; ++s)
+        area[s] += m_fields->area_of_center({c[s], a[s], b[s], t.area[s]});
   }
+
+  // The merged vertex has no rows yet: those of both ends, with their weights, take their place.
+  CGAL_SPECTRAL_INLINE void set_ends(const Lanes& of_f, const Lanes& of_z)
+  {
+    const Lanes rest = 1. - m_weight;
+    m_row[0] = Entry{m_end[0], rest * of_f, rest * of_z};
+    m_row[1] = Entry{m_end[1], m_weight * of_f, m_weight * of_z};
+  }
+
+  // E of the row that has been gathered: all of it, or what is new in that of w. Where functions vanish there is none.
+  template <bool Full>
+  CGAL_SPECTRAL_INLINE void add_term(const Slot w, const Lanes& area, const bool vanishes, const int* samples,
+                                     const int count)
+  {
+    const bool is_new = w == null_spectral_slot;
+    const double* const start = is_new ? nullptr : m_fields->r_row(w);
+    Entry *const row = m_row.data(), *const end = row + m_size, *const first_of_z = Full ? row : end - 1;
+    if(count != m_count)
+      for(Entry* e = row; e != end; ++e)
+        for(int j = 0; j < count; ++j) {
+          e->of_f[j] = e->of_f[samples[j]];
+          if(e >= first_of_z)
+            e->of_z[j] = e->of_z[samples[j]];
+        }
+    double square[max_samples];
+    if(count == 1)
+      spectral_combine_rows<1>(*m_fields, row, first_of_z, end, start, nullptr, square);
+    else if(count == 2)
+      spectral_combine_rows<2>(*m_fields, row, first_of_z, end, start, nullptr, square);
+    else if(count == 3)
+      spectral_combine_rows<3>(*m_fields, row, first_of_z, end, start, nullptr, square);
+    else if(count == 4)
+      spectral_combine_rows<4>(*m_fields, row, first_of_z, end, start, nullptr, square);
+    for(int j = 0; j < count; ++j) {
+      const int s = samples[j];
+      const double mass = (is_new ? 0. : m_fields->mass[w]) + area[s] / 3;
+      m_invalid[s] += !(mass > 0);
+      if(mass > 0 && !vanishes)
+        m_change[s] += square[j] / mass;
+    }
+  }
+
+  static constexpr int all_samples[max_samples] = {0, 1, 2, 3};
 
   const Spectral_fields* m_fields = nullptr;
-  const Spectral_ring_products* m_products = nullptr;
-  bool m_by_rows = false; // a ring is too large to keep its inner products
-  Spectral_link m_link;
-  // Scratch memory that only grows; the first entries are those of the link.
-  std::vector<Gram> m_gram;
-  std::vector<Spectral_new_entries> m_new;
-  std::vector<const double*> m_rows;
-  std::vector<double> m_far;
-  Aligned_buffer m_scratch;
-  Spectral_merged_row m_merged;
-  Spectral_change m_change;
-  Lanes m_coefficients[number_of_coefficients] = {}; // of the merged vertex, for each sample
+  Slot m_end[2] = {null_spectral_slot, null_spectral_slot}; // u and v
+  std::size_t m_other_in[2] = {0, 0}; // the place of v in the ring of u, of u in that of v
+  int m_left = -1;                    // the hub that stays, 0 or 1 for u or v, or none
+  int m_count = 0;                    // of samples; what follows is for each of them
+  int m_moving[2][max_samples] = {}, m_number_moving[2] = {}; // those that do not leave an end as it is
+  Lanes m_weight = {}, m_point[3] = {};
+  double m_change[max_samples] = {};
+  Lanes m_invalid = {};              // not 0: a triangle or a vertex would lose its area
+  std::vector<Triangles> m_outer[2]; // those that survive, (x; a, b)
+  std::vector<Entry> m_row;          // for u, for v, for others
+  std::size_t m_size = 0;
 };
 
 } // namespace internal

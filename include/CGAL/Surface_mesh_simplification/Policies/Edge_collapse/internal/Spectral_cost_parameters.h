@@ -29,7 +29,7 @@ struct Spectral_cost_parameters
   double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
   double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
   int threads = 1;
-  std::size_t largest_degree_with_products = Spectral_fields().largest_degree_with_products;
+  std::size_t largest_degree_of_others = Spectral_fields().largest_degree_of_others;
 };
 
 } // namespace internal

@@ -44,14 +44,11 @@ struct Spectral_fields
   std::vector<char> vanishing;
   double conductivity = 1; ///< their mean on the input: the unit of cotangents
   double area_scale = 1;   ///< 1 / area of the input, weighted by the density
-  /// The largest degree of a vertex whose ring keeps its inner products, which are quadratic in it. An edge that has a
-  /// larger one at an end or in its link is costed by whole rows (`Spectral_change`): on fans of 200 to 500 faces both ways
-  /// take the same time.
-  std::size_t largest_degree_with_products = 256;
+  /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed, until its turn comes, for whatever else
+  /// may become of it changes all of its triangles.
+  std::size_t largest_degree_of_others = 256;
 
-  std::size_t largest_degree = 0; ///< no ring is larger
-
-  bool has_products(const Spectral_slot s) const { return rings[s].size() <= largest_degree_with_products; }
+  bool is_hub(const Spectral_slot s) const { return rings[s].size() > largest_degree_of_others; }
 
   /// The triangle (c; a, b), weighted by the coefficients.
   Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
@@ -79,16 +76,6 @@ struct Spectral_fields
   double off_diagonal_share() const { return theta / 12; }
 
   bool has_z_rows() const { return !Z.empty(); }
-  const double* f_row(const Spectral_slot s) const { return F[s]; }
-  const double* z_row(const Spectral_slot s) const { return Z[s]; }
-  /// The same where Z = F Lambda: then it is put into `result`, with room for a row.
-  CGAL_SPECTRAL_INLINE const double* z_row(const Spectral_slot s, double* result) const
-  {
-    if(has_z_rows())
-      return z_row(s);
-    spectral_multiply_rows(lambda.data(), f_row(s), std::size_t(F.cols()), result);
-    return result;
-  }
   const double* r_row(const Spectral_slot s) const { return R[s]; }
 };
 

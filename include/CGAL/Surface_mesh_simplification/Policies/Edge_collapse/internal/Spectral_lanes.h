@@ -58,7 +58,8 @@ struct Spectral_lanes
       b.lane[i] = a op b.lane[i];                                              \
     return b;                                                                  \
   }                                                                            \
-  Spectral_lanes& operator op##=(const Spectral_lanes& b)                      \
+  template <class Number>                                                      \
+  Spectral_lanes& operator op##=(const Number& b)                              \
   {                                                                            \
     return *this = *this op b;                                                 \
   }
@@ -97,40 +98,6 @@ CGAL_SPECTRAL_INLINE double spectral_sum(const Spectral_lanes& x)
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// result = a - b for rows of a padded length.
-CGAL_SPECTRAL_INLINE void spectral_subtract_rows(const double* a, const double* b, const std::size_t length,
-                                                 double* result)
-{
-  Spectral_lanes x, y;
-  for(std::size_t k = 0; k < length; k += 8) {
-    spectral_load(x, a + k);
-    spectral_load(y, b + k);
-    x -= y;
-    spectral_store(result + k, x);
-    spectral_load(x, a + k + 4);
-    spectral_load(y, b + k + 4);
-    x -= y;
-    spectral_store(result + k + 4, x);
-  }
-}
-
-/// result = a times b, number by number.
-CGAL_SPECTRAL_INLINE void spectral_multiply_rows(const double* a, const double* b, const std::size_t length,
-                                                 double* result)
-{
-  Spectral_lanes x, y;
-  for(std::size_t k = 0; k < length; k += 8) {
-    spectral_load(x, a + k);
-    spectral_load(y, b + k);
-    x *= y;
-    spectral_store(result + k, x);
-    spectral_load(x, a + k + 4);
-    spectral_load(y, b + k + 4);
-    x *= y;
-    spectral_store(result + k + 4, x);
-  }
-}
-
 /// result = 1 / sqrt(x) where x > bound, else 0; adds 1 to `failed` where the result is 0.
 CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Spectral_lanes& x,
                                                 const Spectral_lanes& bound, Spectral_lanes& failed)
@@ -161,18 +128,6 @@ CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Sp
     result[i] = x[i] > bound[i] ? 1 / root[i] : 0;
     failed[i] += x[i] > bound[i] ? 0 : 1;
   }
-#endif
-}
-
-/// Adds 1 to `failed` where x is not positive.
-CGAL_SPECTRAL_INLINE void spectral_require_positive(const Spectral_lanes& x, Spectral_lanes& failed)
-{
-#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-  const Spectral_lanes one = {1, 1, 1, 1}, zero = {};
-  failed += x > zero ? zero : one;
-#else
-  for(int i = 0; i < 4; ++i)
-    failed[i] += x[i] > 0 ? 0 : 1;
 #endif
 }
 

@@ -118,13 +118,12 @@ public:
     return best;
   }
 
-  /// The end of more neighbours stays where it is, where that is what nearly always costs least: where their number is too large to
-  /// keep inner products, any other point changes all of the triangles there. Infinite cost elsewhere.
+  /// The end of more neighbours stays where it is, which nearly always costs least at a hub. Infinite cost elsewhere.
   Spectral_sample at_large_end(const Spectral_slot u, const Spectral_slot v,
                                Spectral_collapse_kernel& kernel) const
   {
     Spectral_sample sample;
-    if((m_fields->has_products(u) && m_fields->has_products(v)) ||
+    if((!m_fields->is_hub(u) && !m_fields->is_hub(v)) ||
        m_parameters->placement == Spectral_placement_strategy::midpoint)
       return sample;
     const bool more_at_u = m_fields->rings[u].size() >= m_fields->rings[v].size();

@@ -36,6 +36,10 @@ struct Spectral_triangle
   double cot_second = 0; ///< at b, opposite ca
   double area = 0;
 
+  /// The same triangle, (a; b, c) and (b; c, a).
+  Spectral_triangle from_first() const { return {cot_first, cot_second, cot_center, area}; }
+  Spectral_triangle from_second() const { return {cot_second, cot_center, cot_first, area}; }
+
   // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
   static constexpr double degenerate_cotangent = 1e10;
 };
@@ -109,15 +113,6 @@ public:
     return find(c, w) < m_rings[c].size();
   }
 
-  /// Position of `w` in the ring of `c`, or its size: found by way of the ring of `w` where that is smaller.
-  std::size_t index_of(const Spectral_slot w, const Spectral_slot c) const
-  {
-    if(m_rings[c].size() <= m_rings[w].size())
-      return find(c, w);
-    const std::size_t i = find(w, c);
-    return i < m_rings[w].size() ? std::size_t(m_rings[w][i].back) : m_rings[c].size();
-  }
-
   bool is_border(const Spectral_slot c) const
   {
     return std::any_of(m_rings[c].begin(), m_rings[c].end(),
@@ -167,25 +162,19 @@ public:
   }
 
   /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place of `removed` in the ring
-  /// of w, and takes the two triangles that they share. Returns the index of the entry that w has lost, or none: where it has
-  /// lost one, link_back(w, index) must follow.
-  std::size_t follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
+  /// of w, and takes the two triangles that they share.
+  void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
   {
     Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
-    const std::size_t gone = replace_in_ring(ring, removed, kept), j = find(around[i].vertex, kept);
+    const std::size_t moved = replace_in_ring(ring, removed, kept), j = find(around[i].vertex, kept);
     CGAL_assertion(j < ring.size());
     around[i].back = std::uint32_t(j);
     ring[j].back = std::uint32_t(i);
     // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
-    const Spectral_triangle &to_next = around[i].triangle, &to_previous = around[prev(around, i)].triangle;
-    ring[prev(ring, j)].triangle =
-        Spectral_triangle{to_next.cot_first, to_next.cot_second, to_next.cot_center, to_next.area};
-    ring[j].triangle = Spectral_triangle{to_previous.cot_second, to_previous.cot_center,
-                                         to_previous.cot_first, to_previous.area};
-    return gone;
+    ring[prev(ring, j)].triangle = around[i].triangle.from_first();
+    ring[j].triangle = around[prev(around, i)].triangle.from_second();
+    link_back(around[i].vertex, moved);
   }
-
-  static constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
 
   /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is looked for in the smaller of two
   /// rings. May run side by side for several c.
@@ -211,7 +200,8 @@ public:
                                      [c](const Spectral_ring_entry& e) { return c < e.vertex; }));
   }
 
-  /// Sets `back` on both sides of the entries of the ring of c from index `first` on.
+private:
+  // Sets `back` on both sides of the entries of the ring of c from index `first` on.
   void link_back(const Spectral_slot c, const std::size_t first)
   {
     Spectral_ring& ring = m_rings[c];
@@ -223,7 +213,6 @@ public:
     }
   }
 
-private:
   template <class Triangle>
   void update_triangle(const Spectral_slot c, const std::size_t i, const Triangle& triangle)
   {
@@ -234,7 +223,7 @@ private:
 
   // Where removed and kept were consecutive, the triangle between them vanished and the later of the
   // two entries takes the place of both: an entry carries the face that follows it.
-  // Returns the index that was erased, or none.
+  // Returns the index from which on entries have moved.
   static std::size_t replace_in_ring(Spectral_ring& ring, const Spectral_slot removed,
                                      const Spectral_slot kept)
   {
@@ -242,13 +231,13 @@ private:
     while(i < ring.size() && ring[i].vertex != removed)
       ++i;
     if(i == ring.size())
-      return none;
+      return i;
     ring[i].vertex = kept;
     const std::size_t nx = next(ring, i), pv = prev(ring, i);
     const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
                              : pv != i && ring[pv].vertex == kept ? pv
-                                                                  : none;
-    if(gone != none)
+                                                                  : ring.size();
+    if(gone < ring.size())
       ring.erase(ring.begin() + std::ptrdiff_t(gone));
     return gone;
   }
