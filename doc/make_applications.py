@@ -6,14 +6,17 @@
 # Makes the shapes, tables and pictures of applications.md:
 #   doc/make_applications.py BUILD [FOLDER]
 #   doc/make_applications.py --large BUILD [FOLDER]
-#   doc/make_applications.py --pairs BUILD FOLDER [NAME:X:Y:TRUTH ...]
+#   doc/make_applications.py --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]
 # BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
 # there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, --pairs that of
-# proxies and matchers, on the shapes in other triangles and on other pairs with the true map, and write it into the page; where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
+# proxies and matchers, on shapes in other triangles and on other pairs: with the file of the true map, `same` for the identity, or X itself
+# against its bent shape in other triangles; both write it into the page. RIVALS is a folder as for run_rivals.sh, whose programs make proxies.
+# Where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
 # Needs nothing but Python 3.
 
 import base64
 import collections
+import glob
 import json
 import math
 import os
@@ -46,7 +49,7 @@ def run(build, folder, output, program, *arguments, by=""):
 
 
 def report_name(pair):
-    return pair.replace(", other triangles", "_other").replace(" ", "")
+    return pair.replace(" other triangles", "other").replace(", ", "_").replace(",", "_").replace(" ", "")
 
 
 def read_vertices(path):
@@ -72,6 +75,13 @@ def nearest_vertices(X, Y, output):
             near = [j for x in (a - 1, a, a + 1) for y in (b - 1, b, b + 1) for z in (c - 1, c, c + 1)
                     for j in cells.get((x, y, z), ())]
             file.write(f"{min(near, key=lambda j: sum((s - t) ** 2 for s, t in zip(p, targets[j])))}\n")
+
+
+# For each vertex of the mesh itself.
+def identity(mesh, output):
+    if not os.path.exists(output):
+        with open(output, "w") as file:
+            file.writelines(f"{v}\n" for v in range(len(read_vertices(mesh))))
 
 
 # Moves the vertices by four waves of random direction and length, which stretches by about a tenth; the triangles stay.
@@ -110,10 +120,7 @@ def make_shapes(build, folder):
         nearest_vertices(os.path.join(folder, "stand.off"), os.path.join(folder, "other_stand.off"), truth)
     for source, target, seed in (("other_stand", "other_wave1", 1), ("other_stand", "other_wave2", 2), ("stand", "wave3", 3)):
         wave(os.path.join(folder, f"{source}.off"), os.path.join(folder, f"{target}.off"), seed)
-    same = os.path.join(folder, "same.txt")
-    if not os.path.exists(same):
-        with open(same, "w") as file:
-            file.writelines(f"{v}\n" for v in range(len(read_vertices(os.path.join(folder, "stand.off")))))
+    identity(os.path.join(folder, "stand.off"), os.path.join(folder, "same.txt"))
 
 
 def run_all(build, folder):
@@ -168,36 +175,120 @@ def large(build, folder):
 
 # --- proxies and matchers ----------------------------------------------------------------------------------------------
 
-KINDS = [("spectral, Product Manifold Filter", "spectral", "product_manifold_filter"), ("spectral, BCICP", "spectral", "bcicp"),
-         ("Garland-Heckbert, Product Manifold Filter", "garland_heckbert", "product_manifold_filter"), ("no proxy", "none", "")]
+SHOWN_PAIRS = [pair for pair in PAIRS if pair[0] == "walk, other triangles"] # the others are as easy
+PROXIES = {"spectral": "spectral", "garland_heckbert": "Garland-Heckbert plane",
+           "garland_heckbert_probabilistic": "Garland-Heckbert probabilistic plane"}
+SIZES = (300, 600, 1000)
 
 
-def pairs(build, folder, others):
+# The shape of `source` twisted about its length by one radian, and bent about its height by one and a half: edges of an animal change by
+# some 6 % in the mean.
+def bend(source, output):
+    if os.path.exists(output):
+        return
+    points = read_vertices(source)
+    extents = [max(c) - min(c) for c in zip(*points)]
+    width, height, length = sorted(range(3), key=lambda k: extents[k])
+    centre = [sum(c) / len(points) for c in zip(*points)]
+    radius = extents[length] / 1.5
+    with open(source) as file:
+        lines = [line for line in file if line.strip()]
+    for i, p in enumerate(points):
+        q = [x - c for x, c in zip(p, centre)]
+        angle, twist = q[length] / radius, q[length] / extents[length]
+        turned = [0, 0, 0]
+        turned[width] = math.cos(twist) * q[width] - math.sin(twist) * q[height]
+        turned[height] = math.sin(twist) * q[width] + math.cos(twist) * q[height]
+        r = radius - turned[width]
+        turned[length], turned[width] = r * math.sin(angle), radius - r * math.cos(angle)
+        lines[2 + i] = "{:.9g} {:.9g} {:.9g}\n".format(*turned)
+    with open(output, "w") as file:
+        file.writelines(lines)
+
+
+# The mesh against its own bent shape. X is reduced, so that no triangle is that of Y; a vertex of X has the nearest one of the mesh as its truth.
+def bent_pair(build, folder, name, mesh):
+    X, Y, truth = (f"{report_name(name)}_{end}" for end in ("reduced.off", "bent.off", "truth.txt"))
+    run(build, folder, X, "spectral_simplify", mesh, X, "--vertices", "60%", "--relocate", "none", "--quiet")
+    bend(mesh, os.path.join(folder, Y))
+    if not os.path.exists(os.path.join(folder, truth)):
+        nearest_vertices(os.path.join(folder, X), mesh, os.path.join(folder, truth))
+    return X, Y, truth
+
+
+# The proxies that other programs make of X and Y, as shape_matching takes them.
+def foreign_proxies(folder, rivals, name, X, Y, vertices):
+    words = []
+    for program in sorted(glob.glob(os.path.join(rivals, "*", "run"))):
+        rival, made = os.path.basename(os.path.dirname(program)), []
+        for side, mesh in (("X", X), ("Y", Y)):
+            prefix = os.path.join(folder, f"{rival}_{report_name(name)}_{side}_{vertices}")
+            if not os.path.exists(prefix + ".off"):
+                subprocess.run([program, os.path.join(folder, mesh), str(vertices), prefix], check=True, stdout=subprocess.DEVNULL)
+            made.append(prefix + ".off")
+        words += ["--proxy-meshes", f"{rival}={made[0]},{made[1]}"]
+    return words
+
+
+# Errors and parts below 0.05 by column of the table, as they are shown.
+def matched(build, folder, rivals, name, X, Y, truth, vertices):
+    stem = f"pair_{report_name(name)}_{vertices}"
+    proxies = ",".join(list(PROXIES) + (["none"] if vertices == 600 else []))
+    found = {}
+    for matcher, words in (("product_manifold_filter", ["--proxy", proxies, *foreign_proxies(folder, rivals, name, X, Y, vertices)]),
+                           ("bcicp", ["--proxy", "spectral"])):
+        output = f"{stem}_{matcher}.json"
+        run(build, folder, output, "shape_matching", X, Y, "--ground-truth", truth, "--vertices", str(vertices), "--matcher", matcher, *words,
+            "--json", output, "--quiet", by=os.environ.get("RUN_BY", ""))
+        with open(os.path.join(folder, output)) as file:
+            for result in json.load(file)["results"]:
+                proxy = result["proxy"]
+                title = "no proxy" if proxy == "none" else PROXIES.get(proxy, proxy)
+                title = f"{title}, BCICP" if matcher == "bcicp" else title
+                found[title] = (result["error_mean"], 100 * result["part_below_0.05"], result["vertices"])
+    return found
+
+
+# A row of the table, the least error bold.
+def pair_row(name, vertices, titles, found):
+    best = min(round(f[0], 4) for f in found.values())
+    cells = []
+    for title in titles:
+        if title not in found:
+            cells.append("")
+            continue
+        error, share, *made = found[title]
+        cells.append(f"**{error:.4f}**, {share:.1f} %" if round(error, 4) == best else f"{error:.4f}, {share:.1f} %")
+        if made and title != "no proxy" and made[0] != vertices:
+            cells[-1] += f" ({made[0]:,})"
+    return f"| {name} | {vertices:,} | " + " | ".join(cells) + " |"
+
+
+def pairs(build, folder, rivals, others):
     make_shapes(build, folder)
-    wanted = [(name, "stand.off", Y, truth) for name, Y, truth in PAIRS if "other" in name]
-    wanted += [(name, *map(os.path.abspath, paths)) for name, *paths in (word.split(":") for word in others)]
-    lines, sums = [], collections.defaultdict(list)
-    for name, X, Y, truth in wanted:
-        for vertices in (300, 600, 1000):
-            found = []
-            for _, proxy, matcher in KINDS:
-                if proxy == "none" and vertices != 600:
-                    found.append(None)
-                    continue
-                output = f"pair_{report_name(name)}_{vertices}_{proxy}_{matcher}.out"
-                run(build, folder, output, "shape_matching", X, Y, "--ground-truth", truth, "--vertices", str(vertices), "--proxy", proxy,
-                    "--output", "map.txt", *(["--matcher", matcher] if matcher else []), by=os.environ.get("RUN_BY", ""))
-                with open(os.path.join(folder, output)) as file:
-                    words = next(line for line in file if line.startswith(proxy)).split()
-                found.append((float(words[-3]), float(words[-2])))
-                sums[len(found) - 1].append(found[-1])
-            best = min(error for error, _ in filter(None, found))
-            cells = ["" if f is None else f"**{f[0]:.4f}**, {f[1]:.1f} %" if f[0] == best else f"{f[0]:.4f}, {f[1]:.1f} %" for f in found]
-            lines.append(f"| {name if vertices == 300 else ''} | {vertices:,} | " + " | ".join(cells) + " |")
-    means = [tuple(sum(column) / len(column) for column in zip(*sums[k])) for k in range(len(KINDS))]
-    lines.append("| mean | | " + " | ".join(f"{error:.4f}, {share:.1f} %" for error, share in means) + " |")
-    table = [machine() + ".", "", "| pair | vertices | " + " | ".join(kind for kind, _, _ in KINDS) + " |",
-             "|---|---:|" + "---:|" * len(KINDS), *lines]
+    wanted = [(name, "stand.off", Y, truth) for name, Y, truth in SHOWN_PAIRS]
+    for name, X, Y, *truth in (word.split(":") for word in others):
+        X = os.path.abspath(X)
+        if Y == "bent":
+            wanted.append((name, *bent_pair(build, folder, name, X)))
+            continue
+        map_file = os.path.abspath(truth[0])
+        if truth[0] == "same":
+            map_file = os.path.join(folder, f"{report_name(name)}_same.txt")
+            identity(X, map_file)
+        wanted.append((name, X, os.path.abspath(Y), map_file))
+    rows = {(name, vertices): matched(build, folder, rivals, name, X, Y, truth, vertices)
+            for name, X, Y, truth in wanted for vertices in SIZES}
+    titles = []
+    for row in rows.values():
+        titles += [title for title in row if title not in titles]
+    titles.sort(key=lambda title: (title == "no proxy", not title.startswith("spectral"), title not in PROXIES.values()))
+    lines = [pair_row(name if vertices == SIZES[0] else "", vertices, titles, found) for (name, vertices), found in rows.items()]
+    for vertices in SIZES:
+        of_size = [row for (_, size), row in rows.items() if size == vertices]
+        means = {title: [sum(row[title][k] for row in of_size) / len(of_size) for k in (0, 1)] for title in titles if title in of_size[0]}
+        lines.append(pair_row("mean" if vertices == SIZES[0] else "", vertices, titles, means))
+    table = [machine() + ".", "", "| pair | vertices | " + " | ".join(titles) + " |", "|---|---:|" + "---:|" * len(titles), *lines]
     replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "pairs", "\n".join(table) + "\n")
 
 
@@ -247,11 +338,11 @@ def curves(folder, report, path):
 
 def main():
     words = [word for word in sys.argv[1:] if word not in ("--large", "--pairs")]
-    if not words or len(words) > 2 and "--pairs" not in sys.argv:
-        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER], or --pairs BUILD FOLDER [NAME:X:Y:TRUTH ...]")
+    if not words or ("--pairs" in sys.argv and len(words) < 3) or ("--pairs" not in sys.argv and len(words) > 2):
+        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER], or --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]")
     folder = os.path.abspath(words[1] if len(words) > 1 else os.path.join(words[0], "applications"))
     if "--pairs" in sys.argv:
-        pairs(words[0], folder, words[2:])
+        pairs(words[0], folder, os.path.abspath(words[2]), words[3:])
         return
     if "--large" in sys.argv:
         large(words[0], folder)

@@ -25,6 +25,14 @@ refuses "more modes than vertices" "and --eigenvectors, which is 100" X.off Y.of
 refuses "a negative weight" "local-weight" X.off Y.off --output map.txt --local-weight -1
 refuses "unknown operators" "'own', it must be fitted or mesh" X.off Y.off --output map.txt --operators own
 refuses "an unknown proxy" "'qslim'" X.off Y.off --output map.txt --proxy qslim
+refuses "a proxy twice" "'none', name each of .*garland_heckbert_probabilistic, none at most once" X.off Y.off --output map.txt \
+  --proxy none,none
+refuses "one foreign proxy" "--proxy-meshes is 'other=X.off', it must be NAME=X_PROXY,Y_PROXY" X.off Y.off --output map.txt \
+  --proxy-meshes other=X.off
+refuses "a foreign proxy with the name of another" "another name" X.off Y.off --output map.txt --proxy-meshes spectral=X.off,Y.off
+refuses "two foreign proxies of one name" "another name" X.off Y.off --output map.txt --proxy-meshes other=X.off,Y.off \
+  --proxy-meshes other=Y.off,X.off
+refuses "a foreign proxy that is missing" "cannot read 'none.off'" X.off Y.off --output map.txt --proxy-meshes other=X.off,none.off
 refuses "an unknown matcher" "'icp', it must be product_manifold_filter or bcicp" X.off Y.off --output map.txt --matcher icp
 refuses "BCICP without a proxy" "and --proxy has 'none'" X.off Y.off --output map.txt --matcher bcicp --proxy spectral,none
 refuses "fewer vertices left than are matched" "pre-simplify leaves 500" X.off Y.off --output map.txt --pre-simplify 500
@@ -39,10 +47,10 @@ refuses "no landmarks in the file" "names no vertex" X.off Y.off --output map.tx
 refuses "an input as output" "read as an input" X.off Y.off --output ./X.off
 refuses "a truth for another mesh" "lines" X.off Y.off --output map.txt --ground-truth one.txt
 
-"$program" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,none --ground-truth truth.txt \
-  --output map.txt --report report.html >said 2>complained || fail "the match: $(cat complained)"
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --proxy spectral,garland_heckbert,garland_heckbert_probabilistic,none \
+  --ground-truth truth.txt --output map.txt --report report.html >said 2>complained || fail "the match: $(cat complained)"
 [ "$(wc -l <map.txt)" -eq "$(wc -l <truth.txt)" ] || fail "map.txt has $(wc -l <map.txt) lines"
-for proxy in spectral garland_heckbert none; do
+for proxy in spectral garland_heckbert garland_heckbert_probabilistic none; do
   # The last columns: mean error and part below 0.05 with its sign.
   error=$(awk -v proxy=$proxy '$1 == proxy { print $(NF - 2) }' said)
   [ -n "$error" ] || fail "there is no error for $proxy in: $(cat said)"
@@ -98,7 +106,7 @@ cmp -s fitted.txt bcicp.txt && fail "--matcher makes no difference"
 cmp -s fitted.txt mesh.txt && fail "--operators makes no difference"
 
 grep -q "<script\|<link\|src='http" report.html && fail "the page needs more than itself"
-[ "$(grep -o "data:image/png" report.html | wc -l)" -eq 4 ] || fail "the page has not four pictures"
+[ "$(grep -o "data:image/png" report.html | wc -l)" -eq 5 ] || fail "the page has not five pictures"
 
 for threads in 1 2; do
   "$program" X.off Y.off --vertices 300 --eigenvectors 50 --threads $threads --quiet --output $threads.txt >said \
@@ -125,23 +133,27 @@ grep -q "^'isolatedY.off': 1 isolated vertex left out.$" said || fail "isolated 
 
 # An ellipsoid of three different axes has four rotations onto itself, which no signature can tell apart: landmarks
 # decide for one of them.
-awk 'BEGIN {
-  n = 48; m = 24; pi = atan2(0, -1)
-  print "OFF\n" n * (m - 1) + 2, 2 * n * (m - 1), 0
-  print 0, 0, 1.6; print 0, 0, -1.6
-  for(i = 1; i < m; ++i)
-    for(j = 0; j < n; ++j)
-      print cos(2 * pi * j / n) * sin(pi * i / m), 1.3 * sin(2 * pi * j / n) * sin(pi * i / m), 1.6 * cos(pi * i / m)
-  for(j = 0; j < n; ++j) {
-    k = (j + 1) % n
-    print 3, 0, 2 + j, 2 + k
-    print 3, 1, 2 + n * (m - 2) + k, 2 + n * (m - 2) + j
-    for(i = 0; i + 2 < m; ++i) {
-      print 3, 2 + n * i + j, 2 + n * (i + 1) + j, 2 + n * (i + 1) + k
-      print 3, 2 + n * i + j, 2 + n * (i + 1) + k, 2 + n * i + k
+ellipsoid()
+{
+  awk -v n="$1" -v m="$2" 'BEGIN {
+    pi = atan2(0, -1)
+    print "OFF\n" n * (m - 1) + 2, 2 * n * (m - 1), 0
+    print 0, 0, 1.6; print 0, 0, -1.6
+    for(i = 1; i < m; ++i)
+      for(j = 0; j < n; ++j)
+        print cos(2 * pi * j / n) * sin(pi * i / m), 1.3 * sin(2 * pi * j / n) * sin(pi * i / m), 1.6 * cos(pi * i / m)
+    for(j = 0; j < n; ++j) {
+      k = (j + 1) % n
+      print 3, 0, 2 + j, 2 + k
+      print 3, 1, 2 + n * (m - 2) + k, 2 + n * (m - 2) + j
+      for(i = 0; i + 2 < m; ++i) {
+        print 3, 2 + n * i + j, 2 + n * (i + 1) + j, 2 + n * (i + 1) + k
+        print 3, 2 + n * i + j, 2 + n * (i + 1) + k, 2 + n * i + k
+      }
     }
-  }
-}' >ellipsoid.off
+  }'
+}
+ellipsoid 48 24 >ellipsoid.off
 awk 'BEGIN { for(v = 0; v < 1106; ++v) print v }' >same.txt
 awk 'BEGIN { n = 48; print 0; print 1; for(v = 0; v < 1104; ++v) print 2 + v - v % n + (v + n / 2) % n }' >turned.txt
 for truth in same turned; do
@@ -150,6 +162,36 @@ for truth in same turned; do
     --ground-truth $truth.txt --output map.txt >said 2>complained || fail "landmarks: $(cat complained)"
   awk 'END { exit !($(NF - 2) < 0.1) }' said || fail "landmarks do not find '$truth': $(tail -n 1 said)"
 done
+
+# Meshes that another program made: landmarks reach them, and they need not be of one size. Without --proxy they alone are matched, beside
+# others they stand in the same table and page; each proxy has a map of its own.
+ellipsoid 20 13 >coarse242.off
+ellipsoid 16 15 >coarse226.off
+match="ellipsoid.off ellipsoid.off --eigenvectors 40 --fine-iterations 0 --landmarks landmarks.txt --ground-truth turned.txt"
+for matcher in product_manifold_filter bcicp; do
+  runs "foreign proxies, $matcher" $match --matcher $matcher --proxy-meshes "made elsewhere=coarse242.off,coarse226.off" \
+    --output foreign.txt --json foreign.json
+  grep '"proxy":' foreign.json | grep -v "made elsewhere" && fail "the proxies in $(cat foreign.json)"
+  awk 'END { exit !($1 == "made" && $(NF - 2) < 0.1) }' said || fail "foreign proxies, $matcher: $(cat said)"
+done
+runs "four proxies" $match --vertices 250 --proxy garland_heckbert_probabilistic,garland_heckbert \
+  --proxy-meshes "made elsewhere=coarse242.off,coarse226.off" --proxy-meshes again=coarse226.off,coarse242.off \
+  --output four.txt --report four.html --json four.json
+sed -n 's/^ *"\(proxy\|vertices\|error_mean\)": "*\([^",]*\).*/\2/p' four.json | paste -d, - - - | cut -d, -f2,3 >proxies
+printf '%s\n' garland_heckbert_probabilistic,250 garland_heckbert,250 "made elsewhere,242" again,226 | cmp -s - proxies ||
+  fail "the proxies in $(cat four.json)"
+[ "$(grep condition four.json | sort -u | wc -l)" -eq 4 ] || fail "proxies have the same map: $(cat four.json)"
+for name in garland_heckbert_probabilistic garland_heckbert "made elsewhere" again; do
+  grep -q ">$name<" four.html || fail "the page does not name $name"
+done
+rm -f map.txt
+awk 'NF == 3 && NR > 2 { print $1 / 100, $2 / 100, $3 / 100; next } { print }' coarse226.off >small.off
+refuses "a foreign proxy in another unit" "'small.off', a proxy of 'ellipsoid.off', does not lie on it" $match --output map.txt \
+  --proxy-meshes other=coarse226.off,small.off
+refuses "a foreign proxy of too few vertices" "'coarse226.off' has 226 vertices.*--eigenvectors, which is 230" ellipsoid.off ellipsoid.off \
+  --output map.txt --eigenvectors 230 --proxy-meshes other=coarse242.off,coarse226.off
+refuses "a foreign proxy that is no simplification" "'ellipsoid.off' has 1106 vertices.*which has 242" ellipsoid.off coarse242.off --output map.txt \
+  --eigenvectors 40 --proxy-meshes other=coarse242.off,ellipsoid.off
 
 [ "$failures" -eq 0 ] && echo "all passed"
 exit "$failures"

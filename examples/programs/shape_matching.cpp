@@ -18,6 +18,7 @@
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -37,6 +38,22 @@ bool keep_going()
   return !interrupted;
 }
 
+// The files that are read, which no output replaces.
+std::vector<std::string> inputs(const Matching_arguments& a)
+{
+  std::vector<std::string> result{a.X, a.Y, a.landmarks, a.ground_truth};
+  for(const Foreign_proxy& foreign : a.foreign())
+    result.insert(result.end(), {foreign.X, foreign.Y});
+  return result;
+}
+
+// Foreign proxies as they were read.
+struct Read_proxies
+{
+  Foreign_proxy of;
+  Input_mesh X, Y;
+};
+
 // One run of the program.
 class Run
 {
@@ -47,7 +64,7 @@ public:
     , m_input_X(read_input_mesh(arguments.X, mending(arguments.strict, arguments.repair)))
     , m_input_Y(read_input_mesh(arguments.Y, mending(arguments.strict, arguments.repair)))
     , m_proxy_size(proxy_size(arguments, m_X.number_of_vertices(), m_Y.number_of_vertices()))
-    , m_files({arguments.X, arguments.Y, arguments.landmarks, arguments.ground_truth})
+    , m_files(inputs(arguments))
   {
     m_arguments.threads = usable_threads(arguments.threads, arguments.quiet);
     m_stages.push_back({"reading", m_reading.time(), peak_memory()});
@@ -59,10 +76,14 @@ public:
     words.mass = arguments.mass;
     m_options = options_of(words);
     read_correspondences();
-    for(const auto& [input, path] :
-        {std::make_pair(&m_input_X, &m_arguments.X), std::make_pair(&m_input_Y, &m_arguments.Y)})
-      if(!m_arguments.quiet && !input->changes.empty())
-        std::cout << printable(input->changes_of(*path)) << "\n" << std::flush;
+    for(const Foreign_proxy& foreign : m_arguments.foreign())
+      m_foreign.push_back({foreign, read_proxy(foreign.X, m_X), read_proxy(foreign.Y, m_Y)});
+    say_changes(m_input_X, m_arguments.X);
+    say_changes(m_input_Y, m_arguments.Y);
+    for(const Read_proxies& foreign : m_foreign) {
+      say_changes(foreign.X, foreign.of.X);
+      say_changes(foreign.Y, foreign.of.Y);
+    }
   }
 
   void run()
@@ -82,6 +103,8 @@ public:
     c.shape_Y = &m_shape_Y;
     for(const Proxy_kind kind : m_arguments.kinds())
       c.results.push_back(match(kind));
+    for(const Read_proxies& foreign : m_foreign)
+      c.results.push_back(match(foreign));
     if(!m_truth.empty())
       measure(c.results);
     write(c);
@@ -95,6 +118,25 @@ private:
     CGAL::Real_timer timer;
     timer.start();
     return timer;
+  }
+
+  void say_changes(const Input_mesh& input, const std::string& path) const
+  {
+    if(!m_arguments.quiet && !input.changes.empty())
+      std::cout << printable(input.changes_of(path)) << "\n" << std::flush;
+  }
+
+  Input_mesh read_proxy(const std::string& path, const Mesh& fine) const
+  {
+    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));
+    const std::size_t n = input.mesh.number_of_vertices();
+    if(n > fine.number_of_vertices() || static_cast<long>(n) < m_arguments.eigenvectors)
+      throw std::runtime_error("'" + path + "' has " + std::to_string(n) +
+                               " vertices, a proxy must have at least --eigenvectors, which is " +
+                               std::to_string(m_arguments.eigenvectors) +
+                               ", and at most as many as its mesh, which has " +
+                               std::to_string(fine.number_of_vertices()) + ".");
+    return input;
   }
 
   void read_correspondences()
@@ -161,7 +203,7 @@ private:
     m_stages.push_back({"eigenpairs", timer.time(), peak_memory()});
   }
 
-  Matching_result match(Proxy_kind kind) const
+  Matching_options matching_options() const
   {
     Matching_options options;
     options.matcher = m_arguments.matcher == "bcicp" ? Matcher::bcicp : Matcher::product_manifold_filter;
@@ -171,30 +213,69 @@ private:
     options.fine_iterations = static_cast<int>(m_arguments.fine_iterations);
     options.local_weight = m_arguments.local_weight;
     options.threads = m_arguments.threads;
-    Matching_result result;
-    result.proxy = proxy_name(kind);
-    result.stages = m_stages;
-    if(kind == Proxy_kind::none) {
-      result.vertices = matched_X().number_of_vertices();
-      result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, options, keep_going);
-      result.stages.push_back({"proxies", 0, peak_memory()});
-      add_stages_of_match(result);
-      return result;
-    }
-    const CGAL::Real_timer timer = started();
-    const Proxy_operators operators =
-        m_arguments.operators == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
+    return options;
+  }
+
+  Proxy_operators operators() const
+  {
+    return m_arguments.operators == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
+  }
+
+  Matching_result match(const Proxy_kind kind) const
+  {
+    if(kind == Proxy_kind::none)
+      return matched_directly();
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
-      return make_proxy(mesh, fine, kind, m_proxy_size, m_arguments.eigenvectors, m_options, operators,
+      return make_proxy(mesh, fine, kind, m_proxy_size, m_arguments.eigenvectors, m_options, operators(),
                         keep_going);
     };
-    const auto [coarse_X, coarse_Y] = side_by_side(
-        m_arguments.threads, [&] { return proxy(matched_X(), m_shape_X); },
+    return matched_over(
+        proxy_name(kind), [&] { return proxy(matched_X(), m_shape_X); },
         [&] { return proxy(matched_Y(), m_shape_Y); });
+  }
+
+  Matching_result match(const Read_proxies& foreign) const
+  {
+    const auto proxy = [&](const Input_mesh& coarse, const std::string& path, const Shape& fine,
+                           const std::string& path_of_fine) {
+      try {
+        return make_foreign_proxy(coarse.mesh, fine, m_arguments.eigenvectors, m_options.mass, operators(),
+                                  keep_going);
+      } catch(const SG::Cancelled&) {
+        throw;
+      } catch(const std::exception& error) {
+        throw std::runtime_error("'" + path + "', a proxy of '" + path_of_fine + "', " + error.what());
+      }
+    };
+    return matched_over(
+        foreign.of.name, [&] { return proxy(foreign.X, foreign.of.X, m_shape_X, m_arguments.X); },
+        [&] { return proxy(foreign.Y, foreign.of.Y, m_shape_Y, m_arguments.Y); });
+  }
+
+  Matching_result matched_directly() const
+  {
+    Matching_result result;
+    result.proxy = proxy_name(Proxy_kind::none);
+    result.stages = m_stages;
+    result.vertices = matched_X().number_of_vertices();
+    result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, matching_options(), keep_going);
+    result.stages.push_back({"proxies", 0, peak_memory()});
+    add_stages_of_match(result);
+    return result;
+  }
+
+  template <class Make_X, class Make_Y>
+  Matching_result matched_over(const std::string& name, const Make_X& make_X, const Make_Y& make_Y) const
+  {
+    Matching_result result;
+    result.proxy = name;
+    result.stages = m_stages;
+    const CGAL::Real_timer timer = started();
+    const auto [coarse_X, coarse_Y] = side_by_side(m_arguments.threads, make_X, make_Y);
     result.stages.push_back({"proxies", timer.time(), peak_memory()});
-    result.vertices = m_proxy_size;
-    result.match =
-        match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks, options, keep_going);
+    result.vertices = static_cast<std::size_t>(coarse_X.restriction.rows());
+    result.match = match_over_proxies(m_shape_X, coarse_X, m_shape_Y, coarse_Y, m_landmarks,
+                                      matching_options(), keep_going);
     add_stages_of_match(result);
     return result;
   }
@@ -248,6 +329,7 @@ private:
   Output_files m_files;
   Landmarks m_landmarks;
   std::vector<Eigen::Index> m_truth;
+  std::vector<Read_proxies> m_foreign;
   std::optional<Reduced_mesh> m_reduced_X, m_reduced_Y;
   Shape m_shape_X, m_shape_Y;
   std::vector<Stage> m_stages; // of all results

@@ -10,7 +10,7 @@
 #endif
 
 #include "../simplification.h"
-#include "coarse_mesh.h"
+#include "collapse.h"
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
@@ -21,14 +21,8 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <CGAL/Polygon_mesh_processing/measure.h>
-
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -39,65 +33,17 @@ namespace SG = CGAL::Spectral_geometry;
 
 namespace {
 
-std::string note_on_size(const Mesh& mesh, std::size_t N)
-{
-  return mesh.number_of_vertices() > N ? "It ran out of edges that may be collapsed at " +
-                                             std::to_string(mesh.number_of_vertices()) + " vertices."
-                                       : "";
-}
-
-// `make_policies(mesh)` returns a pair of cost and placement; to make them is part of the time.
-template <class Make_policies>
-Coarse_mesh collapse(const Mesh& fine, std::size_t N, const Make_policies& make_policies)
-{
-  Coarse_mesh result;
-  result.mesh = fine;
-  const SMS::Restriction_visitor<Mesh> visitor(result.mesh);
-  CGAL::Real_timer timer;
-  timer.start();
-  make_policies(result.mesh, [&](const auto& cost, const auto& placement) {
-    SMS::edge_collapse(result.mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
-                       CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
-  });
-  result.seconds = timer.time();
-  result.note = note_on_size(result.mesh, N);
-  result.mesh.collect_garbage(); // reorders the vertices, and the visitor knows how
-  result.carried = visitor.restriction();
-  return result;
-}
-
-void scale(Mesh& mesh, double factor)
-{
-  for(const auto v : mesh.vertices())
-    mesh.point(v) = CGAL::ORIGIN + factor * (mesh.point(v) - CGAL::ORIGIN);
-}
-
 template <class Policies>
 Simplifier garland_heckbert(const std::string& name)
 {
-  return {"Garland-Heckbert " + name, "optimal", "none", 0, [](const Mesh& fine, std::size_t N) {
-            return collapse(fine, N, [](Mesh& mesh, const auto& run) {
-              Policies policies(mesh);
-              run(policies.get_cost(), policies.get_placement());
-            });
-          }};
+  return {"Garland-Heckbert " + name, "optimal", "none", 0, collapse_by_quadrics<Policies>};
 }
 
-// CGAL's probabilistic quadrics have variances in the unit of the mesh: what they make depends on it. They are judged in the
-// unit in which they are best, that of an area of 20,000.
 template <class Policies>
 Simplifier probabilistic_garland_heckbert(const std::string& name)
 {
-  Simplifier result = garland_heckbert<Policies>("probabilistic " + name + ", area 20000");
-  result.run = [run = result.run](const Mesh& fine, std::size_t N) {
-    const double factor = std::sqrt(20000 / CGAL::Polygon_mesh_processing::area(fine));
-    Mesh scaled = fine;
-    scale(scaled, factor);
-    Coarse_mesh coarse = run(scaled, N);
-    scale(coarse.mesh, 1 / factor);
-    return coarse;
-  };
-  return result;
+  return {"Garland-Heckbert probabilistic " + name + ", area 20000", "optimal", "none", 0,
+          collapse_by_probabilistic_quadrics<Policies>};
 }
 
 template <class Cost, class Placement>

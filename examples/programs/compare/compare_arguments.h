@@ -109,34 +109,17 @@ inline void check(const Compare_arguments& a)
     refuse("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
 }
 
-// NAME=FILE,... with at least and at most so many files.
-inline std::vector<std::string> parts_of_rival(const std::string& option, const std::string& text,
-                                               const std::string& form, std::size_t least, std::size_t most)
-{
-  const std::size_t equals = text.find('=');
-  std::vector<std::string> parts{text.substr(0, equals)};
-  if(equals != std::string::npos) {
-    std::istringstream files(text.substr(equals + 1) + ",");
-    for(std::string file; std::getline(files, file, ',');)
-      parts.push_back(file);
-  }
-  if(std::find(parts.begin(), parts.end(), "") != parts.end() || parts.size() < 1 + least ||
-     parts.size() > 1 + most)
-    throw std::runtime_error(option + " is '" + text + "', it must be " + form + ".");
-  return parts;
-}
-
 inline std::vector<Rival> rivals(const Compare_arguments& a)
 {
   std::vector<Rival> result;
   for(const std::string& text : a.rival_meshes) {
-    std::vector<std::string> parts = parts_of_rival("--rival", text, "NAME=MESH or NAME=MESH,P.mtx", 1, 2);
+    std::vector<std::string> parts = named_files("--rival", text, "NAME=MESH or NAME=MESH,P.mtx", 1, 2);
     parts.resize(3);
     result.push_back({"--rival " + parts[0], parts[0], parts[1], {}, {}, parts[2]});
   }
   for(const std::string& text : a.rival_operators) {
     const std::vector<std::string> parts =
-        parts_of_rival("--rival-operators", text, "NAME=L.mtx,M.mtx,P.mtx", 3, 3);
+        named_files("--rival-operators", text, "NAME=L.mtx,M.mtx,P.mtx", 3, 3);
     result.push_back({"--rival-operators " + parts[0], parts[0], {}, parts[1], parts[2], parts[3]});
   }
   return result;

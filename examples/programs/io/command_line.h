@@ -10,6 +10,7 @@
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -40,6 +41,23 @@ inline std::string command_line(const char* program, const int argc, const char*
     command += '\'';
   }
   return command;
+}
+
+// NAME and files of NAME=FILE,..., at least and at most so many; `form` says in an error what it must be.
+inline std::vector<std::string> named_files(const std::string& option, const std::string& text,
+                                            const std::string& form, std::size_t least, std::size_t most)
+{
+  const std::size_t equals = text.find('=');
+  std::vector<std::string> parts{text.substr(0, equals)};
+  if(equals != std::string::npos) {
+    std::istringstream files(text.substr(equals + 1) + ",");
+    for(std::string file; std::getline(files, file, ',');)
+      parts.push_back(file);
+  }
+  if(std::find(parts.begin(), parts.end(), "") != parts.end() || parts.size() < 1 + least ||
+     parts.size() > 1 + most)
+    throw std::runtime_error(option + " is '" + text + "', it must be " + form + ".");
+  return parts;
 }
 
 // The arguments and options of a program, options in groups. One table is what is read, what --help says and what

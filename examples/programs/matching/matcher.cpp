@@ -25,7 +25,7 @@ namespace SG = CGAL::Spectral_geometry;
 
 namespace {
 
-// Permutations of largest score under ever narrower kernels.
+// Permutations of largest score, or assignments that come as near, under ever narrower kernels.
 Eigen::MatrixXd of_permutations(Eigen::MatrixXd C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
                                 const Matching_options& options, const Keep_going& keep_going)
 {

@@ -41,7 +41,7 @@ struct Match
   double peak_coarse = 0; // bytes that the process had at most before the lift
 };
 
-// Matches fine X to fine Y over their proxies, which must have equal numbers of vertices.
+// Matches fine X to fine Y over their proxies.
 Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, const Proxy& coarse_Y,
                          const Landmarks& landmarks, const Matching_options& options,
                          const Keep_going& keep_going);

@@ -21,13 +21,30 @@
 #include <utility>
 #include <vector>
 
+constexpr Proxy_kind all_proxies[] = {Proxy_kind::spectral, Proxy_kind::garland_heckbert,
+                                      Proxy_kind::garland_heckbert_probabilistic, Proxy_kind::none};
+
+inline std::string proxy_names()
+{
+  std::vector<std::string> names;
+  for(const Proxy_kind kind : all_proxies)
+    names.push_back(proxy_name(kind));
+  return joined(names);
+}
+
+// Coarse meshes of X and Y that another program made.
+struct Foreign_proxy
+{
+  std::string name, X, Y;
+};
+
 // The command line of shape_matching.
 struct Matching_arguments
 {
   std::string X, Y, output, report, json, landmarks, ground_truth; // empty: not wanted
-  std::string proxies = "spectral", preset = "best", mass, operators = "fitted",
-              matcher = "product_manifold_filter"; // mass empty: as the preset has it
-  std::string vertices = "600";                    // as it was typed
+  std::string proxies, preset = "best", mass, operators = "fitted",
+                       matcher = "product_manifold_filter"; // mass empty: as the preset has it
+  std::string vertices = "600";                             // as it was typed
   Vertex_target target;
   long eigenvectors = 100, initial_modes = 20, filter_iterations = 5, fine_iterations = 18;
   long samples = 300;
@@ -35,23 +52,39 @@ struct Matching_arguments
   double local_weight = 4;
   int threads = all_threads();
   bool quiet = false, repair = false, strict = false;
+  std::vector<std::string> proxy_meshes; // as they were typed
   std::string command, help;
 
   std::vector<Proxy_kind> kinds() const
   {
     std::vector<Proxy_kind> result;
-    std::istringstream stream(proxies);
+    std::istringstream stream(proxies.empty() && proxy_meshes.empty() ? "spectral" : proxies);
     for(std::string name; std::getline(stream, name, ',');) {
-      const Proxy_kind all[] = {Proxy_kind::spectral, Proxy_kind::garland_heckbert, Proxy_kind::none};
-      const auto kind =
-          std::find_if(std::begin(all), std::end(all), [&](Proxy_kind k) { return name == proxy_name(k); });
-      if(kind == std::end(all) || std::find(result.begin(), result.end(), *kind) != result.end())
-        throw std::runtime_error("--proxy has '" + name +
-                                 "', name each of spectral, garland_heckbert and none at most once.");
+      const auto kind = std::find_if(std::begin(all_proxies), std::end(all_proxies),
+                                     [&](Proxy_kind k) { return name == proxy_name(k); });
+      if(kind == std::end(all_proxies) || std::find(result.begin(), result.end(), *kind) != result.end())
+        throw std::runtime_error("--proxy has '" + name + "', name each of " + proxy_names() +
+                                 " at most once.");
       result.push_back(*kind);
     }
-    if(result.empty())
-      throw std::runtime_error("--proxy names no proxy: spectral, garland_heckbert or none.");
+    return result;
+  }
+
+  std::vector<Foreign_proxy> foreign() const
+  {
+    std::vector<Foreign_proxy> result;
+    for(const std::string& text : proxy_meshes) {
+      const std::vector<std::string> parts =
+          named_files("--proxy-meshes", text, "NAME=X_PROXY,Y_PROXY, a name and two meshes", 2, 2);
+      const bool taken = std::any_of(std::begin(all_proxies), std::end(all_proxies),
+                                     [&](Proxy_kind k) { return parts[0] == proxy_name(k); }) ||
+                         std::any_of(result.begin(), result.end(),
+                                     [&](const Foreign_proxy& f) { return parts[0] == f.name; });
+      if(taken)
+        throw std::runtime_error("--proxy-meshes " + parts[0] +
+                                 ": there is another proxy of this name, choose another name.");
+      result.push_back({parts[0], parts[1], parts[2]});
+    }
     return result;
   }
 };
@@ -95,8 +128,11 @@ inline Command_line described(Matching_arguments& a)
   line.flag("quiet", a.quiet, "no table");
   line.advanced_group("Stages of the match (advanced)");
   line.option("proxy", a.proxies, "NAME,...",
-              "how to simplify: spectral, garland_heckbert or none (no matcher then); several are compared, "
-              "the first is written");
+              "how to simplify, one or several of " + proxy_names() +
+                  " (no matcher then), of which the first is written; spectral, if no proxy is given");
+  line.option("proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
+              "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "
+              "points; may be given several times. Without --proxy these alone");
   line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
@@ -146,6 +182,7 @@ inline void check(const Matching_arguments& a)
     throw std::runtime_error("--initial is " + std::to_string(a.initial_modes) +
                              ", it must be at most 60: memory grows with its fourth power.");
   const std::vector<Proxy_kind> kinds = a.kinds();
+  a.foreign();
   if(a.matcher == "bcicp" && std::find(kinds.begin(), kinds.end(), Proxy_kind::none) != kinds.end())
     throw std::runtime_error(
         "--matcher bcicp refines the match of simplified meshes, and --proxy has 'none'.");
@@ -169,7 +206,8 @@ inline Matching_arguments parse_matching_arguments(int argc, const char* const* 
 // The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices; 0 where there are none.
 inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X, const std::size_t n_Y)
 {
-  if(a.kinds() == std::vector<Proxy_kind>{Proxy_kind::none})
+  const std::vector<Proxy_kind> kinds = a.kinds();
+  if(std::all_of(kinds.begin(), kinds.end(), [](Proxy_kind k) { return k == Proxy_kind::none; }))
     return 0;
   const std::size_t N = a.target.of(n_X);
   const auto refuse = [N](const std::string& why) {

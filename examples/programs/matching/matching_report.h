@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H
 #define SPECTRAL_EXAMPLES_MATCHING_MATCHING_REPORT_H
 
+#include "../io/program.h"
 #include "../report/html_report.h"
 #include "../report/json_text.h"
 #include "../report/mesh_picture.h"
@@ -12,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -31,7 +33,7 @@ struct Stage
 struct Matching_result
 {
   std::string proxy;
-  std::size_t vertices = 0; // of the meshes that were matched
+  std::size_t vertices = 0; // of the meshes that were matched; of X's, where they differ
   Match match;
   std::vector<Stage> stages;  // from reading to the lift, the same for all results
   std::vector<double> errors; // ascending; empty without a ground truth
@@ -113,12 +115,16 @@ inline nlohmann::json to_json(const Matching_comparison& c)
 
 inline void print_matching(const Matching_comparison& c)
 {
-  std::printf("%-17s %8s", "seconds, proxy", "vertices");
+  const std::string title = "seconds, proxy";
+  std::size_t width = title.size();
+  for(const Matching_result& r : c.results)
+    width = (std::max)(width, printable(r.proxy).size());
+  std::printf("%-*s %8s", static_cast<int>(width), title.c_str(), "vertices");
   for(const Stage& stage : c.results.front().stages)
     std::printf(" %10s", stage.name.c_str());
   std::printf(" %10s %10s %10s\n", "total", "mean error", "below 0.05");
   for(const Matching_result& r : c.results) {
-    std::printf("%-17s %8zu", r.proxy.c_str(), r.vertices);
+    std::printf("%-*s %8zu", static_cast<int>(width), printable(r.proxy).c_str(), r.vertices);
     for(const Stage& stage : r.stages)
       std::printf(" %10.2f", stage.seconds);
     std::printf(" %10.2f", r.seconds());

@@ -4,15 +4,14 @@
 
 #include "proxy.h"
 
+#include "../compare/collapse.h"
 #include "../compare/heaviest_vertices.h"
 #include "../simplification.h"
 
-#include <CGAL/Real_timer.h>
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +35,18 @@ Eigen::SparseMatrix<double> picking(const std::vector<Eigen::Index>& representat
   return P;
 }
 
+// A coarse mesh, and how it stands for the fine one.
+struct Simplification
+{
+  SG::Mesh_matrices matrices;
+  Eigen::SparseMatrix<double> restriction; // rows as in the matrices
+  std::vector<std::size_t> vertex_map;
+};
+
 // In the spectral metric, with the eigenpairs that the fine mesh has anyhow.
-Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, std::size_t vertices,
-                                                SMS::Spectral_edge_collapse_options options,
-                                                const Keep_going& keep_going, Proxy& proxy)
+Simplification simplified_spectrally(Mesh mesh, const Shape& fine, std::size_t vertices,
+                                     SMS::Spectral_edge_collapse_options options,
+                                     const Keep_going& keep_going)
 {
   options.binary = true; // the matches are vertices of the fine mesh
   options.relocate = false;
@@ -51,24 +58,56 @@ Eigen::SparseMatrix<double> simplify_spectrally(Mesh& mesh, const Shape& fine, s
   const auto result = simplify_mesh(mesh, vertices, options);
   if(!result.explanation.empty() && keep_going())
     throw std::runtime_error(result.explanation);
-  proxy.vertex_map = result.vertex_map;
-  return result.restriction;
+  return {SG::mesh_matrices(mesh), result.restriction, result.vertex_map};
 }
 
-Eigen::SparseMatrix<double> simplify_by_quadrics(Mesh& mesh, std::size_t vertices, Proxy& proxy)
+Simplification simplified_by_quadrics(const Mesh& mesh, Proxy_kind kind, std::size_t vertices)
 {
-  const SMS::Restriction_visitor<Mesh> visitor(mesh);
-  SMS::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(vertices, mesh),
-                     CGAL::parameters::get_cost(policies.get_cost())
-                         .get_placement(policies.get_placement())
-                         .visitor(visitor));
-  if(mesh.number_of_vertices() != vertices)
-    throw std::runtime_error("Garland-Heckbert ran out of edges at " +
-                             std::to_string(mesh.number_of_vertices()) + " vertices instead of " +
+  using Plane = SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>;
+  using Probabilistic_plane = SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>;
+  Coarse_mesh coarse = kind == Proxy_kind::garland_heckbert
+                           ? collapse_by_quadrics<Plane>(mesh, vertices)
+                           : collapse_by_probabilistic_quadrics<Probabilistic_plane>(mesh, vertices);
+  if(coarse.mesh.number_of_vertices() != vertices)
+    throw std::runtime_error(std::string(proxy_name(kind)) + " ran out of edges at " +
+                             std::to_string(coarse.mesh.number_of_vertices()) + " vertices instead of " +
                              std::to_string(vertices) + ".");
-  proxy.vertex_map = visitor.vertex_map();
-  return visitor.restriction();
+  return {SG::mesh_matrices(coarse.mesh), std::move(*coarse.carried), std::move(coarse.vertex_map)};
+}
+
+Simplification of_closest_points(const Mesh& coarse, const Shape& fine)
+{
+  Simplification result;
+  result.matrices = SG::mesh_matrices(coarse);
+  result.restriction = SG::closest_point_interpolation(result.matrices.V, fine.matrices);
+  const double distance = (result.restriction * fine.matrices.V - result.matrices.V).rowwise().norm().mean() /
+                          std::sqrt(fine.area);
+  // A twentieth of the shape. Simplifications to 300 vertices lie within a hundredth.
+  if(!(distance < 0.05))
+    throw std::runtime_error("does not lie on it: simplify that mesh, and leave it where it is and in its "
+                             "unit of length.");
+  for(const Eigen::Index v :
+      heaviest_vertices(SG::closest_point_interpolation(fine.matrices.V, result.matrices)))
+    result.vertex_map.push_back(static_cast<std::size_t>(v));
+  return result;
+}
+
+Proxy proxy_of(Simplification coarse, const Shape& fine, Eigen::Index modes, SG::Mass mass,
+               Proxy_operators operators, const Keep_going& keep_going)
+{
+  Proxy proxy;
+  proxy.representative = heaviest_vertices(coarse.restriction);
+  proxy.restriction = picking(proxy.representative, coarse.restriction.cols());
+  proxy.vertex_map = std::move(coarse.vertex_map);
+  std::function<void(SG::Laplace_operator&)> fit;
+  if(operators == Proxy_operators::fitted)
+    fit = [&](SG::Laplace_operator& op) {
+      SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
+      fit_options.progress = [&](double) { return keep_going(); };
+      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, fit_options).op;
+    };
+  proxy.shape = make_shape(std::move(coarse.matrices), modes, mass, keep_going, fit);
+  return proxy;
 }
 
 } // namespace
@@ -77,7 +116,8 @@ const char* proxy_name(Proxy_kind kind)
 {
   return kind == Proxy_kind::spectral           ? "spectral"
          : kind == Proxy_kind::garland_heckbert ? "garland_heckbert"
-                                                : "none";
+         : kind == Proxy_kind::none             ? "none"
+                                                : "garland_heckbert_probabilistic";
 }
 
 Mesh mesh_of(const SG::Mesh_matrices& matrices)
@@ -126,28 +166,14 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
                  Eigen::Index modes, const SMS::Spectral_edge_collapse_options& options,
                  Proxy_operators operators, const Keep_going& keep_going)
 {
-  Proxy proxy;
-  CGAL::Real_timer timer;
-  timer.start();
-  Mesh coarse = mesh;
-  Eigen::SparseMatrix<double> P;
-  if(kind == Proxy_kind::spectral)
-    P = simplify_spectrally(coarse, fine, vertices, options, keep_going, proxy);
-  else
-    P = simplify_by_quadrics(coarse, vertices, proxy);
-  proxy.representative = heaviest_vertices(P);
-  proxy.restriction = picking(proxy.representative, P.cols());
-  SG::Mesh_matrices matrices = SG::mesh_matrices(coarse); // garbage is skipped, in the order of P
-  proxy.seconds_simplification = timer.time();
-  timer.reset();
-  std::function<void(SG::Laplace_operator&)> fit;
-  if(operators == Proxy_operators::fitted)
-    fit = [&](SG::Laplace_operator& op) {
-      SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
-      fit_options.progress = [&](double) { return keep_going(); };
-      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, fit_options).op;
-    };
-  proxy.shape = make_shape(std::move(matrices), modes, options.mass, keep_going, fit);
-  proxy.seconds_eigenpairs = timer.time();
-  return proxy;
+  Simplification coarse = kind == Proxy_kind::spectral
+                              ? simplified_spectrally(mesh, fine, vertices, options, keep_going)
+                              : simplified_by_quadrics(mesh, kind, vertices);
+  return proxy_of(std::move(coarse), fine, modes, options.mass, operators, keep_going);
+}
+
+Proxy make_foreign_proxy(const Mesh& coarse, const Shape& fine, Eigen::Index modes, SG::Mass mass,
+                         Proxy_operators operators, const Keep_going& keep_going)
+{
+  return proxy_of(of_closest_points(coarse, fine), fine, modes, mass, operators, keep_going);
 }

@@ -44,7 +44,7 @@ Mesh mesh_of(const CGAL::Spectral_geometry::Mesh_matrices& matrices);
 // Reduces a larger mesh to so many vertices by quadrics alone.
 Reduced_mesh reduced_by_quadrics(Mesh mesh, std::size_t vertices, const std::function<bool()>& keep_going);
 
-enum class Proxy_kind { spectral, garland_heckbert, none };
+enum class Proxy_kind { spectral, garland_heckbert, garland_heckbert_probabilistic, none };
 
 const char* proxy_name(Proxy_kind kind);
 
@@ -55,7 +55,6 @@ struct Proxy
   Eigen::SparseMatrix<double> restriction;  // coarse x fine, binary
   std::vector<Eigen::Index> representative; // for each coarse vertex the fine one that the restriction picks
   std::vector<std::size_t> vertex_map;      // for each fine vertex the coarse one it went to
-  double seconds_simplification = 0, seconds_eigenpairs = 0;
 };
 
 // What a proxy computes with: its own cotangents and areas, or `fit_operators()`.
@@ -75,5 +74,11 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
                  Eigen::Index modes,
                  const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
                  Proxy_operators operators, const Keep_going& keep_going);
+
+// The same of a coarse mesh, whoever made it. A coarse vertex stands for the nearest corner of the fine triangle that is closest
+// to it. Throws std::runtime_error, with the end of a sentence, where it does not lie on the fine mesh.
+Proxy make_foreign_proxy(const Mesh& coarse, const Shape& fine, Eigen::Index modes,
+                         CGAL::Spectral_geometry::Mass mass, Proxy_operators operators,
+                         const Keep_going& keep_going);
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_PROXY_H
