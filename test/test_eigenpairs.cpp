@@ -387,6 +387,23 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
         I::backward_body<Row>, I::multiply_block_body<Row>);
 }
 
+TEST_CASE("Eigenvalues that are missing are counted")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
+  const std::function<bool(double)> silent;
+  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+  const Eigen::VectorXd all = SG::internal::dense_eigenpairs(problem, 40).values;
+  for(const std::vector<int>& left_out : {std::vector<int>{}, {0}, {17}, {5, 6, 30}}) {
+    std::vector<double> found;
+    for(int k = 0; k < 40; ++k)
+      if(std::find(left_out.begin(), left_out.end(), k) == left_out.end())
+        found.push_back(all(k));
+    Eigen::Index missing = -1;
+    CHECK(SG::internal::count_missing(problem, Eigen::VectorXd::Map(found.data(), found.size()), 2, missing));
+    CHECK(missing == static_cast<Eigen::Index>(left_out.size()));
+  }
+}
+
 TEST_CASE("Eigenpairs are the same in every run")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));

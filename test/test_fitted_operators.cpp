@@ -311,6 +311,15 @@ TEST_CASE("A vertex of little mass that P reads elsewhere is not cut off", "[fit
   }
 }
 
+TEST_CASE("Where vertices are many P is taken as it is", "[fitted_operators]")
+{
+  // The own mode of every vertex lies far above ten eigenvalues.
+  const Problem p = nested(3, 10);
+  const VectorXd mode = p.coarse.L.diagonal().cwiseQuotient(p.coarse.mass);
+  REQUIRE((mode.array() > 8. * p.pairs.values.maxCoeff()).count() > mode.size() / 2);
+  CHECK(judge(p, fit(p).op).norm_L < 0.75 * judge(p, p.coarse).norm_L);
+}
+
 TEST_CASE("Edges of next to no weight do not make up for negative ones", "[fitted_operators]")
 {
   const shapes::Matrices grid = wavy_grid_matrices(9, 7);

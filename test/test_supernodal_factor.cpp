@@ -84,6 +84,7 @@ TEST_CASE("Solves agree with Eigen's factorisation, for vectors and panels, and 
     matrices.push_back(Sparse(R * R.transpose()));
     matrices.back().diagonal().array() += 1.;
   }
+  matrices.push_back(Sparse(Eigen::VectorXd::LinSpaced(600, 1., 2.).asDiagonal())); // nothing but roots
   for(const Sparse& A : matrices) {
     const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 8);
     const Eigen::SimplicialLLT<Sparse> reference(A);
@@ -125,6 +126,7 @@ TEST_CASE("Negative eigenvalues are counted, and a matrix that has some is refus
   for(const double shift : {0.5, 3., 40., 400.}) {
     const Sparse A = op.L - shift * op.B;
     CHECK(SG::internal::number_of_negative_eigenvalues(A) == count(A));
+    CHECK(SG::internal::number_of_negative_eigenvalues(A, 3) == count(A));
     CHECK_THROWS_WITH(Supernodal_factor(A), ContainsSubstring("needle"));
   }
   for(const unsigned seed : {1u, 2u, 3u}) {
@@ -137,6 +139,12 @@ TEST_CASE("Negative eigenvalues are counted, and a matrix that has some is refus
   zero.insert(2, 2) = -1.;
   zero.makeCompressed();
   CHECK(SG::internal::number_of_negative_eigenvalues(zero) == -1);
+  Sparse positive = zero;
+  positive.coeffs() = 2.;
+  Supernodal_factor factor(positive);
+  CHECK_THROWS_AS(factor.factorise(zero, 1), SG::internal::Not_positive_definite);
+  factor.factorise(positive, 1); // none the worse for it
+  CHECK(factor.solve(Eigen::VectorXd::Ones(3), 1) == Eigen::VectorXd::Constant(3, 0.5));
   zero.coeffRef(1, 1) = std::nan("");
   CHECK_THROWS_AS(Supernodal_factor(zero), std::runtime_error);
 }

@@ -12,7 +12,7 @@ build=${BUILD_DIR:-$root/build-python}
 
 . "$root/cmake/debian_packages.sh"
 install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev libboost-program-options-dev \
-  nlohmann-json3-dev libsuitesparse-dev liblemon-dev pybind11-dev python3-dev python3-numpy python3-scipy
+  nlohmann-json3-dev liblemon-dev pybind11-dev python3-dev python3-numpy python3-scipy
 
 prefer_ninja "$build"
 # CMAKE_ARGS is split into words on purpose.

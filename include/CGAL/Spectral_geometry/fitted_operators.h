@@ -57,7 +57,7 @@ struct Operator_fit_options
   double tolerance = 0.05;
   /// Ends after so many iterations, each of one factorisation and a few products; from 0.
   int maximum_iterations = 30;
-  /// Threads of the products, at least 1; the result does not depend on it.
+  /// Threads of the products, factorisations and solves, at least 1; the result does not depend on it.
   int threads = 1;
   /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns false to cancel.
   std::function<bool(double)> progress;
@@ -92,8 +92,8 @@ as the sparsity allows: for functional maps, spectral distances and signatures, 
 triangles. The result goes to `eigenpairs()`, `evaluate_spectrum()` and whatever takes an operator. It is not for what needs
 the cotangents or the areas of the actual triangles.
 
-With \f$ G = P \Phi \f$ (but for vertices whose own mode \f$ L_{vv} / M_v \f$ is more than eight times the highest fitted eigenvalue: there row v
-of \f$ L g = \lambda B g \f$ holds), all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
+With \f$ G = P \Phi \f$ (but for vertices whose own mode \f$ L_{vv} / M_v \f$ is more than eight times the highest fitted eigenvalue and the
+median of all: there row v of \f$ L g = \lambda B g \f$ is solved for G, by ten sweeps of Gauss and Seidel), all at unit area, D the lumped mass of the coarse mesh and \f$ R = \widetilde B G \Lambda - \widetilde L G \f$,
 it minimises
 \f[ \|G^\top R\|_W^2 + \eta \|D^{-1/2} R\|_W^2 + \mu \|G^\top \widetilde B G - I\|^2
    + \frac{\tau}{N} \sum_a \left( \frac{x_a - x_a^0}{x_a^0 + s_a} \right)^2 \f]

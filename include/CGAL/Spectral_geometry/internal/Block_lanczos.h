@@ -246,7 +246,7 @@ private:
     for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
       m_problem.report(0.85);
       Index missing = 0;
-      if(!count_missing(m_problem, values(), missing))
+      if(!count_missing(m_problem, values(), m_space.threads(), missing))
         return false;
       if(missing == 0)
         return true;

@@ -204,7 +204,8 @@ CGAL_SPECTRAL_INLINE void multiply_block_body(double* C, std::ptrdiff_t c, int c
 }
 
 /// One supernode of a Cholesky factor: `width` neighbouring columns that share their row structure. `L` holds
-/// width + below rows of `width` entries; the first `width` rows are a lower triangle with the *inverse* of the diagonal.
+/// width + below rows of `width` entries; the first `width` rows are a lower triangle with the *inverse* of the diagonal, what
+/// is above it is not read.
 struct Supernode
 {
   const double* L;

@@ -10,6 +10,8 @@
 #include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/supernodal_structure.h>
 
+#include <CGAL/assertions.h>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -34,55 +36,67 @@ struct Branch
   std::size_t values = 0;
 };
 
+/// A pivot was not positive.
+struct Not_positive_definite : std::runtime_error
+{
+  Not_positive_definite()
+    : std::runtime_error(
+          "Eigenpairs: the factorisation of the shifted Laplacian failed; look for needle faces or "
+          "coordinates of very different magnitude in the mesh.")
+  {}
+};
+
 /// The factorisation P A P^T = L S L^T of a symmetric matrix, of which the lower triangle is read; S has the signs of the pivots, and is the
 /// identity where A is positive definite. A is compressed.
 ///
 /// Supernodes are eliminated one by one, children first, and hand to their parent what they subtract from the rest of the matrix (the
 /// multifrontal method: Duff and Reid 1983, Liu 1992). All of it is products with panels of eight columns, and so are the solves. On a mesh of 50,000
 /// vertices CHOLMOD takes 3.5 times as long for the numbers with the reference BLAS, and three times as long for a vector.
-/// Branches of the elimination tree are worked on in parallel, in the solves each with its own copy of the ancestors' rows, which are then
+/// Branches of the elimination tree, of which each is a 256th of the factor at least, are worked on in parallel, in the solves each with its own copy of the ancestors' rows, which are then
 /// added in a fixed order: results do not depend on the number of threads.
 class Supernodal_factor
 {
 public:
-  /// What A may be: `definite`, or with pivots of either sign, whose number is then all that is of use.
+  /// What pivots may be: `positive`, or else only their number is of use.
   enum class Pivots { positive, of_either_sign };
 
-  /// Throws std::runtime_error where a pivot is not positive, or there is too little memory.
+  /// Throws `Not_positive_definite` where a pivot is not positive, std::runtime_error where there is too little memory.
   explicit Supernodal_factor(const Sparse_matrix& A, int threads = 1, Pivots pivots = Pivots::positive)
     : m_pivots(pivots)
   {
+    CGAL_precondition(A.isCompressed());
     try {
       analyse(A);
       find_branches();
-      factorise(A, threads);
     } catch(const std::bad_alloc&) {
-      throw std::runtime_error(
-          "Eigenpairs: there is not enough memory for the factor of the shifted Laplacian; "
-          "simplify the mesh before.");
+      throw_lack_of_memory();
     }
+    factorise(A, threads);
   }
 
   /// Another matrix with entries in the same places.
   void factorise(const Sparse_matrix& A, int threads)
   {
+    CGAL_precondition(A.isCompressed() && A.nonZeros() == Index(m_position.size()));
     std::fill(m_values.begin(), m_values.end(), 0.);
     for(std::size_t p = 0; p < m_position.size(); ++p)
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
     m_ok = true;
     m_negative_pivots = 0;
-    std::vector<std::vector<double>> updates(m_children.size());
-    for_each_task(static_cast<Index>(m_branches.size()), threads, [&](Index b) {
-      for(std::size_t k = m_branches[b].first; k < m_branches[b].last; ++k)
-        eliminate(k, updates, 1);
-    });
-    for(const std::size_t k : m_top)
-      eliminate(k, updates, threads);
+    try {
+      std::vector<std::vector<double>> updates(m_children.size());
+      for_each_task(static_cast<Index>(m_branches.size()), threads, [&](Index b) {
+        for(std::size_t k = m_branches[b].first; k < m_branches[b].last; ++k)
+          eliminate(k, updates, 1);
+      });
+      for(const std::size_t k : m_top)
+        eliminate(k, updates, threads);
+    } catch(const std::bad_alloc&) {
+      throw_lack_of_memory();
+    }
     if(!m_ok && m_pivots == Pivots::positive)
-      throw std::runtime_error(
-          "Eigenpairs: the factorisation of the shifted Laplacian failed; look for needle faces or "
-          "coordinates of very different magnitude in the mesh.");
+      throw Not_positive_definite();
   }
 
   /// The number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when a pivot vanished.
@@ -115,6 +129,13 @@ public:
   }
 
 private:
+  [[noreturn]] static void throw_lack_of_memory()
+  {
+    throw std::runtime_error(
+        "Eigenpairs: there is not enough memory for the factor of the shifted Laplacian; "
+        "simplify the mesh before.");
+  }
+
   std::size_t width(std::size_t k) const { return m_first[k + 1] - m_first[k]; }
   std::size_t below(std::size_t k) const { return m_row_start[k + 1] - m_row_start[k]; }
   static std::size_t padded(std::size_t n) { return (n + panel_width - 1) / panel_width * panel_width; }
@@ -175,7 +196,7 @@ private:
     std::vector<int> number(m_order.size());
     for(std::size_t i = 0; i < m_order.size(); ++i)
       number[m_order[i]] = static_cast<int>(i);
-    m_position.assign(A.nonZeros(), -1); // and where entries of the upper triangle are
+    m_position.assign(A.nonZeros(), -1); // as it stays for those of the upper triangle
     for(int j = 0; j < A.cols(); ++j)
       for(int p = A.outerIndexPtr()[j]; p < A.outerIndexPtr()[j + 1]; ++p) {
         const int i = A.innerIndexPtr()[p];
@@ -240,7 +261,7 @@ private:
     U.assign(b * stride, 0.);
     for(const int c : m_children[k]) {
       add_update(c, updates[c], F, w, U.data(), stride);
-      updates[c] = {};
+      std::vector<double>().swap(updates[c]); // its memory, too
     }
     std::vector<double> signs(w, 1.);
     factorise_block(F, w, w + b, signs.data());
@@ -449,9 +470,9 @@ private:
 };
 
 /// The number of negative eigenvalues of a symmetric matrix, or -1 when a pivot vanishes.
-inline Index number_of_negative_eigenvalues(const Sparse_matrix& A)
+inline Index number_of_negative_eigenvalues(const Sparse_matrix& A, int threads = 1)
 {
-  return Supernodal_factor(A, 1, Supernodal_factor::Pivots::of_either_sign).number_of_negative_pivots();
+  return Supernodal_factor(A, threads, Supernodal_factor::Pivots::of_either_sign).number_of_negative_pivots();
 }
 
 } // namespace internal

@@ -43,7 +43,8 @@ inline bool counting_is_meaningful(double tolerance)
 
 // The number of eigenvalues below the gap minus the number of those found; factorisations without pivoting can be
 // wrong next to an eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
-inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, Eigen::Index& missing)
+inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads,
+                          Eigen::Index& missing)
 {
   const Gap gap = last_gap(problem, values);
   for(const double t : {0.5, 0.375, 0.59375}) {
@@ -51,7 +52,7 @@ inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& v
     missing = 0;
     if(mu < 0.)
       return true; // L is positive semidefinite
-    const Eigen::Index count = number_of_negative_eigenvalues(problem.shifted(mu));
+    const Eigen::Index count = number_of_negative_eigenvalues(problem.shifted(mu), threads);
     missing = count - gap.count;
     if(missing >= 0)
       return true;

@@ -477,31 +477,35 @@ private:
   Thread_pool<Nothing> m_pool;
 };
 
-// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones has of each of these what its neighbours say: row v
-// of L g = lambda B g. That is used in place of what P reads there, which may be another sheet, as in a pocket of the surface: its entries
-// would be fitted to that, and its mode come down among the fitted ones.
+// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and those of other vertices has of each of the former
+// what its neighbours say: row v of L g = lambda B g, as ten sweeps of Gauss and Seidel leave it. That is used in place of what P reads
+// there, which may be another sheet, as in a pocket of the surface: its entries would be fitted to that, and its mode come down among the
+// fitted ones.
 inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
                                    Eigen::MatrixXd& G)
 {
-  const double area = own.mass.sum(), remote = 8. * lambda.maxCoeff();
-  std::vector<Eigen::Index> vertices;
-  for(Eigen::Index v = 0; v < own.mass.size(); ++v)
-    if(own.L.coeff(v, v) * area > remote * own.mass(v))
-      vertices.push_back(v);
+  const double area = own.mass.sum();
+  const Eigen::VectorXd mode = area * own.L.diagonal().cwiseQuotient(own.mass);
+  Eigen::VectorXd sorted = mode;
+  double* const middle = sorted.data() + sorted.size() / 2;
+  std::nth_element(sorted.data(), middle, sorted.data() + sorted.size());
+  const double remote = 8. * (std::max)(lambda.maxCoeff(), *middle);
   for(int sweep = 0; sweep < 10; ++sweep)
-    for(const Eigen::Index v : vertices) {
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(lambda.size()), factor = sum;
-      for(const auto* A : {&own.L, &own.B})
-        for(Eigen::SparseMatrix<double>::InnerIterator it(*A, v); it; ++it) {
-          const Eigen::RowVectorXd entry =
-              A == &own.L ? Eigen::RowVectorXd::Constant(lambda.size(), it.value()).eval()
-                          : (-it.value() / area * lambda.transpose()).eval();
+    for(Eigen::Index v = 0; v < mode.size(); ++v) {
+      if(!(mode(v) > remote))
+        continue;
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(lambda.size()), diagonal = sum;
+      const auto add = [&](const Eigen::SparseMatrix<double>& A, const Eigen::RowVectorXd& factor) {
+        for(Eigen::SparseMatrix<double>::InnerIterator it(A, v); it; ++it)
           if(it.row() == v)
-            factor += entry;
+            diagonal += it.value() * factor;
           else
-            sum -= entry.cwiseProduct(G.row(it.row()));
-        }
-      G.row(v) = sum.cwiseQuotient(factor);
+            sum -= it.value() * factor.cwiseProduct(G.row(it.row()));
+      };
+      add(own.L, Eigen::RowVectorXd::Ones(lambda.size()));
+      add(own.B, -lambda.transpose() / area);
+      if(diagonal.minCoeff() > 0.)
+        G.row(v) = sum.cwiseQuotient(diagonal);
     }
 }
 
@@ -587,9 +591,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
   Operator_fit_result result;
   try {
     result = internal::Operator_fit(coarse, G, lambda, options).run();
-  } catch(const Cancelled&) {
-    throw;
-  } catch(const std::runtime_error&) { // of the factorisation, whose sentence is that of the eigensolvers
+  } catch(const internal::Not_positive_definite&) { // whose sentence is that of the eigensolvers
     throw std::runtime_error(
         "operator fit: the preconditioner could not be factorised; look for needle faces in the "
         "coarse mesh, or raise Operator_fit_options::tie.");

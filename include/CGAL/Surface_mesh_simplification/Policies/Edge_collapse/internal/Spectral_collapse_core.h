@@ -114,7 +114,7 @@ public:
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
   double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
 
-  /// The change of E that commit() would make, to rounding whatever the cotangents are; f = (1 - weight) f_u + weight f_v.
+  /// The change of E that commit() would make, to rounding whatever triangles arise; f = (1 - weight) f_u + weight f_v.
   double change_at(const Spectral_slot u, const Spectral_slot v, const double weight,
                    const Eigen::Vector3d& point);
 

@@ -95,8 +95,7 @@ spectral_combine_columns(const Spectral_fields& fields, const Spectral_row_entry
 
 /// For N of them R_w = start + sum_j (B_wj z_j - L_wj f_j); puts |R_w|^2 into `square` and, where N is 1, the row into `R` unless that
 /// is null, as `start` may be. Where Z = F Lambda no row of Z is formed. Entries of z are those from `first_of_z` on: a lumped mass
-/// has one for the centre alone, the last. By reference throughout: a vector by value is passed in other registers where the caller is
-/// compiled for AVX2 and this, not inlined, is not.
+/// has one for the centre alone, the last.
 template <int N>
 CGAL_SPECTRAL_INLINE void spectral_combine_rows(const Spectral_fields& fields, const Spectral_row_entry* row,
                                                 const Spectral_row_entry* first_of_z,
