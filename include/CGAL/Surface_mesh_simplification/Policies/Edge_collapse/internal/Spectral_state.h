@@ -14,7 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -219,7 +219,8 @@ public:
   }
 
   /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
-  void on_collapsed(const vertex_descriptor kept_vertex)
+  template <class Profile>
+  void on_collapsed(const Profile&, const vertex_descriptor kept_vertex)
   {
     const Slot kept = slot(kept_vertex);
     Spectral_ring ring = ring_of(kept_vertex);
