@@ -216,6 +216,7 @@ public:
    * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log to
    *         number_of_vertices() (a replay goes forward only: begin again with another copy); where two vertices are not
    *         joined that should be: the mesh is not a copy of the input, and is left where that was found
+   * @throws std::logic_error when the mesh has got new vertices
    */
   void collapse_to(const std::size_t N)
   {
