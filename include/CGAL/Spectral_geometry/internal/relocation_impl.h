@@ -65,42 +65,6 @@ inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd&
   check_relocation_options(o);
 }
 
-/// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
-/// Legs lie close to the body and some faces intersect; one vertex whose signals leap would end the descent for all.
-class Sheet_guard
-{
-public:
-  Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
-    : m_closest(&closest)
-    , m_parts(&parts)
-    , m_starts(parts.size())
-  {}
-
-  bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
-  {
-    Start& start = m_starts[std::size_t(v)];
-    if(start.position != from) {
-      start.closest =
-          start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from, (*m_parts)[std::size_t(v)]);
-      start.position = from;
-      start.known = true;
-    }
-    return ((*m_closest)(to, start.closest).point - start.closest.point).norm() > 3 * (to - from).norm();
-  }
-
-private:
-  struct Start
-  {
-    bool known = false;
-    Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    Closest_point_query::Answer closest;
-  };
-
-  const Closest_point_query* m_closest;
-  const std::vector<Eigen::Index>* m_parts;
-  std::vector<Start> m_starts; // by vertex: several may be asked about at a time
-};
-
 /// One relocation from the set-up of its objective to the repair at its end.
 class Relocation
 {
