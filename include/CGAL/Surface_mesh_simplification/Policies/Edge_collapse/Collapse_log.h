@@ -17,7 +17,6 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -258,11 +257,6 @@ private:
   using Merge = Spectral_geometry::Merge_forest::Merge;
   using FT = typename Kernel_traits<Point>::Kernel::FT;
 
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-
   halfedge_descriptor halfedge_between(const vertex_descriptor from, const vertex_descriptor to) const
   {
     const halfedge_descriptor null = boost::graph_traits<Triangle_mesh>::null_halfedge();
@@ -282,9 +276,10 @@ private:
                                   std::to_string(m.kept) +
                                   " are not joined by an edge where the log merges them; pass a copy of the "
                                   "input as it was before the run.");
-    const Point point = at == to_vector(get(m_vpm, kept))      ? Point(get(m_vpm, kept))
-                        : at == to_vector(get(m_vpm, removed)) ? Point(get(m_vpm, removed))
-                                                               : Point(FT(at.x()), FT(at.y()), FT(at.z()));
+    const Point point = at == internal::to_vector(get(m_vpm, kept)) ? Point(get(m_vpm, kept))
+                        : at == internal::to_vector(get(m_vpm, removed))
+                            ? Point(get(m_vpm, removed))
+                            : Point(FT(at.x()), FT(at.y()), FT(at.z()));
     const vertex_descriptor left = collapse(h);
     // The other of the two, should the halfedges of the copy lie otherwise.
     m_vertices[std::size_t(m.kept)] = left;

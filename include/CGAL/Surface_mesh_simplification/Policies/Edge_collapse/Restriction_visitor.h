@@ -14,7 +14,6 @@
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <CGAL/assertions.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -102,12 +101,6 @@ public:
   const Collapse_log& log() const { return m_log; }
 
 private:
-  template <class Point>
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-
   const TriangleMesh* m_mesh;
   Slots m_slots;
   Collapse_log m_log;

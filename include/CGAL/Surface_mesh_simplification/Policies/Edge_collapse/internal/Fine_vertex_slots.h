@@ -9,6 +9,7 @@
 
 #include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
 #include <CGAL/boost/graph/properties.h>
+#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 
@@ -25,6 +26,12 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
+
+template <class Point>
+Eigen::Vector3d to_vector(const Point& p)
+{
+  return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+}
 
 /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1], the weight of `v` when the edge (u, v) is collapsed
 /// to x (appendix A of Lescoat et al. 2020); 1/2 on an edge without length, where no end is closer to x than

@@ -23,7 +23,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -430,11 +429,6 @@ private:
     if(std::is_same<FT, float>::value)
       return FT((std::numeric_limits<float>::max)());
     return FT((std::numeric_limits<double>::max)());
-  }
-
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
