@@ -178,6 +178,8 @@ TEST_CASE("The log says what it cannot do")
   CHECK_THROWS_WITH(replay.collapse_to(101), ContainsSubstring("from fine to coarse"));
   CHECK_THROWS_AS(replay.collapse_to(59), std::invalid_argument);
   CHECK(count_vertices(copy) == 100);
+  copy.add_vertex();
+  CHECK_THROWS_WITH(replay.collapse_to(60), ContainsSubstring("was not there"));
   Mesh stranger = make_mesh(wavy_grid_matrices(17, 8)); // as many vertices
   REQUIRE(count_vertices(stranger) == 162);
   SMS::Collapse_replay<Mesh> wrong(stranger, log);

@@ -7,6 +7,8 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/relocation.h>
@@ -23,7 +25,6 @@
 #include <cstddef>
 #include <iterator>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -39,19 +40,12 @@ template <class TriangleMesh, class NamedParameters>
 std::vector<bool> constrained_vertices(const TriangleMesh& mesh, const NamedParameters& np)
 {
   using parameters::get_parameter;
-  using Base = typename NamedParameters::base;
-  constexpr bool has_vertices =
-      !std::is_same<typename internal_np::Get_param<Base, internal_np::vertex_is_constrained_t>::type,
-                    internal_np::Param_not_found>::value;
-  constexpr bool has_edges =
-      !std::is_same<typename internal_np::Get_param<Base, internal_np::edge_is_constrained_t>::type,
-                    internal_np::Param_not_found>::value;
   std::vector<bool> fixed;
   for(const auto v : vertices(mesh)) {
     bool constrained = false;
-    if constexpr(has_vertices)
+    if constexpr(is_given<NamedParameters>(internal_np::vertex_is_constrained_t()))
       constrained = bool(get(get_parameter(np, internal_np::vertex_is_constrained), v));
-    if constexpr(has_edges) {
+    if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
       const auto h0 = halfedge(v, mesh);
       if(h0 != boost::graph_traits<TriangleMesh>::null_halfedge())
         for(const auto h : halfedges_around_target(h0, mesh))

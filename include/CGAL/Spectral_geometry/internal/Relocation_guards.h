@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -281,6 +283,42 @@ private:
   Eigen::VectorXd m_radius, m_smallest_angle;
   int m_threads = 1;
   std::vector<Eigen::Vector3d> m_normal;
+};
+
+/// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
+/// Legs lie close to the body and some faces intersect; one vertex whose signals leap would end the descent for all.
+class Sheet_guard
+{
+public:
+  Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
+    : m_closest(&closest)
+    , m_parts(&parts)
+    , m_starts(parts.size())
+  {}
+
+  bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  {
+    Start& start = m_starts[std::size_t(v)];
+    if(start.position != from) {
+      start.closest =
+          start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from, (*m_parts)[std::size_t(v)]);
+      start.position = from;
+      start.known = true;
+    }
+    return ((*m_closest)(to, start.closest).point - start.closest.point).norm() > 3 * (to - from).norm();
+  }
+
+private:
+  struct Start
+  {
+    bool known = false;
+    Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    Closest_point_query::Answer closest;
+  };
+
+  const Closest_point_query* m_closest;
+  const std::vector<Eigen::Index>* m_parts;
+  std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 
 } // namespace internal

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_OBJECTIVE_H
 
 #include <CGAL/Spectral_geometry/internal/Spectrum_guard.h>
+#include <CGAL/Spectral_geometry/internal/border.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 #include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
 
@@ -30,7 +31,7 @@ public:
   Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine, const double tolerance)
     : m_T(T)
     , m_tolerance(tolerance)
-    , m_closed(is_closed(T) && is_closed(fine.T))
+    , m_closed(boundary_edges(T).empty() && boundary_edges(fine.T).empty())
   {
     double fine_area, fine_volume;
     measure(m_T, V, m_area.from, m_volume.from);
@@ -79,20 +80,6 @@ public:
   }
 
 private:
-  static bool is_closed(const Eigen::MatrixXi& T)
-  {
-    std::vector<std::pair<int, int>> edges;
-    edges.reserve(3 * std::size_t(T.rows()));
-    for(Eigen::Index f = 0; f < T.rows(); ++f)
-      for(int k = 0; k < 3; ++k)
-        edges.emplace_back(T(f, k), T(f, (k + 1) % 3));
-    std::sort(edges.begin(), edges.end());
-    for(const auto& [v, w] : edges)
-      if(!std::binary_search(edges.begin(), edges.end(), std::make_pair(w, v)))
-        return false;
-    return true;
-  }
-
   // What the coarse mesh has at the start, and how far the fine one lies from it, in parts of that.
   struct Range
   {

@@ -7,7 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Vertex_slot_map.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
@@ -17,7 +17,6 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -201,13 +200,10 @@ public:
     , m_np(np)
     , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                          get_property_map(vertex_point, mesh)))
-    , m_slots(mesh)
+    , m_slots(mesh, "Collapse_replay")
   {
-    Index n = 0;
-    for(const vertex_descriptor v : vertices(mesh))
-      m_slots.set(v, n++);
-    if(std::size_t(n) != m_log.number_of_vertices())
-      throw std::invalid_argument("Collapse_replay: the mesh has " + std::to_string(n) +
+    if(std::size_t(m_slots.size()) != m_log.number_of_vertices())
+      throw std::invalid_argument("Collapse_replay: the mesh has " + std::to_string(m_slots.size()) +
                                   " vertices, but the log starts at " +
                                   std::to_string(m_log.number_of_vertices()) +
                                   "; pass a copy of the input as it was before the run.");
@@ -219,6 +215,7 @@ public:
    * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log to
    *         number_of_vertices() (a replay goes forward only: begin again with another copy); where two vertices are not
    *         joined that should be: the mesh is not a copy of the input, and is left where that was found
+   * @throws std::logic_error when the mesh has got new vertices
    */
   void collapse_to(const std::size_t N)
   {
@@ -228,11 +225,11 @@ public:
                                   " vertices is asked for, but the mesh has only " +
                                   std::to_string(number_of_vertices()) +
                                   " left; go from fine to coarse, or begin again with another copy.");
-    check_slots();
+    m_slots.check();
     // Afresh: garbage may have been collected meanwhile.
     m_vertices.resize(m_log.number_of_vertices());
     for(const vertex_descriptor v : vertices(*m_mesh))
-      m_vertices[std::size_t(m_slots[v])] = v;
+      m_vertices[std::size_t(m_slots.slot(v))] = v;
     for(; m_done < end; ++m_done)
       merge(m_log.forest().merges()[std::size_t(m_done)], m_log.points()[std::size_t(m_done)]);
   }
@@ -241,14 +238,7 @@ public:
   std::size_t number_of_vertices() const { return m_log.number_of_vertices() - std::size_t(m_done); }
 
   /// For each vertex of the mesh as it is, in the order of `vertices(mesh)`, its slot: which vertex of the input it goes on from.
-  std::vector<Index> slots() const
-  {
-    check_slots();
-    std::vector<Index> result;
-    for(const vertex_descriptor v : vertices(*m_mesh))
-      result.push_back(m_slots[v]);
-    return result;
-  }
+  std::vector<Index> slots() const { return m_slots.current(); }
 
   /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
   Eigen::SparseMatrix<double> restriction() const { return m_log.forest().restriction(slots(), m_done); }
@@ -266,19 +256,6 @@ private:
   using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
   using Merge = Spectral_geometry::Merge_forest::Merge;
   using FT = typename Kernel_traits<Point>::Kernel::FT;
-
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-
-  void check_slots() const
-  {
-    if(!m_slots.attach(*m_mesh))
-      throw std::logic_error(
-          "Collapse_replay: another mesh has been assigned to the one that it was made for; begin again "
-          "with another copy.");
-  }
 
   halfedge_descriptor halfedge_between(const vertex_descriptor from, const vertex_descriptor to) const
   {
@@ -299,9 +276,10 @@ private:
                                   std::to_string(m.kept) +
                                   " are not joined by an edge where the log merges them; pass a copy of the "
                                   "input as it was before the run.");
-    const Point point = at == to_vector(get(m_vpm, kept))      ? Point(get(m_vpm, kept))
-                        : at == to_vector(get(m_vpm, removed)) ? Point(get(m_vpm, removed))
-                                                               : Point(FT(at.x()), FT(at.y()), FT(at.z()));
+    const Point point = at == internal::to_vector(get(m_vpm, kept)) ? Point(get(m_vpm, kept))
+                        : at == internal::to_vector(get(m_vpm, removed))
+                            ? Point(get(m_vpm, removed))
+                            : Point(FT(at.x()), FT(at.y()), FT(at.z()));
     const vertex_descriptor left = collapse(h);
     // The other of the two, should the halfedges of the copy lie otherwise.
     m_vertices[std::size_t(m.kept)] = left;
@@ -322,7 +300,7 @@ private:
   Collapse_log m_log;
   NamedParameters m_np;
   Vertex_point_map m_vpm;
-  mutable internal::Vertex_slot_map<Triangle_mesh> m_slots;
+  internal::Fine_vertex_slots<Triangle_mesh> m_slots;
   std::vector<vertex_descriptor> m_vertices; // of each slot that is left
   Index m_done = 0;
 };

@@ -14,7 +14,6 @@
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <CGAL/assertions.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -89,16 +88,19 @@ public:
     }
   }
 
+  void on_finished() const {}
+  void on_stop_condition_reached() const {}
+  template <class Profile>
+  void on_selected(const Profile&) const
+  {}
+  template <class Profile>
+  void on_non_collapsable(const Profile&) const
+  {}
+
   const Slots& slots() const { return m_slots; }
   const Collapse_log& log() const { return m_log; }
 
 private:
-  template <class Point>
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-
   const TriangleMesh* m_mesh;
   Slots m_slots;
   Collapse_log m_log;
@@ -139,15 +141,18 @@ private:
  */
 template <class TriangleMesh, class UserVisitor = internal::No_visitor>
 class Restriction_visitor
+  : public internal::Following_visitor<internal::Restriction_tracker<TriangleMesh>, UserVisitor>
 {
+  using Tracker = internal::Restriction_tracker<TriangleMesh>;
+  using Base = internal::Following_visitor<Tracker, UserVisitor>;
+
 public:
   using Triangle_mesh = TriangleMesh; ///< the type of the mesh
   using User_visitor = UserVisitor;   ///< the type of the visitor that calls are handed on to
 
   /// Takes the mesh as it is now for the fine one.
   explicit Restriction_visitor(Triangle_mesh& mesh, User_visitor user = User_visitor())
-    : m_tracker(std::make_shared<Tracker>(mesh))
-    , m_user(std::move(user))
+    : Base(std::make_shared<Tracker>(mesh), std::move(user))
   {}
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in that at
@@ -156,81 +161,28 @@ public:
   /// @throws std::logic_error when the mesh has got new vertices
   Eigen::SparseMatrix<double> restriction() const
   {
-    return m_tracker->log().forest().restriction(m_tracker->slots().current());
+    return log().forest().restriction(this->m_follower->slots().current());
   }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Eigen::Index> map = m_tracker->log().forest().vertex_map(m_tracker->slots().current());
+    const std::vector<Eigen::Index> map = log().forest().vertex_map(this->m_follower->slots().current());
     return std::vector<std::size_t>(map.begin(), map.end());
   }
 
   /// The merges in the order in which they happened.
-  const Spectral_geometry::Merge_forest& forest() const { return m_tracker->log().forest(); }
+  const Spectral_geometry::Merge_forest& forest() const { return log().forest(); }
 
   /// The merges and the points, from which `Collapse_replay` makes every level of detail.
-  const Collapse_log& log() const { return m_tracker->log(); }
+  const Collapse_log& log() const { return this->m_follower->log(); }
 
-  /// \name Called by `edge_collapse()`
-  /// @{
-
-  /// as in the concept; `OnStarted()` throws `std::invalid_argument` for another mesh than that of the constructor
+  /// as in the concept; throws `std::invalid_argument` for another mesh than that of the constructor
   void OnStarted(Triangle_mesh& mesh)
   {
-    m_tracker->check_mesh(mesh);
-    user().OnStarted(mesh);
+    this->m_follower->check_mesh(mesh);
+    this->user().OnStarted(mesh);
   }
-
-  void OnFinished(Triangle_mesh& mesh) { user().OnFinished(mesh); }
-
-  template <class Profile>
-  void OnStopConditionReached(const Profile& profile)
-  {
-    user().OnStopConditionReached(profile);
-  }
-
-  template <class Profile, class OptionalCost>
-  void OnCollected(const Profile& profile, const OptionalCost& cost)
-  {
-    user().OnCollected(profile, cost);
-  }
-
-  template <class Profile, class OptionalCost, class Size>
-  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
-  {
-    user().OnSelected(profile, cost, initial, current);
-  }
-
-  template <class Profile, class OptionalPoint>
-  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
-  {
-    m_tracker->on_collapsing(profile, placement);
-    user().OnCollapsing(profile, placement);
-  }
-
-  template <class Profile, class VertexDescriptor>
-  void OnCollapsed(const Profile& profile, const VertexDescriptor& kept)
-  {
-    m_tracker->on_collapsed(profile, kept);
-    user().OnCollapsed(profile, kept);
-  }
-
-  template <class Profile>
-  void OnNonCollapsable(const Profile& profile)
-  {
-    user().OnNonCollapsable(profile);
-  }
-
-  /// @}
-
-private:
-  using Tracker = internal::Restriction_tracker<Triangle_mesh>;
-
-  decltype(auto) user() { return internal::unwrap_visitor(m_user); }
-
-  std::shared_ptr<Tracker> m_tracker;
-  User_visitor m_user;
 };
 
 /// @}

@@ -7,7 +7,7 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/state_of_handle.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
 
 #include <functional>
 #include <memory>
@@ -60,6 +60,76 @@ Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
   return visitor;
 }
 
+/// Tells a follower of the mesh what `edge_collapse()` does, and then a visitor of the user's. The run ends with the visitor, even when
+/// an exception leaves the loop.
+template <class Follower, class UserVisitor>
+class Following_visitor
+{
+public:
+  Following_visitor(std::shared_ptr<Follower> follower, UserVisitor user)
+    : m_follower(std::move(follower))
+    , m_user(std::move(user))
+  {}
+
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh& mesh)
+  {
+    m_follower->on_finished();
+    m_run.reset();
+    user().OnFinished(mesh);
+  }
+
+  template <class Profile>
+  void OnStopConditionReached(const Profile& profile)
+  {
+    m_follower->on_stop_condition_reached();
+    user().OnStopConditionReached(profile);
+  }
+
+  template <class Profile, class OptionalCost>
+  void OnCollected(const Profile& profile, const OptionalCost& cost)
+  {
+    user().OnCollected(profile, cost);
+  }
+
+  template <class Profile, class OptionalCost, class Size>
+  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
+  {
+    m_follower->on_selected(profile);
+    user().OnSelected(profile, cost, initial, current);
+  }
+
+  template <class Profile, class OptionalPoint>
+  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
+  {
+    m_follower->on_collapsing(profile, placement);
+    user().OnCollapsing(profile, placement);
+  }
+
+  template <class Profile, class VertexDescriptor>
+  void OnCollapsed(const Profile& profile, const VertexDescriptor& kept)
+  {
+    m_follower->on_collapsed(profile, kept);
+    user().OnCollapsed(profile, kept);
+  }
+
+  template <class Profile>
+  void OnNonCollapsable(const Profile& profile)
+  {
+    m_follower->on_non_collapsable(profile);
+    user().OnNonCollapsable(profile);
+  }
+
+protected:
+  decltype(auto) user() { return unwrap_visitor(m_user); }
+
+  std::shared_ptr<Follower> m_follower;
+  std::shared_ptr<void> m_run;
+
+private:
+  UserVisitor m_user;
+};
+
 } // namespace internal
 
 /*!
@@ -73,83 +143,21 @@ Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
  * visitors; pass `std::ref(my_visitor)` to share it.
  */
 template <class State, class UserVisitor = internal::No_visitor>
-class Spectral_visitor
+class Spectral_visitor : public internal::Following_visitor<State, UserVisitor>
 {
 public:
   /// a handle on `state` that also calls `user`
   explicit Spectral_visitor(std::shared_ptr<State> state, UserVisitor user = UserVisitor())
-    : m_state(std::move(state))
-    , m_user(std::move(user))
+    : internal::Following_visitor<State, UserVisitor>(std::move(state), std::move(user))
   {}
 
-  /// \name Called by `edge_collapse()`
-  /// @{
-
-  /// as in the concept; `OnStarted()` throws `std::invalid_argument` for another mesh than that of the policies
+  /// as in the concept; throws `std::invalid_argument` for another mesh than that of the policies
   template <class TriangleMesh>
   void OnStarted(TriangleMesh& mesh)
   {
-    user().OnStarted(mesh);
-    m_run = internal::state_of_handle(m_state, "Spectral_visitor").on_started(mesh);
+    this->user().OnStarted(mesh);
+    this->m_run = internal::state_of_handle(this->m_follower, "Spectral_visitor").on_started(mesh);
   }
-
-  template <class TriangleMesh>
-  void OnFinished(TriangleMesh& mesh)
-  {
-    m_state->on_finished();
-    m_run.reset();
-    user().OnFinished(mesh);
-  }
-
-  template <class Profile>
-  void OnStopConditionReached(const Profile& profile)
-  {
-    m_state->on_stop_condition_reached();
-    user().OnStopConditionReached(profile);
-  }
-
-  template <class Profile, class OptionalCost>
-  void OnCollected(const Profile& profile, const OptionalCost& cost)
-  {
-    user().OnCollected(profile, cost);
-  }
-
-  template <class Profile, class OptionalCost, class Size>
-  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
-  {
-    m_state->on_selected(profile);
-    user().OnSelected(profile, cost, initial, current);
-  }
-
-  template <class Profile, class OptionalPoint>
-  void OnCollapsing(const Profile& profile, const OptionalPoint& placement)
-  {
-    m_state->on_collapsing(profile, placement);
-    user().OnCollapsing(profile, placement);
-  }
-
-  template <class Profile, class VertexDescriptor>
-  void OnCollapsed(const Profile& profile, const VertexDescriptor& kept)
-  {
-    m_state->on_collapsed(kept);
-    user().OnCollapsed(profile, kept);
-  }
-
-  template <class Profile>
-  void OnNonCollapsable(const Profile& profile)
-  {
-    m_state->on_non_collapsable(profile);
-    user().OnNonCollapsable(profile);
-  }
-
-  /// @}
-
-private:
-  decltype(auto) user() { return internal::unwrap_visitor(m_user); }
-
-  std::shared_ptr<State> m_state;
-  std::shared_ptr<void> m_run; // the run ends with the visitor, even when an exception leaves the loop
-  UserVisitor m_user;
 };
 
 /// @}

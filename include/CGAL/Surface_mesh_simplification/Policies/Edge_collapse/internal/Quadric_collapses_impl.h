@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_quadric.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/self_intersecting_faces.h>
+#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
 
 #include <boost/heap/d_ary_heap.hpp>
 

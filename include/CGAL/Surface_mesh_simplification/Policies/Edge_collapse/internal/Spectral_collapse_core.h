@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_cost_parameters.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_shape_term.h>
 #include <CGAL/Spectral_geometry/internal/Thread_pool.h>
@@ -128,8 +127,8 @@ public:
   /// the neighbours of `kept`.
   void evaluate_around(const Spectral_slot kept);
 
-  /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for.
-  void defer_around(const Spectral_slot kept) { choose_around(kept); }
+  /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for, or from m_batch.
+  void defer_around(const Spectral_slot kept);
 
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
@@ -208,9 +207,6 @@ private:
 
   void evaluate_edges_of(const Spectral_slot u, const double bound, Spectral_collapse_kernel& kernel);
 
-  // The edges incident to the neighbours of `kept`, into m_batch, without those that are put off.
-  void choose_around(const Spectral_slot kept);
-
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
   std::vector<char> m_kept;
@@ -220,7 +216,7 @@ private:
   Spectral_crossing_guard m_crossing;
   std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;
-  std::vector<Edge> m_batch;
+  std::vector<Edge> m_batch; // those around a vertex that are not put off
 
   Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses

@@ -276,7 +276,7 @@ Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const Spectral_slot kept)
 {
-  choose_around(kept);
+  defer_around(kept);
   m_number_of_evaluations += m_batch.size();
   m_results.resize(m_batch.size());
   const double bound = minimiser_bound();
@@ -425,7 +425,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_edges_of(con
       m_candidates.insert(u, evaluate_for_queue(u, e.vertex, kernel, bound));
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::choose_around(const Spectral_slot kept)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)
 {
   m_batch.clear();
   m_marks.resize(m_fields.points.size(), 0);

@@ -183,6 +183,11 @@ private:
     if(m_row.size() < ring(0).size() + ring(1).size() + 8)
       m_row.resize(ring(0).size() + ring(1).size() + 8);
     for(std::size_t i = 0; i < around.size(); ++i) {
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+      // The row that add_link_vertex() will read: by then it has arrived.
+      for(Eigen::Index k = 0; k < m_fields->R.cols(); k += spectral_padding)
+        __builtin_prefetch(m_fields->r_row(around[i].vertex) + k);
+#endif
       if(!is_outer(end, i))
         continue;
       const Slot a = around[i].vertex, b = around[Spectral_rings::next(around, i)].vertex;
@@ -224,8 +229,6 @@ private:
   Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
   {
     const Spectral_fields& fields = *m_fields;
-    if(fields.coefficients.empty())
-      return spectral_triangle(x.point, fields.points[a], fields.points[b]);
     const Spectral_geometry::internal::Point_coefficients of_x =
         (1 - x.weight) * fields.coefficients[m_end[0]] + x.weight * fields.coefficients[m_end[1]];
     const Spectral_geometry::internal::Point_coefficients mean =
@@ -303,7 +306,7 @@ private:
                is_both = is_after || is_before;
     if(is_both && end == 1 && m_left < 0)
       return;
-    Change change = {};
+    Change change;
     m_size = 2;
     add_corner<Full>(end, i, true, change);
     if(is_both && !is_left(1 - end))
@@ -338,6 +341,13 @@ private:
   {
     Lanes to_x, area_at_x, area;
     double lost[2], lost_area[2];
+
+    // Assigned, because compilers clear what is initialised with zeros by a string instruction, which takes longer.
+    Change()
+    {
+      to_x = area_at_x = area = Lanes{};
+      lost[0] = lost[1] = lost_area[0] = lost_area[1] = 0;
+    }
   };
 
   // What the triangles at the i-th neighbour of an end bring and take away. Those of the edge are in both rings.

@@ -7,19 +7,62 @@
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rings.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_rows.h>
 
+#include <CGAL/Spectral_geometry/internal/Aligned_buffer.h>
 #include <CGAL/Spectral_geometry/internal/Triangle_element.h>
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
+
+using Spectral_geometry::internal::Aligned_buffer;
+using Spectral_geometry::internal::cache_line;
+
+/// The rows of F, Z and R are padded with zeros to a multiple of this.
+constexpr std::size_t spectral_padding = cache_line / sizeof(double);
+
+/// A matrix whose rows begin with a cache line each.
+class Spectral_rows
+{
+public:
+  /// All zero; `length` before padding.
+  void assign(const Eigen::Index rows, const Eigen::Index length)
+  {
+    constexpr Eigen::Index multiple = spectral_padding;
+    m_rows = rows;
+    m_cols = (length + multiple - 1) / multiple * multiple;
+    m_numbers.assign(std::size_t(m_rows * m_cols));
+  }
+
+  void assign(const Eigen::MatrixXd& matrix)
+  {
+    assign(matrix.rows(), matrix.cols());
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<Rows>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
+  }
+
+  bool empty() const { return m_rows == 0 || m_cols == 0; }
+  Eigen::Index cols() const { return m_cols; }
+  const double* data() const { return m_numbers.data(); }
+  double* data() { return m_numbers.data(); }
+
+  const double* operator[](const std::size_t i) const { return data() + i * std::size_t(m_cols); }
+  double* operator[](const std::size_t i) { return data() + i * std::size_t(m_cols); }
+  Eigen::Map<const Eigen::RowVectorXd> row(const std::size_t i) const { return {(*this)[i], m_cols}; }
+  Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
+
+private:
+  Aligned_buffer m_numbers;
+  Eigen::Index m_rows = 0, m_cols = 0;
+};
 
 /*!
  * The current mesh and what lives on it, in slots: for each slot w the rows f_w, z_w and
@@ -77,6 +120,22 @@ struct Spectral_fields
 
   bool has_z_rows() const { return !Z.empty(); }
   const double* r_row(const Spectral_slot s) const { return R[s]; }
+};
+
+/// The part of `Spectral_options` that the cost of a candidate depends on.
+struct Spectral_cost_parameters
+{
+  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+  bool binary = false;
+  bool preserve_border = false;
+  bool single_precision_points = false; ///< the mesh stores its points as float
+  bool keep_free_of_self_intersections = false;
+  bool exact_costs = false;  ///< see `Spectral_options::exact_costs`
+  double shape = 0;          ///< see `Spectral_options::shape`
+  double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
+  double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
+  int threads = 1;
+  std::size_t largest_degree_of_others = Spectral_fields().largest_degree_of_others;
 };
 
 } // namespace internal

@@ -14,7 +14,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_optional.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -23,7 +23,6 @@
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -219,7 +218,8 @@ public:
   }
 
   /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
-  void on_collapsed(const vertex_descriptor kept_vertex)
+  template <class Profile>
+  void on_collapsed(const Profile&, const vertex_descriptor kept_vertex)
   {
     const Slot kept = slot(kept_vertex);
     Spectral_ring ring = ring_of(kept_vertex);
@@ -429,11 +429,6 @@ private:
     if(std::is_same<FT, float>::value)
       return FT((std::numeric_limits<float>::max)());
     return FT((std::numeric_limits<double>::max)());
-  }
-
-  static Eigen::Vector3d to_vector(const Point& p)
-  {
-    return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
   }
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }

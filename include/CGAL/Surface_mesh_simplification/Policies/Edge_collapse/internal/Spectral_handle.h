@@ -2,10 +2,18 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STATE_OF_HANDLE_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STATE_OF_HANDLE_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
 
 #include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/version.h>
+
+#if CGAL_VERSION_NR >= 1060000900
+#include <optional>
+#else
+#include <boost/optional.hpp>
+#endif
 
 #include <memory>
 #include <stdexcept>
@@ -14,6 +22,15 @@
 namespace CGAL {
 namespace Surface_mesh_simplification {
 namespace internal {
+
+/// The optional of `GetCost` and `GetPlacement`: Boost's before CGAL 6, that of the standard since.
+#if CGAL_VERSION_NR >= 1060000900
+template <class T>
+using Spectral_optional = std::optional<T>;
+#else
+template <class T>
+using Spectral_optional = boost::optional<T>;
+#endif
 
 /// What a handle stands for. Throws `std::logic_error` where it was made by default or has been moved from.
 template <class State>
@@ -30,4 +47,4 @@ State& state_of_handle(const std::shared_ptr<State>& state, const char* const ha
 } // namespace Surface_mesh_simplification
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STATE_OF_HANDLE_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
