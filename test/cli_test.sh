@@ -136,7 +136,7 @@ done
 for file in eigenvalues.npy eigenvectors.npy; do
   [ -s "fitted/$file" ] || fail "no fitted/$file"
 done
-grep -q 'fitted operators, 1 ring, mass: edges' said || fail "no fitted operators in the table"
+grep -q 'fitted operators, 2 rings, mass: edges' said || fail "no fitted operators in the table"
 of_both() { sed -n "s/^$1\"norm_L\": \([0-9.e+-]*\).*/\1/p" fit.json; }
 awk "BEGIN { exit !($(of_both '    ') < 0.8 * $(of_both '  ')) }" ||
   fail "the fit has |C|_L $(of_both '    '), the mesh itself $(of_both '  ')"

@@ -500,8 +500,10 @@ TEST_CASE(
         0);
   CHECK(guarded.relocation.held.fixed == 0);
   CHECK(std::string(guarded.relocation.stop_reason_name()) != "");
-  CHECK((guarded.relocation.stop_reason == SG::Relocation_result::Stop_reason::steps) ==
-        (guarded.relocation.steps == options.relocation.maximum_steps));
+  if(guarded.relocation.stop_reason == SG::Relocation_result::Stop_reason::steps)
+    CHECK(guarded.relocation.steps == options.relocation.maximum_steps);
+  else // as it may with the last step
+    CHECK(guarded.relocation.steps <= options.relocation.maximum_steps);
 }
 
 } // namespace test_shape_term
