@@ -268,15 +268,15 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
     double furthest, low, norm_L;
     std::size_t crossings;
   };
-  const auto found = [&](Spectral_edge_collapse_options options) {
+  const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, 0.5);
+  const SG::Eigenpairs fine_pairs = SG::eigenpairs(fine_op, K);
+  const auto found = [&](Spectral_edge_collapse_options options, const std::size_t vertices = 90) {
     options.number_of_eigenvectors = K;
-    const Mesh mesh = simplified(input, 90, options);
+    const Mesh mesh = simplified(input, vertices, options);
     const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-    const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, 0.5),
-                               op = SG::laplace_operator(coarse.V, coarse.T, 0.5);
-    const SG::Spectral_evaluation e =
-        SG::evaluate_spectrum(fine_op, SG::eigenpairs(fine_op, K), op, SG::eigenpairs(op, K),
-                              SG::closest_point_interpolation(coarse.V, input), K);
+    const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T, 0.5);
+    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
+        fine_op, fine_pairs, op, SG::eigenpairs(op, K), SG::closest_point_interpolation(coarse.V, input), K);
     return Found{furthest(input, coarse), e.errors_low.mean, e.norm_L,
                  SG::internal::self_intersecting_faces(coarse.V, coarse.T).size()};
   };
@@ -288,7 +288,13 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
           shaped.norm_L, best.norm_L, paper.crossings);
   CHECK(shaped.furthest < 0.75 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
-  CHECK(shaped.low < 0.6 * paper.low); // 0.03 to 0.56 for 84 to 96 vertices
+  double low = 0, paper_low = 0; // of a single number of vertices they say little
+  for(const std::size_t vertices : {82, 86, 90, 94, 98}) {
+    low += found(policies, vertices).low;
+    paper_low += found(Spectral_edge_collapse_options::paper(), vertices).low;
+  }
+  CAPTURE(low, paper_low);
+  CHECK(low < 0.6 * paper_low);
   CHECK(best.norm_L < 0.95 * shaped.norm_L);
   CHECK(shaped.crossings == 0);
   CHECK(best.crossings == 0);

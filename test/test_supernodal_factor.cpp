@@ -126,7 +126,12 @@ TEST_CASE("Negative eigenvalues are counted, and a matrix that has some is refus
   for(const double shift : {0.5, 3., 40., 400.}) {
     const Sparse A = op.L - shift * op.B;
     CHECK(SG::internal::number_of_negative_eigenvalues(A) == count(A));
-    CHECK(SG::internal::number_of_negative_eigenvalues(A, 3) == count(A));
+    Supernodal_factor factor(A, 3, Supernodal_factor::Pivots::of_either_sign);
+    CHECK(factor.number_of_negative_pivots() == count(A));
+    const Eigen::VectorXd b = Eigen::VectorXd::Random(A.rows());
+    CHECK((A * factor.solve(b, 2) - b).norm() < 1e-9 * b.norm());
+    const Eigen::MatrixXd panel = Eigen::MatrixXd::Random(A.rows(), 8);
+    CHECK((A * solve_panel(factor, panel, 2) - panel).norm() < 1e-9 * panel.norm());
     CHECK_THROWS_WITH(Supernodal_factor(A), ContainsSubstring("needle"));
   }
   for(const unsigned seed : {1u, 2u, 3u}) {

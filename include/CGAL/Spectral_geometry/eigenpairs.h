@@ -48,8 +48,9 @@ enum class Eigenpairs_method { automatic, block, dense };
 struct Eigenpairs_options
 {
   Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
-  /// relative accuracy in the shift-inverted operator, \f$\|S\phi - \nu\phi\|_B \le\f$ tolerance \f$\nu\f$ with
-  /// \f$S = (L + s B)^{-1} B\f$, \f$\nu = 1/(\lambda + s)\f$; in ]0, 1[. The residuals of the result are up to a hundred times
+  /// relative accuracy in the shift-inverted operator, \f$\|S\phi - \nu\phi\|_B \le\f$ tolerance \f$|\nu|\f$ with
+  /// \f$S = (L - \sigma B)^{-1} B\f$, \f$\nu = 1/(\lambda - \sigma)\f$, and where \f$\lambda + s\f$ is less than
+  /// \f$|\lambda - \sigma|\f$ as many times less; in ]0, 1[. The residuals of the result are up to some hundred times
   /// larger, relative errors of the eigenvalues about the square of the tolerance.
   double tolerance = 1e-10;
   /// restarts of the Krylov space, at least 1
@@ -105,13 +106,15 @@ inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpair
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.
 ///
-/// Shift and invert: \f$(L + s B)^{-1} B \phi = \nu \phi\f$, \f$\lambda = 1/\nu - s\f$, by a Lanczos method with a Cholesky
-/// factorisation of \f$L + s B\f$. The shift \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix
-/// is positive definite, its condition number stays that of the wanted spectrum, and the eigenvalues next to 0 are
-/// separated as well as with a smaller one. An L in another unit (entries a thousand times larger or smaller than cotangents)
-/// has the shift in that unit. Start vectors are fixed, so the result is the same in every run.
-/// With K = 100, `block` keeps about 3.4 K vectors of n doubles at a tolerance of 1e-8, 2.8 K at 1e-4, never more than
-/// max(3.6 K, K + 120).
+/// Shift and invert: \f$(L - \sigma B)^{-1} B \phi = \nu \phi\f$, \f$\lambda = \sigma + 1/\nu\f$, by a Lanczos method with a
+/// factorisation of \f$L - \sigma B\f$. About six tenths of the wanted eigenvalues are below the shift \f$\sigma\f$, which the
+/// signs of the pivots count (Grimes, Lewis and Simon 1994): the iteration then approaches the wanted spectrum from both of
+/// its ends. For fewer than 16 pairs, more than four zeros, a `maximum_vectors` that is given, or where no such shift is found, the
+/// shift is \f$-s\f$, where \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix is
+/// positive definite, and the eigenvalues next to 0 are separated as well as with a smaller one. An L in another unit
+/// (entries a thousand times larger or smaller than cotangents) has s in that unit. Start vectors are fixed, so the result
+/// is the same in every run. With K = 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance of 1e-8, 2.1 K at
+/// 1e-4, with the shift below 0 3.4 K and 2.8 K, never more than max(3.6 K, K + 120).
 ///
 /// Eigenvectors are orthonormal in B. Signs: the first entry (in vertex order) that is larger in magnitude than 0.618
 /// times the largest one is positive. Within an eigenspace of several dimensions the basis is arbitrary.

@@ -57,7 +57,7 @@ struct Not_positive_definite : std::runtime_error
 class Supernodal_factor
 {
 public:
-  /// What pivots may be: `positive`, or else only their number is of use.
+  /// What pivots may be. There is no pivoting: with those of either sign the caller looks at what a solve leaves.
   enum class Pivots { positive, of_either_sign };
 
   /// Throws `Not_positive_definite` where a pivot is not positive, std::runtime_error where there is too little memory.
@@ -83,7 +83,7 @@ public:
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
     m_ok = true;
-    m_negative_pivots = 0;
+    std::fill(m_is_negative.begin(), m_is_negative.end(), char(0));
     try {
       std::vector<std::vector<double>> updates(m_children.size());
       for_each_task(static_cast<Index>(m_branches.size()), threads, [&](Index b) {
@@ -95,12 +95,16 @@ public:
     } catch(const std::bad_alloc&) {
       throw_lack_of_memory();
     }
+    m_negative.clear();
+    for(std::size_t i = 0; i < m_is_negative.size(); ++i)
+      if(m_is_negative[i])
+        m_negative.push_back(static_cast<int>(i));
     if(!m_ok && m_pivots == Pivots::positive)
       throw Not_positive_definite();
   }
 
   /// The number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when a pivot vanished.
-  Index number_of_negative_pivots() const { return m_ok ? m_negative_pivots.load() : -1; }
+  Index number_of_negative_pivots() const { return m_ok ? static_cast<Index>(m_negative.size()) : -1; }
 
   /// The row of A that is row i of the factor and of panels.
   const std::vector<int>& order() const { return m_order; }
@@ -177,6 +181,7 @@ private:
       values += (groups[g].width + below(g)) * groups[g].width;
     }
     m_values.resize(values);
+    m_is_negative.resize(m_order.size());
     find_places(A, group_of);
   }
 
@@ -265,6 +270,8 @@ private:
     }
     std::vector<double> signs(w, 1.);
     factorise_block(F, w, w + b, signs.data());
+    for(std::size_t j = 0; j < w; ++j)
+      m_is_negative[m_first[k] + j] = signs[j] < 0.;
     const double* const below_F = F + w * w;
     const bool large = double(w) * b * b > 1e6; // a millisecond: worth starting a thread
     for_each_task(static_cast<Index>(stride / panel_width), large ? threads : 1, [&](Index panel) {
@@ -327,10 +334,8 @@ private:
         m_ok = false;
         pivot = 1.;
       }
-      if(pivot < 0.) {
+      if(pivot < 0.)
         signs[j] = -1.;
-        ++m_negative_pivots;
-      }
       const double root = std::sqrt(std::abs(pivot));
       D[j * stride + j] = root;
       for(int i = j + 1; i < size; ++i)
@@ -404,7 +409,7 @@ private:
     }
   };
 
-  // w = L^-T L^-1 w
+  // w = L^-T S L^-1 w
   template <class Solver>
   void solve_in_place(double* w, int threads) const
   {
@@ -414,6 +419,9 @@ private:
       add_to_ancestors<Solver>(branch, w);
     for(const std::size_t k : m_top)
       Solver::forward(supernode(k), w);
+    for(const int row : m_negative)
+      for(int c = 0; c < Solver::columns; ++c)
+        w[Index(row) * Solver::columns + c] *= -1.;
     for(std::size_t k = m_top.size(); k-- > 0;)
       Solver::backward(supernode(m_top[k]), w);
     for_each_task(branches, threads, [&](Index k) { backward_branch<Solver>(m_branches[k], w); });
@@ -454,7 +462,8 @@ private:
 
   Pivots m_pivots;
   std::atomic<bool> m_ok{true};
-  std::atomic<Index> m_negative_pivots{0};
+  std::vector<char> m_is_negative; // each pivot
+  std::vector<int> m_negative;     // those that are
   std::vector<int> m_order;
   std::vector<int> m_first = {0};             // first column of each supernode, and n
   std::vector<std::vector<int>> m_children;   // of each supernode

@@ -30,6 +30,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
                                 " vertices are off the border, where functions vanish; ask for fewer.");
   internal::check_eigenpairs_options(options, K);
 
+  const Eigen::Index zeros = number_of_zero_eigenvalues(op);
   internal::Ritz_pairs pairs;
   Eigenpairs result;
   problem.report(0.);
@@ -38,14 +39,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
     result.solver = "dense";
     result.complete = true;
   } else {
-    internal::Block_lanczos lanczos(problem, options.tolerance, options.maximum_iterations,
-                                    options.maximum_vectors, options.threads);
-    pairs = lanczos.compute(K, options.verify, result.complete);
+    internal::Block_lanczos lanczos(problem, K, zeros <= internal::panel_width / 2, options.tolerance,
+                                    options.maximum_iterations, options.maximum_vectors, options.threads);
+    pairs = lanczos.compute(options.verify, result.complete);
     result.solver = "block";
   }
   internal::clear_uncoupled_rows(problem, pairs);
   internal::fix_signs(pairs.vectors);
-  result.zeros = number_of_zero_eigenvalues(op);
+  result.zeros = zeros;
   result.residuals = problem.residuals(pairs.values, pairs.vectors);
   result.values = std::move(pairs.values);
   result.vectors = std::move(pairs.vectors);

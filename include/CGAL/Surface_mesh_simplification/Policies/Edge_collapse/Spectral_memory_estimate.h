@@ -29,11 +29,11 @@ constexpr double bytes_of_mesh = 300; ///< for each vertex
 inline double memory_of_eigenpairs(const double n, const double K,
                                    const Spectral_geometry::Eigenpairs_options& options)
 {
-  const double factor = 900; // matrices and Cholesky factor, for each vertex
+  const double factor = 900; // matrices and their factor, for each vertex
   if(Spectral_geometry::internal::is_dense(Eigen::Index(n), Eigen::Index(K), options.method))
     return n * (8 * 5.2 * n + factor);
   const double space =
-      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(3.5 * K, K + 120);
+      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(2.6 * K, K + 90);
   return n * (8 * space + factor);
 }
 
@@ -44,8 +44,8 @@ inline double memory_of_eigenpairs(const double n, const double K,
 
 /*!
  * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to be compared with what the
- * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 3.5 K vectors of n
- * doubles (or `Eigenpairs_options::maximum_vectors`; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
+ * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 2.6 K vectors of n
+ * doubles (3.5 K on meshes of more than four components; or `Eigenpairs_options::maximum_vectors`; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
  * the loop, which keeps the eigenpairs, F and R = B Z - L F, three times n K doubles (five times with signals of the user's,
  * for Z). Flips keep F and Z of the whole input beside them, relocation those twice; `fit_operators` solves once more beside
  * them. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
