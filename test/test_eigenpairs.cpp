@@ -387,6 +387,67 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
         I::backward_body<Row>, I::multiply_block_body<Row>);
 }
 
+TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too many copies")
+{
+  const std::function<bool(double)> silent;
+  const auto shift = [&](const Laplace_operator& op, Eigen::Index K) {
+    const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+    SG::internal::Block_lanczos lanczos(problem, K, true, 1e-10, 300, 0, 1);
+    bool complete = false;
+    const Eigen::VectorXd values = lanczos.compute(true, complete).values;
+    CHECK(complete);
+    CHECK((values - by_dense(op, K, {}).values).cwiseAbs().maxCoeff() < 1e-9 * values(K - 1));
+    return lanczos.shift() / values(K - 1);
+  };
+  for(const Eigen::Index K : {30, 40, 52}) { // also where the space is full shortly before the end
+    for(const shapes::Matrices& mesh :
+        {shapes::bumpy_icosphere_matrices(3), shapes::irregular_grid_matrices(20, 20)}) {
+      const double place = shift(laplace(mesh, 0.5), K);
+      CHECK(place > 0.4);
+      CHECK(place < 0.9);
+    }
+  }
+  CHECK(shift(laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 20)), 50) < 0.);
+}
+
+TEST_CASE("A shift that meets an eigenvalue is moved")
+{
+  // Eigenvalues 0, 1, 2, ... spacings, next to each of which the first shift may lie.
+  const Eigen::Index n = 400;
+  const double spacing = 4. * shapes::pi / n;
+  Eigen::SparseMatrix<double> L(n, n), B(n, n);
+  L = Eigen::VectorXd::LinSpaced(n, 0., n - 1.).asDiagonal();
+  B.setIdentity();
+  for(const double offset : {0., 1e-13, 1e-11, 1e-9, 1e-6, -1e-9})
+    for(const Eigen::Index K : {20, 25, 50, 100}) {
+      const Eigenpairs pairs = SG::eigenpairs(spacing * (1. + offset) * L, B, K, with_method(Method::block));
+      INFO(offset << ' ' << K);
+      CHECK(pairs.complete);
+      CHECK((pairs.values / (spacing * (1. + offset)) - Eigen::VectorXd::LinSpaced(K, 0., K - 1.))
+                .cwiseAbs()
+                .maxCoeff() < 1e-9 * K);
+      CHECK((pairs.vectors.transpose() * pairs.vectors - Eigen::MatrixXd::Identity(K, K))
+                .cwiseAbs()
+                .maxCoeff() < 1e-10);
+    }
+}
+
+TEST_CASE("A matrix that is not positive semidefinite has no such eigenpairs")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  const double s = 4. * shapes::pi / op.mass.sum();
+  for(const double shift : {3., 8.})
+    for(const Eigen::Index K : {10, 30})
+      CHECK_THROWS_AS(SG::eigenpairs(op.L - shift * s * op.B, op.B, K, with_method(Method::block)),
+                      std::runtime_error);
+}
+
+TEST_CASE("Many eigenvectors stay orthonormal")
+{
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4), 0.5);
+  CHECK(orthonormality_error(op, SG::eigenpairs(op, 400)) < 1e-11);
+}
+
 TEST_CASE("Eigenvalues that are missing are counted")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);

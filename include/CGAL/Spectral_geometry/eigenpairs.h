@@ -109,7 +109,7 @@ inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpair
 /// Shift and invert: \f$(L - \sigma B)^{-1} B \phi = \nu \phi\f$, \f$\lambda = \sigma + 1/\nu\f$, by a Lanczos method with a
 /// factorisation of \f$L - \sigma B\f$. About six tenths of the wanted eigenvalues are below the shift \f$\sigma\f$, which the
 /// signs of the pivots count (Grimes, Lewis and Simon 1994): the iteration then approaches the wanted spectrum from both of
-/// its ends. For fewer than 16 pairs, more than four zeros, a `maximum_vectors` that is given, or where no such shift is found, the
+/// its ends. For fewer than 16 pairs, more than four zeros, a `maximum_vectors` that is given, or where no such shift serves, the
 /// shift is \f$-s\f$, where \f$s = 4\pi/\f$area is the mean spacing of the eigenvalues by Weyl's law: the matrix is
 /// positive definite, and the eigenvalues next to 0 are separated as well as with a smaller one. An L in another unit
 /// (entries a thousand times larger or smaller than cotangents) has s in that unit. Start vectors are fixed, so the result

@@ -42,7 +42,7 @@ namespace internal {
 class Block_lanczos
 {
 public:
-  // `few_copies`: no eigenvalue is known to have more copies than the block finds.
+  // `few_copies`: 0 is known to have few.
   Block_lanczos(const Eigen_problem& problem, Index K, bool few_copies, double tolerance,
                 Index maximum_iterations, Index maximum_vectors, int threads)
     : m_problem(problem)
@@ -63,17 +63,30 @@ public:
   // `complete` tells whether no eigenvalue can be missing.
   Ritz_pairs compute(bool verify, bool& complete)
   {
-    if(m_inside && !(shift_inside() && find_pairs()))
+    bool found = false;
+    for(int attempt = 0; m_inside && !found && attempt < 3; ++attempt) {
+      if(!shift_inside())
+        break;
+      found = find_pairs();
+      if(!found && m_norm < largest_norm)
+        break;
+      if(!found)
+        m_sigma += 0.4 * m_problem.shift();
+    }
+    if(!found) {
       shift_below();
-    if(!m_inside) {
-      if(m_factor.number_of_negative_pivots() != 0)
-        throw Not_positive_definite();
       find_pairs();
     }
+    // Of an L that is not positive semidefinite a shift inside knows nothing.
+    if(m_inside && lambda().minCoeff() < -(1e-3 + 10. * m_tolerance) * m_problem.shift())
+      throw Not_positive_definite();
     complete = verify && counting_is_meaningful(m_tolerance) &&
                (!may_be_incomplete(m_problem, values(), m_tolerance) || find_missing());
     return pairs();
   }
+
+  // The one that was used.
+  double shift() const { return m_sigma; }
 
 private:
   static Index rounded_up(Index k) { return (k + panel_width - 1) / panel_width * panel_width; }
@@ -81,17 +94,25 @@ private:
 
   // --- the shift ---
 
+  void factorise()
+  {
+    m_problem.report(0.);
+    if(m_factorised != m_sigma)
+      m_factor.factorise(m_problem.shifted(m_sigma), m_space.threads());
+    m_factorised = m_sigma;
+  }
+
   // Moves the shift until about six tenths of the wanted eigenvalues are below it. False where that cannot be done.
   bool shift_inside()
   {
     for(int attempt = 0; attempt < 5; ++attempt) {
-      if(attempt > 0)
-        m_factor.factorise(m_problem.shifted(m_sigma), m_space.threads());
+      factorise();
       m_below = m_factor.number_of_negative_pivots();
       const double place = double(m_below) / double(m_K);
-      if(place > 0.4 && place < 0.8 && solves_well())
+      const bool good = place > 0.4 && place < 0.75;
+      if(good && solves_well())
         return true;
-      m_sigma *= 1.02 * (m_below < 0 ? 1. : (std::min)(4., (std::max)(0.25, place_of_shift / place)));
+      m_sigma *= good || m_below < 0 ? 1.02 : (std::min)(32., (std::max)(1. / 32., place_of_shift / place));
     }
     return false;
   }
@@ -101,7 +122,9 @@ private:
     m_inside = false;
     m_below = 0;
     m_sigma = -m_problem.shift();
-    m_factor.factorise(m_problem.shifted(m_sigma), m_space.threads());
+    factorise();
+    if(m_factor.number_of_negative_pivots() != 0)
+      throw Not_positive_definite();
   }
 
   // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but two or three are to be there.
@@ -125,7 +148,7 @@ private:
     m_T.setZero(m_maximum_panels * panel_width, m_maximum_panels * panel_width);
   }
 
-  // False where the shift is inside and the space is full.
+  // False where the shift is inside and of no use, see `iterate()`.
   bool find_pairs()
   {
     set_limits();
@@ -172,7 +195,7 @@ private:
     m_after_restart = false;
     m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
 
-    if(m_loss > 1e-11 || m_locked)
+    if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked)
       reorthogonalise();
     orthonormalise();
     if(m_inside)
@@ -313,18 +336,20 @@ private:
     return false;
   }
 
-  // Extends the space until the K wanted Ritz values have converged. False where the shift is inside and the space is full: then there
-  // are more copies of an eigenvalue below it than a block finds.
+  // Extends the space until the K wanted Ritz values have converged. False where the shift is inside, and next to an eigenvalue, where one
+  // vector drowns the others, or the space is full without all values below the shift: then there are more copies of one than a block finds.
   bool iterate(Index next_check)
   {
     Index last_dimension = 0;
-    double last_worst = 1.;
+    double last_worst = 1., worst = 1.;
     for(Index restarts = 0;;) {
       step();
-      m_problem.report(0.85 * (std::min)(1., double(dimension()) / (3.4 * m_K + 40.)));
+      if(m_norm > largest_norm)
+        return false;
+      m_problem.report(0.85 * (std::min)(1., double(dimension()) / ((m_inside ? 2.4 : 3.4) * m_K + 40.)));
       const bool full = m_panels == m_maximum_panels;
       if(full || dimension() >= next_check) {
-        const double worst = solve_projected();
+        worst = solve_projected();
         if(worst <= m_tolerance)
           return true;
         next_check = dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
@@ -335,7 +360,7 @@ private:
         advance();
         continue;
       }
-      if(m_inside && !m_locked)
+      if(m_inside && !m_locked && worst > 1e-3)
         return false;
       if(++restarts > m_maximum_iterations)
         throw std::runtime_error(
@@ -415,10 +440,12 @@ private:
     m_loss = 1.;
   }
 
-  Eigen::VectorXd values() const
+  Eigen::VectorXd lambda() const
   {
-    return (m_sigma + m_problem.shift() * m_theta.head(m_K).array().inverse()).max(0.).matrix();
+    return (m_sigma + m_problem.shift() * m_theta.head(m_K).array().inverse()).matrix();
   }
+
+  Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
 
   // Ritz vectors in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
   Ritz_pairs pairs()
@@ -436,13 +463,15 @@ private:
   }
 
   static constexpr double place_of_shift = 0.6; // among the wanted eigenvalues: with it the space is smallest
+  static constexpr double largest_norm = 1e4;   // of S, 1e-4 of a spacing between the shift and an eigenvalue
 
   const Eigen_problem& m_problem;
   Index m_K;
   double m_tolerance;
   Index m_maximum_iterations, m_maximum_vectors;
-  bool m_inside;     // the shift is among the wanted eigenvalues
-  double m_sigma;    // the shift
+  bool m_inside;  // the shift is among the wanted eigenvalues
+  double m_sigma; // the shift
+  double m_factorised = m_sigma;
   Index m_below = 0; // eigenvalues below it
   Supernodal_factor m_factor;
   Sparse_matrix m_mass; // s B in the order of the factor
@@ -455,7 +484,7 @@ private:
   Eigen::MatrixXd m_link; // R of the next panel
   Eigen::MatrixXd m_T;    // projected operator
   Eigen::VectorXd m_theta;
-  Eigen::MatrixXd m_Y; // its eigenpairs, descending
+  Eigen::MatrixXd m_Y; // its eigenpairs, the wanted first
   double m_norm = 1.;  // of S: 1 with the shift below, otherwise as far as T shows it
   double m_loss = 1.;  // estimated loss of orthogonality
   bool m_after_restart = false;

@@ -33,7 +33,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
   if(Spectral_geometry::internal::is_dense(Eigen::Index(n), Eigen::Index(K), options.method))
     return n * (8 * 5.2 * n + factor);
   const double space =
-      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(2.6 * K, K + 90);
+      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(2.6 * K, K + 120);
   return n * (8 * space + factor);
 }
 
@@ -45,7 +45,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
 /*!
  * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to be compared with what the
  * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 2.6 K vectors of n
- * doubles (3.5 K on meshes of more than four components; or `Eigenpairs_options::maximum_vectors`; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
+ * doubles (or `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
  * the loop, which keeps the eigenpairs, F and R = B Z - L F, three times n K doubles (five times with signals of the user's,
  * for Z). Flips keep F and Z of the whole input beside them, relocation those twice; `fit_operators` solves once more beside
  * them. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
