@@ -111,8 +111,8 @@ class Beside_the_program(Shapes):
         self.same_report({**run.report, "quadrics_above": said["quadrics_above"]}, said)
         own = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs)
         fitted = ss.fit_operators(run.V, run.F, run.P, ss.eigenpairs(self.V, self.F, 60), 55)
-        self.close(fitted.L, self.matrix("fitted/L.mtx"), 1e-6)
-        self.close(fitted.M, self.matrix("fitted/mass.mtx"), 1e-6)
+        self.close(fitted.L, self.matrix("fitted/L.mtx"), 1e-5) # the program's mesh has its digits from a file
+        self.close(fitted.M, self.matrix("fitted/mass.mtx"), 1e-5)
         self.close(fitted.values[:50], self.array("fitted/eigenvalues.npy"), 1e-6)
         of_fitted = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs, operators=fitted)
         for e, figures in ((own, said), (of_fitted, said["fitted"])):
