@@ -5,8 +5,8 @@
 #ifndef SPECTRAL_TEST_CORE_HELPERS_H
 #define SPECTRAL_TEST_CORE_HELPERS_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
 
 #include "slow_mesh.h"
 #include "spectral_test_helpers.h"

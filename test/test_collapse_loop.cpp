@@ -5,7 +5,7 @@
 // How the policies live inside CGAL's loop: visitors, misuse, exceptions, several runs, difficult edges.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"

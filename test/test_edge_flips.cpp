@@ -13,7 +13,7 @@
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 
 #include <algorithm>
 #include <cmath>

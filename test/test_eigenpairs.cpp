@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/Block_lanczos.h>
-#include <CGAL/Spectral_geometry/internal/dense_eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

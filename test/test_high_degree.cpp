@@ -8,9 +8,9 @@
 #include "core_helpers.h"
 
 #include <CGAL/Real_timer.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_crossing_guard.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 
 #include <algorithm>
 #include <cmath>

@@ -10,8 +10,8 @@
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
-#include <CGAL/Spectral_geometry/internal/border.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include "catch.h"

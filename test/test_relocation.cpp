@@ -13,10 +13,10 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/Relocation_guards.h>
-#include <CGAL/Spectral_geometry/internal/border.h>
-#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 
 #include <Eigen/Dense>
 

@@ -7,10 +7,10 @@
 #include "catch.h"
 #include "relocation_helpers.h"
 
-#include <CGAL/Spectral_geometry/internal/Guarded_descent.h>
-#include <CGAL/Spectral_geometry/internal/Relocation_objective.h>
-#include <CGAL/Spectral_geometry/internal/Surface_signals.h>
-#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 
 #include <Eigen/Dense>
 

@@ -10,9 +10,9 @@
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/Relocation_guards.h>
-#include <CGAL/Spectral_geometry/internal/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 

@@ -55,7 +55,7 @@ closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& 
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/closest_point_interpolation_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_CLOSEST_POINT_INTERPOLATION_H

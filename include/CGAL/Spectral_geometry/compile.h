@@ -12,20 +12,20 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 `<CGAL/Surface_mesh_simplification/compile_spectral.h>` has this and the collapse loop.
 */
 
-#include <CGAL/Spectral_geometry/internal/closest_point_interpolation_impl.h>
-#include <CGAL/Spectral_geometry/internal/cotangent_laplacian_impl.h>
-#include <CGAL/Spectral_geometry/internal/curvature_coefficients_impl.h>
-#include <CGAL/Spectral_geometry/internal/edge_flips_impl.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
-#include <CGAL/Spectral_geometry/internal/fitted_operators_impl.h>
-#include <CGAL/Spectral_geometry/internal/functional_map_estimation_impl.h>
-#include <CGAL/Spectral_geometry/internal/functional_map_impl.h>
-#include <CGAL/Spectral_geometry/internal/hierarchical_functional_maps_impl.h>
-#include <CGAL/Spectral_geometry/internal/intrinsic_delaunay_impl.h>
-#include <CGAL/Spectral_geometry/internal/mesh_diagnosis_impl.h>
-#include <CGAL/Spectral_geometry/internal/operator_coefficients_impl.h>
-#include <CGAL/Spectral_geometry/internal/relocation_impl.h>
-#include <CGAL/Spectral_geometry/internal/triangles_intersect_impl.h>
-#include <CGAL/Spectral_geometry/internal/vertex_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>
+#include <CGAL/Spectral_geometry/internal/flips/edge_flips_impl.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/functional_map_estimation_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/functional_map_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/hierarchical_functional_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/intrinsic_delaunay_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/mesh_diagnosis_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/operator_coefficients_impl.h>
+#include <CGAL/Spectral_geometry/internal/relocation/relocation_impl.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/vertex_maps_impl.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

@@ -234,7 +234,7 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::l
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H

@@ -40,7 +40,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/curvature_coefficients_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_CURVATURE_COEFFICIENTS_H

@@ -56,7 +56,7 @@ flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T, const Eigen::SparseMatr
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/edge_flips_impl.h>
+#include <CGAL/Spectral_geometry/internal/flips/edge_flips_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EDGE_FLIPS_H

@@ -147,7 +147,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<do
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H

@@ -152,7 +152,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/fitted_operators_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_FITTED_OPERATORS_H

@@ -131,7 +131,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eige
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/functional_map_estimation_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/functional_map_estimation_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_ESTIMATION_H

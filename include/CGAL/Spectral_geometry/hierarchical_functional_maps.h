@@ -65,7 +65,7 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/hierarchical_functional_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/hierarchical_functional_maps_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_HIERARCHICAL_FUNCTIONAL_MAPS_H

@@ -55,7 +55,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/intrinsic_delaunay_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/intrinsic_delaunay_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTRINSIC_DELAUNAY_H

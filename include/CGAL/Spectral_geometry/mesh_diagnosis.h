@@ -162,7 +162,7 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm, const NamedParameters& np = 
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/mesh_diagnosis_impl.h>
+#include <CGAL/Spectral_geometry/internal/operators/mesh_diagnosis_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_MESH_DIAGNOSIS_H

@@ -61,7 +61,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/relocation_impl.h>
+#include <CGAL/Spectral_geometry/internal/relocation/relocation_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_RELOCATION_H

@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 #define CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 
-#include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
 
 #include <Eigen/Core>
 

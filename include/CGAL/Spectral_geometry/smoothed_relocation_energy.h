@@ -5,9 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H
 #define CGAL_SPECTRAL_GEOMETRY_SMOOTHED_RELOCATION_ENERGY_H
 
-#include <CGAL/Spectral_geometry/internal/Operator_geometry.h>
-#include <CGAL/Spectral_geometry/internal/Panel_kernels.h>
-#include <CGAL/Spectral_geometry/internal/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
+#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>

@@ -101,7 +101,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 } // namespace CGAL
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/vertex_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/maps/vertex_maps_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_VERTEX_MAPS_H

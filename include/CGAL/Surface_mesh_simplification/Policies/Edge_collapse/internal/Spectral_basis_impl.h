@@ -9,9 +9,9 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
-#include <CGAL/Spectral_geometry/internal/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
-#include <CGAL/Spectral_geometry/internal/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
 

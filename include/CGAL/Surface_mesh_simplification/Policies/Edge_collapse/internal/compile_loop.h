@@ -8,8 +8,8 @@
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 // All definitions of the collapse loop that depend on no mesh type.
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Quadric_collapses_impl.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses_impl.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_collapse_core_impl.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core_impl.h>
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COMPILE_LOOP_H

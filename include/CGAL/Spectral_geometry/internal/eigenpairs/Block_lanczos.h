@@ -1,0 +1,499 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H
+
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Panel_space.h>
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/completeness.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Block Lanczos with shift and invert, thick restart and partial reorthogonalisation.
+///
+/// The operator is S = s (L - sigma B)^-1 B with eigenvalues theta = s / (lambda - sigma), the inner product s B, with the mean
+/// spacing s of the eigenvalues. Eight vectors at a time share each access to the factor and to the basis, and find up to eight copies of a multiple
+/// eigenvalue. S V = V T + W E^T, where T is block tridiagonal (with an arrow after a restart).
+///
+/// The shift sigma lies inside of the wanted spectrum where it can: the eigenvalues below it, which the inertia of
+/// L - sigma B counts, have negative theta, and the Krylov space sees both ends. K = 100 pairs to 1e-8 take 2.4 K vectors in
+/// place of 3.4 K. Otherwise sigma = -s, and no theta is negative.
+/// See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
+///
+/// Small matrices are MatrixXd, and products have such factors, not expressions: each further type is compiled by itself.
+class Block_lanczos
+{
+public:
+  // `few_copies`: 0 is known to have few.
+  Block_lanczos(const Eigen_problem& problem, Index K, bool few_copies, double tolerance,
+                Index maximum_iterations, Index maximum_vectors, int threads)
+    : m_problem(problem)
+    , m_K(K)
+    , m_tolerance(tolerance)
+    , m_maximum_iterations(maximum_iterations)
+    , m_maximum_vectors(maximum_vectors)
+    , m_inside(few_copies && K >= 2 * panel_width && maximum_vectors == 0)
+    , m_sigma((m_inside ? place_of_shift * K : -1.) * problem.shift())
+    , m_factor(problem.shifted(m_sigma), threads, Supernodal_factor::Pivots::of_either_sign)
+    , m_mass(problem.shift() * permuted(problem.B(), m_factor.order()))
+    , m_space(m_mass, threads)
+    , m_W(problem.size())
+    , m_BW(problem.size())
+    , m_BV(problem.size())
+  {}
+
+  // `complete` tells whether no eigenvalue can be missing.
+  Ritz_pairs compute(bool verify, bool& complete)
+  {
+    bool found = false;
+    for(int attempt = 0; m_inside && !found && attempt < 3; ++attempt) {
+      if(!shift_inside())
+        break;
+      found = find_pairs();
+      if(!found && m_norm < largest_norm)
+        break;
+      if(!found)
+        m_sigma += 0.4 * m_problem.shift();
+    }
+    if(!found) {
+      shift_below();
+      find_pairs();
+    }
+    // Of an L that is not positive semidefinite a shift inside knows nothing.
+    if(m_inside && lambda().minCoeff() < -(1e-3 + 10. * m_tolerance) * m_problem.shift())
+      throw Not_positive_definite();
+    complete = verify && counting_is_meaningful(m_tolerance) &&
+               (!may_be_incomplete(m_problem, values(), m_tolerance) || find_missing());
+    return pairs();
+  }
+
+  // The one that was used.
+  double shift() const { return m_sigma; }
+
+private:
+  static Index rounded_up(Index k) { return (k + panel_width - 1) / panel_width * panel_width; }
+  Index dimension() const { return m_panels * panel_width; }
+
+  // --- the shift ---
+
+  void factorise()
+  {
+    m_problem.report(0.);
+    if(m_factorised != m_sigma)
+      m_factor.factorise(m_problem.shifted(m_sigma), m_space.threads());
+    m_factorised = m_sigma;
+  }
+
+  // Moves the shift until about six tenths of the wanted eigenvalues are below it. False where that cannot be done.
+  bool shift_inside()
+  {
+    for(int attempt = 0; attempt < 5; ++attempt) {
+      factorise();
+      m_below = m_factor.number_of_negative_pivots();
+      const double place = double(m_below) / double(m_K);
+      const bool good = place > 0.4 && place < 0.75;
+      if(good && solves_well())
+        return true;
+      m_sigma *= good || m_below < 0 ? 1.02 : (std::min)(32., (std::max)(1. / 32., place_of_shift / place));
+    }
+    return false;
+  }
+
+  void shift_below()
+  {
+    m_inside = false;
+    m_below = 0;
+    m_sigma = -m_problem.shift();
+    factorise();
+    if(m_factor.number_of_negative_pivots() != 0)
+      throw Not_positive_definite();
+  }
+
+  // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but two or three are to be there.
+  bool solves_well()
+  {
+    const Eigen::SparseMatrix<double> A = m_problem.shifted(m_sigma);
+    const Eigen::VectorXd b = A.diagonal(), x = m_factor.solve(b, m_space.threads());
+    return (A * x - b).norm() < 1e-13 * b.cwiseAbs().maxCoeff() * x.norm();
+  }
+
+  // --- the Krylov space ---
+
+  void set_limits()
+  {
+    // Without restart 3.4 K vectors reach 1e-8, or 2.4 K with the shift inside. A larger space costs memory, a smaller one
+    // more solves.
+    const Index standard = (std::max)(m_K * 36 / 10, m_K + 120);
+    const Index limit = m_maximum_vectors > 0 ? m_maximum_vectors : standard;
+    m_maximum_panels = (std::min)(limit, m_problem.size() - 2 * panel_width) / panel_width;
+    m_kept_panels = (std::min)(rounded_up(m_K + 2 * panel_width) / panel_width, m_maximum_panels - 1);
+    m_T.setZero(m_maximum_panels * panel_width, m_maximum_panels * panel_width);
+  }
+
+  // False where the shift is inside and of no use, see `iterate()`.
+  bool find_pairs()
+  {
+    set_limits();
+    m_panels = 0;
+    m_norm = 1.;
+    m_random.seed(1);
+    add_random_panel();
+    return iterate(rounded_up(m_K + (std::max)(m_K / 2, 3 * Index(panel_width))));
+  }
+
+  // The next panel, without a link to those before it.
+  void add_random_panel()
+  {
+    fill_randomly();
+    m_factor.solve(m_W, m_W, m_space.threads()); // smooth vectors are a better start
+    orthogonalise_against_all();
+    orthogonalise_against_all();
+    orthonormalise();
+    m_link.setZero();
+    m_loss = 1.; // let the next step reorthogonalise
+    push_panel();
+  }
+
+  void push_panel()
+  {
+    if(static_cast<Index>(m_basis.size()) == m_panels)
+      m_basis.emplace_back(m_problem.size());
+    std::swap(m_basis[m_panels], m_W);
+    ++m_panels;
+  }
+
+  // One step: applies S to the last panel. T grows by its products with the basis, m_W becomes the next panel.
+  void step()
+  {
+    const Index j = m_panels - 1, row = j * panel_width;
+    std::swap(m_BV, m_BW); // left by orthonormalise()
+    m_factor.solve(m_BV, m_W, m_space.threads());
+    const Eigen::MatrixXd A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
+    m_space.subtract(m_W, m_basis[j], A);
+    if(m_after_restart)
+      orthogonalise_against_all();
+    else if(j > 0)
+      m_space.subtract(m_W, m_basis[j - 1], m_link.transpose());
+    m_after_restart = false;
+    m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
+
+    if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked)
+      reorthogonalise();
+    orthonormalise();
+    if(m_inside)
+      m_norm = (std::max)(m_norm, std::hypot(A.norm(), m_link.norm()));
+    m_loss *= m_norm / smallest_singular_value(m_link);
+  }
+
+  // Links the next panel to the last one.
+  void advance()
+  {
+    const Index row = (m_panels - 1) * panel_width;
+    m_T.block(row + panel_width, row, panel_width, panel_width) = m_link;
+    m_T.block(row, row + panel_width, panel_width, panel_width) = m_link.transpose();
+    push_panel();
+  }
+
+  // Rounding errors along converged vectors grow by theta in each step, divided by the smallest singular
+  // value of the link. When that has come to a bound well below the square root of the machine precision, where T would
+  // lose digits (Simon 1984), the last two panels are cleaned in one pass over the basis. Every third or fourth step does.
+  void reorthogonalise()
+  {
+    m_space.multiply_mass(m_W, m_BW);
+    Panel& V = m_basis[m_panels - 1];
+    Coefficients H, H_last;
+    m_space.products(m_basis, m_panels, m_BW, H, m_panels - 1, m_BV, H_last);
+    m_space.subtract(m_basis, m_panels, m_W, H, m_panels - 1, V, H_last);
+    m_loss = std::numeric_limits<double>::epsilon();
+  }
+
+  void orthogonalise_against_all()
+  {
+    if(m_panels == 0)
+      return;
+    m_space.multiply_mass(m_W, m_BW);
+    Coefficients H, none;
+    m_space.products(m_basis, m_panels, m_BW, H, 0, m_BW, none);
+    m_space.subtract(m_basis, m_panels, m_W, H, 0, m_BW, none);
+  }
+
+  // W = Q R by Cholesky, twice; m_link = R, m_BW = s B Q.
+  void orthonormalise()
+  {
+    m_link.setIdentity(panel_width, panel_width);
+    m_space.multiply_mass(m_W, m_BW);
+    for(int pass = 0; pass < 2; ++pass) {
+      const Eigen::MatrixXd G = m_space.product(m_W, m_BW);
+      const Eigen::LLT<Eigen::MatrixXd> llt(G);
+      const Eigen::MatrixXd R = llt.matrixU();
+      if(llt.info() != Eigen::Success || !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
+         !(R.diagonal().minCoeff() > 1e-12)) {
+        replace_dependent_vectors(G);
+        return;
+      }
+      transform(inverse_of(llt));
+      m_link = R * m_link;
+    }
+  }
+
+  // The space is (nearly) invariant along some directions: those become random vectors without a link.
+  void replace_dependent_vectors(const Eigen::MatrixXd& G)
+  {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
+    const Eigen::MatrixXd& Q = solver.eigenvectors();
+    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(panel_width, panel_width), R = T;
+    std::vector<int> replaced;
+    for(int c = 0; c < panel_width; ++c) {
+      const double value = solver.eigenvalues()(c);
+      if(value > 1e-24 && value > 1e-14 * solver.eigenvalues()(panel_width - 1)) {
+        T.col(c) = Q.col(c) / std::sqrt(value);
+        R.row(c) = Q.col(c).transpose() * std::sqrt(value);
+      } else
+        replaced.push_back(c);
+    }
+    m_space.transform(m_W, T);
+    for(Index i = 0; i < m_space.size(); ++i)
+      for(const int c : replaced)
+        m_W.row(i)[c] = random_entry() / std::sqrt(m_problem.size());
+    const Eigen::MatrixXd link = R * m_link;
+    for(int pass = 0; pass < 3; ++pass) {
+      orthogonalise_against_all();
+      m_space.multiply_mass(m_W, m_BW);
+      const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
+      if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
+        throw std::runtime_error("Eigenpairs: the block Lanczos iteration broke down; check the mesh for "
+                                 "needles, or choose the method 'dense'.");
+      transform(inverse_of(llt));
+    }
+    m_link = link;
+  }
+
+  // Of U, G = U^T U.
+  static Eigen::MatrixXd inverse_of(const Eigen::LLT<Eigen::MatrixXd>& llt)
+  {
+    return llt.matrixU().solve(Eigen::MatrixXd::Identity(panel_width, panel_width));
+  }
+
+  void transform(const Eigen::MatrixXd& T)
+  {
+    m_space.transform(m_W, T);
+    m_space.transform(m_BW, T);
+  }
+
+  static double smallest_singular_value(const Eigen::MatrixXd& R)
+  {
+    const Eigen::MatrixXd transposed = R.transpose(), product = transposed * R;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product, Eigen::EigenvaluesOnly);
+    return (std::max)(1e-12, std::sqrt((std::max)(0., solver.eigenvalues()(0))));
+  }
+
+  double random_entry() { return double(m_random() >> 11) * (2. / 9007199254740992.) - 1.; }
+
+  void fill_randomly()
+  {
+    for(Index i = 0; i < m_space.size(); ++i)
+      for(int c = 0; c < panel_width; ++c)
+        m_W.row(i)[c] = random_entry();
+  }
+
+  // --- Ritz pairs ---
+
+  // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
+  // eight more copies. T knows of no link to the Ritz vectors: they must have converged, which those beyond the first K
+  // have not, and what the tolerance leaves of a link is taken off in each step.
+  bool find_missing()
+  {
+    m_locked = true;
+    for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
+      m_problem.report(0.85);
+      Index missing = 0;
+      if(!count_missing(m_problem, values(), m_space.threads(), missing))
+        return false;
+      if(missing == 0)
+        return true;
+      compress(m_K / panel_width * panel_width);
+      add_random_panel();
+      iterate(m_maximum_panels * panel_width);
+    }
+    return false;
+  }
+
+  // Extends the space until the K wanted Ritz values have converged. False where the shift is inside, and next to an eigenvalue, where one
+  // vector drowns the others, or the space is full without all values below the shift: then there are more copies of one than a block finds.
+  bool iterate(Index next_check)
+  {
+    Index last_dimension = 0;
+    double last_worst = 1., worst = 1.;
+    for(Index restarts = 0;;) {
+      step();
+      if(m_norm > largest_norm)
+        return false;
+      m_problem.report(0.85 * (std::min)(1., double(dimension()) / ((m_inside ? 2.4 : 3.4) * m_K + 40.)));
+      const bool full = m_panels == m_maximum_panels;
+      if(full || dimension() >= next_check) {
+        worst = solve_projected();
+        if(worst <= m_tolerance)
+          return true;
+        next_check = dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
+        last_worst = worst;
+        last_dimension = dimension();
+      }
+      if(!full) {
+        advance();
+        continue;
+      }
+      if(m_inside && !m_locked && worst > 1e-3)
+        return false;
+      if(++restarts > m_maximum_iterations)
+        throw std::runtime_error(
+            "Eigenpairs: the block Lanczos iteration did not converge to the tolerance for " +
+            std::to_string(m_K) + " eigenpairs; raise the tolerance or the number of iterations.");
+      restart();
+      next_check = last_dimension = 0;
+    }
+  }
+
+  // Residuals fall geometrically, faster and faster: half of the way that the last two suggest. A check costs as much as
+  // two steps.
+  Index distance_to_next_check(double worst, double last_worst, Index distance) const
+  {
+    const double rate = std::log(last_worst / worst) / double(distance);
+    if(!(rate > 0.))
+      return 2 * panel_width;
+    const double way = 0.6 * std::log(worst / m_tolerance) / rate;
+    return rounded_up(static_cast<Index>((std::min)(way, 6. * panel_width)) + 1);
+  }
+
+  // Eigenpairs of T: the wanted ones in the order of their lambda, then those with the largest |theta|. Returns
+  // the largest weighted residual of the wanted ones.
+  double solve_projected()
+  {
+    const Index m = dimension();
+    const Eigen::MatrixXd T = m_T.topLeftCorner(m, m);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(T);
+    if(solver.info() != Eigen::Success)
+      throw std::runtime_error("Eigenpairs: the projected eigenproblem did not converge.");
+    const Eigen::VectorXd& theta = solver.eigenvalues(); // ascending
+    m_theta.resize(m);
+    m_Y.resize(m, m);
+    Index low = 0, high = m; // taken are those before and from here
+    for(Index k = 0; k < m; ++k) {
+      const bool negative = k < m_below || (k >= m_K && -theta(low) > theta(high - 1));
+      const Index from = k < m_below ? m_below - 1 - k : negative ? low : high - 1;
+      m_theta(k) = theta(from);
+      m_Y.col(k) = solver.eigenvectors().col(from);
+      negative ? ++low : --high;
+    }
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, m_K), link = m_link * bottom;
+    double worst = 0.;
+    for(Index k = 0; k < m_K; ++k)
+      worst = (std::max)(worst, link.col(k).norm() * weight_of_residual(m_theta(k)));
+    return worst;
+  }
+
+  // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much more: those next to 0 are as good
+  // relative to themselves as the others.
+  double weight_of_residual(double theta) const
+  {
+    const double distance = 1. / std::abs(theta),
+                 shifted_lambda = m_sigma / m_problem.shift() + 1. / theta + 1.;
+    return distance * (std::max)(1., distance / (std::max)(1., shifted_lambda));
+  }
+
+  // Replaces the basis by its first Ritz vectors.
+  void compress(Index kept)
+  {
+    m_space.rotate(m_basis, m_panels, m_Y.leftCols(kept));
+    m_panels = kept / panel_width;
+    m_T.setZero();
+    m_T.diagonal().head(kept) = m_theta.head(kept);
+  }
+
+  // Thick restart (Wu and Simon 2000): S X = X Theta + W E_bottom.
+  void restart()
+  {
+    const Index kept = m_kept_panels * panel_width, m = dimension();
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept), arrow = m_link * bottom;
+    compress(kept);
+    m_T.block(kept, 0, panel_width, kept) = arrow;
+    m_T.block(0, kept, kept, panel_width) = arrow.transpose();
+    push_panel();
+    m_after_restart = true;
+    m_loss = 1.;
+  }
+
+  Eigen::VectorXd lambda() const
+  {
+    return (m_sigma + m_problem.shift() * m_theta.head(m_K).array().inverse()).matrix();
+  }
+
+  Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
+
+  // Ritz vectors in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
+  Ritz_pairs pairs()
+  {
+    compress(rounded_up(m_K));
+    m_basis.erase(m_basis.begin() + m_panels, m_basis.end()); // before memory for the result is taken
+    Ritz_pairs result{values(), Eigen::MatrixXd(m_problem.size(), m_K)};
+    const double scale = std::sqrt(m_problem.shift());
+    for_each_task(static_cast<int>(m_K), m_space.threads(), [&](int k) {
+      const Panel& panel = m_basis[k / panel_width];
+      for(Index i = 0; i < m_space.size(); ++i)
+        result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
+    });
+    return result;
+  }
+
+  static constexpr double place_of_shift = 0.6; // among the wanted eigenvalues: with it the space is smallest
+  static constexpr double largest_norm = 1e4;   // of S, 1e-4 of a spacing between the shift and an eigenvalue
+
+  const Eigen_problem& m_problem;
+  Index m_K;
+  double m_tolerance;
+  Index m_maximum_iterations, m_maximum_vectors;
+  bool m_inside;  // the shift is among the wanted eigenvalues
+  double m_sigma; // the shift
+  double m_factorised = m_sigma;
+  Index m_below = 0; // eigenvalues below it
+  Supernodal_factor m_factor;
+  Sparse_matrix m_mass; // s B in the order of the factor
+  Panel_space m_space;
+
+  Index m_maximum_panels = 0, m_kept_panels = 0;
+  std::vector<Panel> m_basis; // the first m_panels are in use
+  Index m_panels = 0;
+  Panel m_W, m_BW, m_BV;  // the next panel, its product with s B, that of the last panel
+  Eigen::MatrixXd m_link; // R of the next panel
+  Eigen::MatrixXd m_T;    // projected operator
+  Eigen::VectorXd m_theta;
+  Eigen::MatrixXd m_Y; // its eigenpairs, the wanted first
+  double m_norm = 1.;  // of S: 1 with the shift below, otherwise as far as T shows it
+  double m_loss = 1.;  // estimated loss of orthogonality
+  bool m_after_restart = false;
+  bool m_locked = false; // the basis begins with Ritz vectors whose link has been dropped
+  std::mt19937_64 m_random{1};
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H

@@ -1,0 +1,176 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H
+
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel.h>
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
+#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+// Coefficients with respect to several panels: 8 rows for each of them. Of one they are an Eigen::MatrixXd outside of this class: its
+// products and factorisations are compiled for others, too, and a row-major type of eight columns would have its own.
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>;
+
+/// Linear algebra on panels in the inner product of a mass matrix. Sums run over a fixed number of row ranges,
+/// whatever the number of threads is, so that results do not depend on it.
+class Panel_space
+{
+public:
+  Panel_space(const Eigen::SparseMatrix<double>& mass, int threads)
+    : m_mass(mass)
+    , m_threads(threads)
+  {}
+
+  Index size() const { return m_mass.rows(); }
+
+  // y = B x; B is symmetric, its columns serve as rows
+  void multiply_mass(const Panel& x, Panel& y) const
+  {
+    for_each_range([&](Index begin, Index end, int) {
+      multiply(m_mass.outerIndexPtr(), m_mass.innerIndexPtr(), m_mass.valuePtr(), x.row(0), y.row(0), begin,
+               end);
+    });
+  }
+
+  // H = basis^T W and H2 = basis^T W2, of the first count and count2 <= count panels, in one pass over the basis
+  void products(const std::vector<Panel>& basis, Index count, const Panel& W, Coefficients& H, Index count2,
+                const Panel& W2, Coefficients& H2) const
+  {
+    const Coefficients zero = Coefficients::Zero((count + count2) * panel_width, panel_width);
+    std::vector<Coefficients> parts(number_of_ranges, zero);
+    for_each_range([&](Index begin, Index end, int range) {
+      for(Index i = begin; i < end; i += rows_in_cache) {
+        const Index rows = (std::min)(rows_in_cache, end - i);
+        for(Index p = 0; p < count; ++p) {
+          gram(basis[p].row(i), W.row(i), rows, block(parts[range], p));
+          if(p < count2)
+            gram(basis[p].row(i), W2.row(i), rows, block(parts[range], count + p));
+        }
+      }
+    });
+    for(int range = 1; range < number_of_ranges; ++range)
+      parts[0] += parts[range];
+    H = parts[0].topRows(count * panel_width);
+    H2 = parts[0].bottomRows(count2 * panel_width);
+  }
+
+  // W -= basis H and W2 -= basis H2
+  void subtract(const std::vector<Panel>& basis, Index count, Panel& W, const Coefficients& H, Index count2,
+                Panel& W2, const Coefficients& H2) const
+  {
+    for_each_range([&](Index begin, Index end, int) {
+      for(Index i = begin; i < end; i += rows_in_cache) {
+        const Index rows = (std::min)(rows_in_cache, end - i);
+        for(Index p = 0; p < count; ++p) {
+          subtract_product(W.row(i), basis[p].row(i), rows, block(H, p));
+          if(p < count2)
+            subtract_product(W2.row(i), basis[p].row(i), rows, block(H2, p));
+        }
+      }
+    });
+  }
+
+  Eigen::MatrixXd product(const Panel& P, const Panel& W) const
+  {
+    std::vector<Coefficients> parts(number_of_ranges, Coefficients::Zero(panel_width, panel_width));
+    for_each_range([&](Index begin, Index end, int range) {
+      for(Index i = begin; i < end; i += rows_in_cache)
+        gram(P.row(i), W.row(i), (std::min)(rows_in_cache, end - i), parts[range].data());
+    });
+    for(int range = 1; range < number_of_ranges; ++range)
+      parts[0] += parts[range];
+    return parts[0];
+  }
+
+  // W -= P H
+  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& coefficients) const
+  {
+    const Coefficients H = coefficients;
+    for_each_range([&](Index begin, Index end, int) {
+      subtract_product(W.row(begin), P.row(begin), end - begin, H.data());
+    });
+  }
+
+  // W = W T
+  void transform(Panel& W, const Eigen::MatrixXd& T) const
+  {
+    const Coefficients minus_T = -T;
+    for_each_range([&](Index begin, Index end, int) {
+      alignas(64) double copy[rows_in_cache * panel_width];
+      for(Index i = begin; i < end; i += rows_in_cache) {
+        const Index rows = (std::min)(rows_in_cache, end - i);
+        std::copy_n(W.row(i), rows * panel_width, copy);
+        std::fill_n(W.row(i), rows * panel_width, 0.);
+        subtract_product(W.row(i), copy, rows, minus_T.data());
+      }
+    });
+  }
+
+  // The combinations basis * Y, in place: Y is (8 count) x (8 new count), new count <= count.
+  void rotate(std::vector<Panel>& basis, Index count, const Eigen::MatrixXd& Y) const
+  {
+    const Index new_count = Y.cols() / panel_width;
+    std::vector<Coefficients> minus_Y;
+    for(Index q = 0; q < new_count; ++q)
+      minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
+    constexpr Index rows_at_once = 64; // all panels' rows in the second level cache
+    // not in the tasks, which must not throw
+    std::vector<std::vector<double>> results(number_of_ranges,
+                                             std::vector<double>(new_count * rows_at_once * panel_width));
+    for_each_range([&](Index begin, Index end, int range) {
+      std::vector<double>& result = results[range];
+      for(Index i = begin; i < end; i += rows_at_once) {
+        const Index rows = (std::min)(rows_at_once, end - i), entries = rows * panel_width;
+        std::fill(result.begin(), result.end(), 0.);
+        for(Index q = 0; q < new_count; ++q)
+          for(Index p = 0; p < count; ++p)
+            subtract_product(&result[q * entries], basis[p].row(i), rows, block(minus_Y[q], p));
+        for(Index q = 0; q < new_count; ++q)
+          std::copy_n(&result[q * entries], entries, basis[q].row(i));
+      }
+    });
+  }
+
+  int threads() const { return m_threads; }
+
+  // Calls f(begin, end, range) for ranges of rows.
+  template <class Function>
+  void for_each_range(const Function& f) const
+  {
+    const Index n = size();
+    for_each_task(number_of_ranges, n < 4096 ? 1 : m_threads, [&](int range) {
+      f(n * range / number_of_ranges, n * (range + 1) / number_of_ranges, range);
+    });
+  }
+
+private:
+  static double* block(Coefficients& H, Index p) { return H.data() + p * panel_width * panel_width; }
+  static const double* block(const Coefficients& H, Index p)
+  {
+    return H.data() + p * panel_width * panel_width;
+  }
+
+  static constexpr int number_of_ranges = 8;
+  static constexpr Index rows_in_cache = 128; // two chunks of eight columns in the first level cache
+
+  const Eigen::SparseMatrix<double>& m_mass;
+  int m_threads;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H

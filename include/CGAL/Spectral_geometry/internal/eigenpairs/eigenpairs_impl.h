@@ -1,0 +1,97 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGENPAIRS_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGENPAIRS_IMPL_H
+
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
+                                                    const Eigenpairs_options& options)
+{
+  const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
+  problem.check(K, op.boundary == Boundary_condition::neumann);
+  if(K > problem.size() - op.vanishing)
+    throw std::invalid_argument("Eigenpairs: " + std::to_string(K) +
+                                " eigenvectors are asked for, but only " +
+                                std::to_string(problem.size() - op.vanishing) +
+                                " vertices are off the border, where functions vanish; ask for fewer.");
+  internal::check_eigenpairs_options(options, K);
+
+  const Eigen::Index zeros = number_of_zero_eigenvalues(op);
+  internal::Ritz_pairs pairs;
+  Eigenpairs result;
+  problem.report(0.);
+  if(internal::is_dense(problem.size(), K, options.method)) {
+    pairs = internal::dense_eigenpairs(problem, K);
+    result.solver = "dense";
+    result.complete = true;
+  } else {
+    internal::Block_lanczos lanczos(problem, K, zeros <= internal::panel_width / 2, options.tolerance,
+                                    options.maximum_iterations, options.maximum_vectors, options.threads);
+    pairs = lanczos.compute(options.verify, result.complete);
+    result.solver = "block";
+  }
+  internal::clear_uncoupled_rows(problem, pairs);
+  internal::fix_signs(pairs.vectors);
+  result.zeros = zeros;
+  result.residuals = problem.residuals(pairs.values, pairs.vectors);
+  result.values = std::move(pairs.values);
+  result.vectors = std::move(pairs.vectors);
+  problem.report(1.);
+  return result;
+}
+
+namespace internal {
+
+inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
+{
+  if(matrix.rows() != matrix.cols() || matrix.rows() == 0)
+    throw std::invalid_argument("Eigenpairs: " + std::string(name) + " is " + std::to_string(matrix.rows()) +
+                                " x " + std::to_string(matrix.cols()) + "; pass a square matrix.");
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const Eigen::SparseMatrix<double> difference = matrix - transposed;
+  for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    const double size = matrix.col(j).norm();
+    if(!std::isfinite(size) || !(difference.col(j).norm() <= 1e-10 * size))
+      throw std::invalid_argument("Eigenpairs: " + std::string(name) +
+                                  " is not symmetric and finite in row " + std::to_string(j) +
+                                  " (counted from 0); correct it.");
+  }
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
+                                                    const Eigen::SparseMatrix<double>& B, Eigen::Index K,
+                                                    const Eigenpairs_options& options)
+{
+  internal::check_pencil(L, "L");
+  internal::check_pencil(B, "B");
+  Laplace_operator op;
+  op.L = L;
+  op.B = B;
+  op.mass = B * Eigen::VectorXd::Ones(B.cols());
+  for(Eigen::Index v = 0; v < op.mass.size(); ++v)
+    if(!(op.mass[v] > 0.))
+      throw std::invalid_argument("Eigenpairs: the sum of row " + std::to_string(v) +
+                                  " (counted from 0) of B is not positive; pass a mass matrix.");
+  return eigenpairs(op, K, options);
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGENPAIRS_IMPL_H

@@ -1,0 +1,171 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Triangles that know their neighbours, and whose edges keep their number while they are flipped. Slot 3 f + k is the
+/// side of face f that lies opposite to its corner k.
+class Flip_connectivity
+{
+public:
+  /// The faces f = (c, i, j) and g = (d, j, i) on both sides of the edge ij.
+  struct Quad
+  {
+    int i, j, c, d, f, g;
+    std::array<int, 4> vertices() const { return {i, j, c, d}; }
+  };
+
+  Flip_connectivity(const Eigen::MatrixXi& T, const Eigen::Index n)
+    : m_T(T)
+    , m_twin(std::size_t(3 * T.rows()), -1)
+    , m_edge(std::size_t(3 * T.rows()), -1)
+    , m_faces(std::size_t(n))
+  {
+    check_triangles(T, n);
+    std::map<std::pair<int, int>, int> slot_of; // by directed edge
+    for(int s = 0; s < 3 * int(T.rows()); ++s) {
+      if(!slot_of.emplace(std::make_pair(corner(s, 1), corner(s, 2)), s).second)
+        throw std::invalid_argument("edge flips: " + face_name(s / 3) +
+                                    " does not continue an oriented 2-manifold; repair the mesh.");
+      m_faces[std::size_t(corner(s, 0))].push_back(s / 3);
+    }
+    for(const auto& [ends, s] : slot_of) {
+      const auto twin = slot_of.find({ends.second, ends.first});
+      if(twin != slot_of.end())
+        m_twin[std::size_t(s)] = twin->second;
+      if(twin == slot_of.end() || ends.first < ends.second)
+        add_edge(s);
+    }
+  }
+
+  const Eigen::MatrixXi& triangles() const { return m_T; }
+  int number_of_edges() const { return int(m_slot.size()); }
+  const std::vector<int>& faces_of(const int v) const { return m_faces[std::size_t(v)]; }
+
+  bool is_on_boundary(const int e) const { return m_twin[std::size_t(m_slot[std::size_t(e)])] < 0; }
+
+  bool has_boundary() const { return std::find(m_twin.begin(), m_twin.end(), -1) != m_twin.end(); }
+
+  /// Of an edge that is not on the boundary.
+  Quad quad(const int e) const
+  {
+    const int s = m_slot[std::size_t(e)], t = m_twin[std::size_t(s)];
+    return {corner(s, 1), corner(s, 2), corner(s, 0), corner(t, 0), s / 3, t / 3};
+  }
+
+  bool are_adjacent(const int v, const int w) const
+  {
+    for(const int f : faces_of(v))
+      if(m_T(f, 0) == w || m_T(f, 1) == w || m_T(f, 2) == w)
+        return true;
+    return false;
+  }
+
+  std::pair<int, int> ends(const int e) const
+  {
+    const int s = m_slot[std::size_t(e)];
+    return {corner(s, 1), corner(s, 2)};
+  }
+
+  /// The edges with one of these vertices in one of their two faces, each once.
+  std::vector<int> edges_around(const std::array<int, 4>& vertices) const
+  {
+    std::vector<int> result;
+    for(const int v : vertices)
+      for(const int f : faces_of(v))
+        for(int k = 0; k < 3; ++k)
+          result.push_back(m_edge[std::size_t(3 * f + k)]);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  /// Makes f = (c, i, d) and g = (d, j, c) of the two faces.
+  void flip(const int e)
+  {
+    const Quad q = quad(e);
+    const int s = m_slot[std::size_t(e)], t = m_twin[std::size_t(s)];
+    const Side jc = side(s, 1), ci = side(s, 2), id = side(t, 1), dj = side(t, 2);
+    m_T.row(q.f) << q.c, q.i, q.d;
+    m_T.row(q.g) << q.d, q.j, q.c;
+    set_side(3 * q.f, id);
+    set_side(3 * q.f + 2, ci);
+    set_side(3 * q.g, jc);
+    set_side(3 * q.g + 2, dj);
+    set_side(3 * q.f + 1, {3 * q.g + 1, e});
+    set_side(3 * q.g + 1, {3 * q.f + 1, e});
+    remove_face(q.j, q.f);
+    remove_face(q.i, q.g);
+    m_faces[std::size_t(q.c)].push_back(q.g);
+    m_faces[std::size_t(q.d)].push_back(q.f);
+  }
+
+private:
+  // What lies beyond a side, and the edge.
+  struct Side
+  {
+    int twin, edge;
+  };
+
+  // The k-th corner after the one opposite to a slot.
+  int corner(const int slot, const int k) const { return m_T(slot / 3, (slot + k) % 3); }
+
+  void add_edge(const int slot)
+  {
+    m_edge[std::size_t(slot)] = int(m_slot.size());
+    const int twin = m_twin[std::size_t(slot)];
+    if(twin >= 0)
+      m_edge[std::size_t(twin)] = int(m_slot.size());
+    m_slot.push_back(slot);
+  }
+
+  Side side(const int slot, const int k) const
+  {
+    const std::size_t s = std::size_t(3 * (slot / 3) + (slot + k) % 3);
+    return {m_twin[s], m_edge[s]};
+  }
+
+  void set_side(const int slot, const Side& side)
+  {
+    m_twin[std::size_t(slot)] = side.twin;
+    m_edge[std::size_t(slot)] = side.edge;
+    m_slot[std::size_t(side.edge)] = slot;
+    if(side.twin >= 0)
+      m_twin[std::size_t(side.twin)] = slot;
+  }
+
+  void remove_face(const int v, const int f)
+  {
+    std::vector<int>& faces = m_faces[std::size_t(v)];
+    faces.erase(std::find(faces.begin(), faces.end(), f));
+  }
+
+  Eigen::MatrixXi m_T;
+  std::vector<int> m_twin, m_edge; // by slot
+  std::vector<int> m_slot;         // by edge, one of its two
+  std::vector<std::vector<int>> m_faces;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H

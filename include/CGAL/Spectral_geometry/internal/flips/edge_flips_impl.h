@@ -1,0 +1,209 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_EDGE_FLIPS_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_EDGE_FLIPS_IMPL_H
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/edge_flips.h>
+#include <CGAL/Spectral_geometry/internal/flips/Flip_connectivity.h>
+#include <CGAL/Spectral_geometry/internal/flips/Flip_energy.h>
+#include <CGAL/Spectral_geometry/internal/flips/Flip_guards.h>
+
+#include <CGAL/Real_timer.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <queue>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                             const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
+                             const Eigen::MatrixXd& Z, const Local_operator& op)
+{
+  const auto require = [](const bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("edge flips: " + sentence);
+  };
+  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+  };
+  check_positions(V);
+  check_triangles(T, V.rows());
+  require(P.rows() == V.rows(), "P is " + size(P.rows(), P.cols()) + " and the mesh has " +
+                                    std::to_string(V.rows()) + " vertices; pass a P of coarse x fine.");
+  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
+          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
+              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
+              " fine vertices and one column for each signal.");
+  check_local_operator(op, V.rows());
+  check_edge_flip_options(o);
+}
+
+/// One run of flips: the queue, and the order in which criterion and guards are asked.
+class Edge_flipper
+{
+public:
+  using Quad = Flip_connectivity::Quad;
+  using Triangle = Flip_energy::Triangle;
+
+  /// F and Z: the restricted signals.
+  Edge_flipper(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Flip_energy::Rows& F,
+               const Flip_energy::Rows& Z, const Local_operator& op,
+               const std::vector<std::pair<int, int>>& constrained, const Edge_flip_options& options)
+    : m_options(options)
+    , m_mesh(T, V.rows())
+    , m_energy(V, m_mesh, F, Z, op)
+    , m_guards(V, m_mesh, options)
+    , m_smallest_gain(1e-10 * m_energy.value())
+    , m_version(std::size_t(m_mesh.number_of_edges()), 0)
+    , m_stays(std::size_t(m_mesh.number_of_edges()), false)
+  {
+    m_timer.start();
+    std::set<std::pair<int, int>> pairs;
+    for(const auto& [v, w] : constrained)
+      pairs.insert(std::minmax(v, w));
+    for(int e = 0; e < m_mesh.number_of_edges(); ++e) {
+      const std::pair<int, int> ends = m_mesh.ends(e);
+      m_stays[std::size_t(e)] =
+          m_mesh.is_on_boundary(e) ||
+          pairs.count({(std::min)(ends.first, ends.second), (std::max)(ends.first, ends.second)}) != 0;
+    }
+  }
+
+  Eigen::MatrixXi run(Edge_flip_result& result)
+  {
+    result.E_before = m_energy.value();
+    if(!std::isfinite(result.E_before))
+      throw std::invalid_argument("edge flips: a vertex of the coarse mesh has no mass because no face of "
+                                  "positive area uses it; remove it.");
+    for(int e = 0; e < m_mesh.number_of_edges(); ++e)
+      push(e);
+    const std::size_t budget =
+        m_options.maximum_flips != 0 ? m_options.maximum_flips : 4 * std::size_t(m_mesh.number_of_edges());
+    while(!m_queue.empty() && result.flips.size() < budget && m_timer.time() < m_options.maximum_seconds) {
+      const Candidate candidate = m_queue.top();
+      m_queue.pop();
+      if(candidate.version != m_version[std::size_t(candidate.edge)])
+        continue;
+      if(m_options.progress && !m_options.progress(double(result.flips.size()) / double(budget)))
+        throw Cancelled();
+      flip(candidate, result);
+    }
+    result.E_after = m_energy.value();
+    result.seconds = m_timer.time();
+    return m_mesh.triangles();
+  }
+
+private:
+  // The lowest key is done first. Where keys are equal the edge decides, so that a run can be repeated.
+  struct Candidate
+  {
+    double key;
+    int edge, version;
+
+    bool operator<(const Candidate& other) const
+    {
+      return key != other.key ? key > other.key : edge > other.edge;
+    }
+  };
+
+  std::array<Triangle, 2> faces(const Quad& q) const
+  {
+    return {m_energy.triangle(q.f), m_energy.triangle(q.g)};
+  }
+
+  // Puts the edge into the queue if its flip is wanted and legal.
+  void push(const int e)
+  {
+    const int version = ++m_version[std::size_t(e)];
+    if(m_stays[std::size_t(e)])
+      return;
+    const Quad q = m_mesh.quad(e);
+    if(m_mesh.are_adjacent(q.c, q.d))
+      return;
+    const std::array<Triangle, 2> before = faces(q), after = m_energy.flipped(q);
+    if(!m_guards.keeps_shape(q, before, after))
+      return;
+    if(m_options.criterion == Edge_flips::delaunay) {
+      const double key = cotangent_at(before[0], q.c) + cotangent_at(before[1], q.d);
+      if(key < -1e-9) // less is rounding; cospherical vertices have two Delaunay edges
+        m_queue.push({key, e, version});
+    } else {
+      const double key = m_energy.cost(q, after);
+      if(key < -m_smallest_gain)
+        m_queue.push({key, e, version});
+    }
+  }
+
+  void flip(const Candidate& candidate, Edge_flip_result& result)
+  {
+    const Quad q = m_mesh.quad(candidate.edge);
+    const std::array<Triangle, 2> before = faces(q), after = m_energy.flipped(q);
+    if(!m_guards.keeps_size(q, before, after)) {
+      ++result.refused_for_size;
+      return;
+    }
+    if(!m_guards.stays_free(q, after)) {
+      ++result.refused_for_intersections;
+      return;
+    }
+    result.flips.push_back({{q.i, q.j}, {q.c, q.d}, m_energy.cost(q, after)});
+    m_mesh.flip(candidate.edge);
+    m_energy.update(q, after);
+    m_guards.update(q, before, after);
+    for(const int e : m_mesh.edges_around(q.vertices()))
+      push(e);
+  }
+
+  static double cotangent_at(const Triangle& t, const int v)
+  {
+    return t.shape.cot(std::find(t.corners.begin(), t.corners.end(), v) - t.corners.begin());
+  }
+
+  Real_timer m_timer;
+  const Edge_flip_options& m_options;
+  Flip_connectivity m_mesh;
+  Flip_energy m_energy;
+  Flip_guards m_guards;
+  double m_smallest_gain; // what remains is rounding
+  std::vector<int> m_version;
+  std::vector<bool> m_stays;
+  std::priority_queue<Candidate> m_queue;
+};
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T,
+                                                          const Eigen::SparseMatrix<double>& P,
+                                                          const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                                                          const Local_operator& op,
+                                                          const std::vector<std::pair<int, int>>& constrained,
+                                                          const Edge_flip_options& options)
+{
+  internal::check_edge_flips(options, V, T, P, F, Z, op);
+  Edge_flip_result result;
+  internal::Edge_flipper flipper(V, T, P * F, P * Z, op, constrained, options);
+  if(options.criterion != Edge_flips::none)
+    T = flipper.run(result);
+  return result;
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_EDGE_FLIPS_IMPL_H

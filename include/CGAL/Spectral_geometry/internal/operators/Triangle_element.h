@@ -1,0 +1,120 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_TRIANGLE_ELEMENT_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_TRIANGLE_ELEMENT_H
+
+#include <CGAL/Spectral_geometry/local_operator.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <limits>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/*!
+ * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings of the collapses, flips and
+ * relocation. The cotangent at corner k is dot[k] / twice_area; the edge opposite to it gets half of that in L, each corner a third of the
+ * area in M.
+ */
+struct Triangle_element
+{
+  double dot[3]; ///< of the two edges that leave the corner
+  double twice_area;
+
+  /// To rounding. Such a triangle contributes nothing.
+  bool is_degenerate() const { return !(twice_area > 0); }
+};
+
+/// `edge[k]` lies opposite to corner k, from corner k + 1 to corner k + 2. The area is that of the cross product of the two shortest
+/// edges: that of others would be a difference of larger numbers.
+inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
+{
+  double square[3];
+  int longest = 0;
+  for(int k = 0; k < 3; ++k) {
+    square[k] = edge[k].squaredNorm();
+    if(square[k] > square[longest])
+      longest = k;
+  }
+  const int a = (longest + 1) % 3, b = (longest + 2) % 3;
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const double twice_area_squared = edge[a].cross(edge[b]).squaredNorm();
+  Triangle_element t{{0, 0, 0}, 0};
+  if(!(twice_area_squared > rounding * rounding * square[a] * square[b]))
+    return t;
+  for(int k = 0; k < 3; ++k)
+    t.dot[k] = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]);
+  t.twice_area = std::sqrt(twice_area_squared);
+  return t;
+}
+
+/// Density, then the conductivity as xx, xy, xz, yy, yz, zz: a row of `Operator_coefficients`.
+using Point_coefficients = Eigen::Matrix<double, 7, 1>;
+
+/// Of a triangle: the mean of its corners'.
+inline Point_coefficients mean_coefficients(const Operator_coefficients& c, const int (&corners)[3])
+{
+  return (c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3;
+}
+
+/// Of an operator: what its L is measured in, 1 without coefficients.
+inline double mean_conductivity(const Operator_coefficients& c)
+{
+  return c.rows() == 0 ? 1. : (c.col(1) + c.col(4) + c.col(6)).mean() / 3;
+}
+
+inline Eigen::Matrix3d conductivity(const Point_coefficients& c)
+{
+  Eigen::Matrix3d D;
+  D << c[1], c[2], c[3], c[2], c[4], c[5], c[3], c[5], c[6];
+  return D;
+}
+
+/// The same for an operator with coefficients, see `Local_operator`: edges are turned by a right angle within the triangle, and
+/// products are those of the conductivity. The area is that of the triangle, without the density.
+inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3], const Point_coefficients& mean)
+{
+  Triangle_element t = triangle_element(edge);
+  if(t.is_degenerate())
+    return t;
+  const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
+  const Eigen::Matrix3d D = conductivity(mean);
+  Eigen::Vector3d turned[3];
+  for(int k = 0; k < 3; ++k)
+    turned[k] = normal.cross(edge[k]);
+  for(int k = 0; k < 3; ++k)
+    t.dot[k] = -turned[(k + 1) % 3].dot(D * turned[(k + 2) % 3]);
+  return t;
+}
+
+/// The part of a triangle's area that goes to its corner of cotangent c, a and b being those of the others: its Voronoi region, or in
+/// an obtuse triangle half or a quarter (Meyer et al. 2003, section 3.3). A common factor of the three does not matter: for
+/// an operator with a conductivity these are regions in its metric.
+inline double mixed_voronoi_share(const double c, const double a, const double b)
+{
+  if(c < 0)
+    return 0.5;
+  if(a < 0 || b < 0)
+    return 0.25;
+  const double all = a * b + c * (a + b);
+  return all > 0 ? 0.25 * (1 + a * b / all) : 1. / 3;
+}
+
+/// The same for corner k of three, or a third where areas are divided equally.
+template <class Cotangents>
+double lumped_share(const bool voronoi, const Cotangents& cot, const int k)
+{
+  return voronoi ? mixed_voronoi_share(cot[k], cot[(k + 1) % 3], cot[(k + 2) % 3]) : 1. / 3;
+}
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_TRIANGLE_ELEMENT_H

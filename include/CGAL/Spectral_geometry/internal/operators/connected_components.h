@@ -1,0 +1,53 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CONNECTED_COMPONENTS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CONNECTED_COMPONENTS_H
+
+#include <Eigen/Core>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// For each of n vertices the number of its component, from 0 in the order of their first vertices. `for_each_edge` calls its
+/// argument with the ends of each edge.
+template <class For_each_edge>
+std::vector<Eigen::Index> connected_components(const Eigen::Index n, const For_each_edge& for_each_edge)
+{
+  boost::disjoint_sets_with_storage<> sets(static_cast<std::size_t>(n));
+  for_each_edge([&](const Eigen::Index i, const Eigen::Index j) {
+    sets.union_set(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  });
+  std::vector<Eigen::Index> of_root(static_cast<std::size_t>(n), -1), result;
+  Eigen::Index components = 0;
+  for(std::size_t v = 0; v < of_root.size(); ++v) {
+    Eigen::Index& c = of_root[sets.find_set(v)];
+    if(c == -1)
+      c = components++;
+    result.push_back(c);
+  }
+  return result;
+}
+
+/// The same where triangles (m x 3) join vertices.
+inline std::vector<Eigen::Index> connected_components(const Eigen::Index n, const Eigen::MatrixXi& T)
+{
+  return connected_components(n, [&](const auto& join) {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int c = 1; c < 3; ++c)
+        join(T(f, 0), T(f, c));
+  });
+}
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CONNECTED_COMPONENTS_H

@@ -1,0 +1,317 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_COTANGENT_LAPLACIAN_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_COTANGENT_LAPLACIAN_IMPL_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connected_components.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
+{
+  using Entry = Eigen::SparseMatrix<double>::InnerIterator;
+  const double rounding = 1e-6; // of a row's sum, relative to its entries
+  const std::vector<Eigen::Index> component =
+      internal::connected_components(op.L.cols(), [&](const auto& join) {
+        for(Eigen::Index v = 0; v < op.L.cols(); ++v)
+          for(Entry entry(op.L, v); entry; ++entry)
+            if(entry.value() != 0.)
+              join(v, entry.row());
+      });
+  std::vector<char> kernel;
+  for(Eigen::Index v = 0; v < op.L.cols(); ++v) {
+    double sum = 0., size = 0.;
+    for(Entry entry(op.L, v); entry; ++entry) {
+      sum += entry.value();
+      size += std::abs(entry.value());
+    }
+    const std::size_t c = std::size_t(component[std::size_t(v)]);
+    kernel.resize((std::max)(kernel.size(), c + 1), true);
+    kernel[c] = kernel[c] && std::abs(sum) <= rounding * size;
+  }
+  return Eigen::Index(std::count(kernel.begin(), kernel.end(), true));
+}
+
+namespace internal {
+
+// With coefficients the area is weighted by the density.
+inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                         const Eigen::Vector3d& r, const Point_coefficients* mean)
+{
+  Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
+  const double extent = (std::max)(
+      {edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
+  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
+  if(extent == 0.)
+    return result;
+
+  // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is exact.
+  const int exponent = std::isfinite(extent) ? std::ilogb(extent) : 0;
+  for(Eigen::Vector3d& e : edge)
+    for(int c = 0; c < 3; ++c)
+      e(c) = std::scalbn(e(c), -exponent);
+
+  const Triangle_element t = mean ? triangle_element(edge, *mean) : triangle_element(edge);
+  if(t.is_degenerate())
+    return result;
+  for(int k = 0; k < 3; ++k)
+    result.cot(k) = t.dot[k] / t.twice_area;
+  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent) * (mean ? (*mean)[0] : 1.);
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
+                                                                   const int (&t)[3],
+                                                                   const Operator_coefficients& c)
+{
+  if(c.rows() == 0)
+    return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), nullptr);
+  const Point_coefficients mean = mean_coefficients(c, t);
+  return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), &mean);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
+{
+  if(V.cols() != 3)
+    throw std::invalid_argument("Laplace operator: V must have 3 columns, one row per vertex, but has " +
+                                std::to_string(V.cols()) + " columns.");
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    if(!V.row(v).allFinite())
+      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                  " has a coordinate that is not a finite number; repair or remove it.");
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
+{
+  if(T.cols() != 3 || T.rows() == 0)
+    throw std::invalid_argument("Laplace operator: T must have 3 columns and at least one row, but is " +
+                                std::to_string(T.rows()) + " x " + std::to_string(T.cols()) + ".");
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
+    if((std::min)({i, j, k}) < 0 || (std::max)({i, j, k}) >= n)
+      throw std::invalid_argument("Laplace operator: " + face_name(f) + " refers to a vertex outside 0.." +
+                                  std::to_string(n - 1) + "; repair the indices.");
+    if(i == j || j == k || k == i)
+      throw std::invalid_argument("Laplace operator: " + face_name(f) +
+                                  " uses one vertex twice; remove the face.");
+  }
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, const Eigen::Index n)
+{
+  const std::string who = "Local operator: ";
+  if(!(op.theta >= 0. && op.theta <= 1.))
+    throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(op.theta) + ".");
+  if(op.voronoi && op.theta != 0.)
+    throw std::invalid_argument(who + "Voronoi shares are those of a lumped mass, but theta is " +
+                                std::to_string(op.theta) + "; set one of the two to 0.");
+  const Operator_coefficients& c = op.coefficients;
+  if(c.rows() != 0 && c.rows() != n)
+    throw std::invalid_argument(who + "there are coefficients for " + std::to_string(c.rows()) +
+                                " vertices, but the mesh has " + std::to_string(n) +
+                                "; give one row for each.");
+  for(Eigen::Index v = 0; v < c.rows(); ++v) {
+    if(!(c(v, 0) > 0. && std::isfinite(c(v, 0))))
+      throw std::invalid_argument(who + "the density of " + vertex_name(v) + " is " +
+                                  std::to_string(c(v, 0)) + "; use positive numbers.");
+    Eigen::Matrix3d D = conductivity(c.row(v).transpose());
+    D /= D.trace(); // of any unit
+    // Sylvester's criterion, each minor beside what it is a difference of.
+    const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
+    if(!(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
+         xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz && D.determinant() > 0.))
+      throw std::invalid_argument(who + "the conductivity of " + vertex_name(v) +
+                                  " is not positive definite; correct it.");
+  }
+}
+
+inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                              Eigen::Index f, const Operator_coefficients& c = {})
+{
+  const int corners[3] = {T(f, 0), T(f, 1), T(f, 2)};
+  const Triangle_cotangents t = local_cotangents(V, corners, c);
+  const Eigen::Vector3d own = // of the triangle itself, whatever conducts
+      c.rows() == 0 ? t.cot : local_cotangents(V, corners, {}).cot;
+  if(!(own.cwiseAbs().maxCoeff() <= largest_cotangent) || !t.cot.allFinite() || !std::isfinite(t.area))
+    throw std::invalid_argument(
+        "Laplace operator: " + face_name(f) +
+        " is a needle or too large, its cotangents or its area overflow the matrix; collapse "
+        "its shortest edge, remesh it or rescale the mesh.");
+  return t;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
+{
+  for(Eigen::Index v = 0; v < mass.size(); ++v) {
+    if(mass(v) > 0. && std::isfinite(mass(v)))
+      continue;
+    if(!(mass(v) <= 0.))
+      throw std::invalid_argument("Laplace operator: the mass of " + vertex_name(v) +
+                                  " is not a finite number; rescale the mesh.");
+    if((T.array() == static_cast<int>(v)).any())
+      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                  " has no mass because all its faces have zero area; remove these faces.");
+    throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
+                                " is isolated, no face uses it; remove it.");
+  }
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
+                                                                        const Eigen::MatrixXi& T)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  Eigen::MatrixXd corner_masses(T.rows(), 3);
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
+  return corner_masses;
+}
+
+namespace internal {
+
+// `element(f)` is what face f adds: cotangents, area, and the lumped mass of its corners.
+struct Face_element
+{
+  Triangle_cotangents t;
+  Eigen::RowVector3d corner_masses;
+
+  Face_element(const Triangle_cotangents& t, const Eigen::RowVector3d& corner_masses)
+    : t(t)
+    , corner_masses(corner_masses)
+  {}
+  Face_element(const Triangle_cotangents& t, const bool voronoi)
+    : t(t)
+    , corner_masses(Eigen::RowVector3d::Constant(t.area / 3.))
+  {
+    for(int k = 0; k < 3 && voronoi; ++k)
+      corner_masses(k) = t.area * lumped_share(voronoi, t.cot, k);
+  }
+};
+
+template <class Element>
+Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const double theta,
+                          const Element& element)
+{
+  // Upper triangles only, mirrored afterwards: both matrices are symmetric to the last bit.
+  using Triplet = Eigen::Triplet<double>;
+  const Eigen::Index m = T.rows();
+  std::vector<Triplet> stiffness, consistent;
+  stiffness.reserve(3 * m + n);
+  consistent.reserve(theta > 0. ? 3 * m + n : n);
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
+
+  Laplace_operator result;
+  result.theta = theta;
+  result.mass = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd mass_diagonal = Eigen::VectorXd::Zero(n);
+  for(Eigen::Index f = 0; f < m; ++f) {
+    const auto [t, corner_masses] = element(f);
+    for(int k = 0; k < 3; ++k) {
+      const int c = T(f, k);
+      const int i = (std::min)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
+      const int j = (std::max)(T(f, (k + 1) % 3), T(f, (k + 2) % 3));
+      stiffness.emplace_back(i, j, -0.5 * t.cot(k));
+      if(theta > 0.)
+        consistent.emplace_back(i, j, theta * t.area / 12.);
+      const double lumped = (1. - theta) * corner_masses(k);
+      mass_diagonal(c) += lumped + theta * t.area / 6.;
+      result.mass(c) += lumped + theta * t.area / 3.;
+    }
+  }
+  check_mass(result.mass, T);
+
+  Eigen::SparseMatrix<double> upper(n, n);
+  upper.setFromTriplets(stiffness.begin(), stiffness.end());
+  for(Eigen::Index j = 0; j < n; ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(upper, j); it; ++it) {
+      diagonal(it.row()) -= it.value();
+      diagonal(it.col()) -= it.value();
+    }
+  for(Eigen::Index i = 0; i < n; ++i) {
+    stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
+    consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
+  }
+  upper.setFromTriplets(stiffness.begin(), stiffness.end());
+  result.L = upper.selfadjointView<Eigen::Upper>();
+  upper.setFromTriplets(consistent.begin(), consistent.end());
+  result.B = upper.selfadjointView<Eigen::Upper>();
+  return result;
+}
+
+// See `Boundary_condition`.
+inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& op)
+{
+  const auto on_border = [&](const Eigen::Index v) { return border[std::size_t(v)] != 0; };
+  const auto couples = [&](const Eigen::Index i, const Eigen::Index j) {
+    return i != j && (on_border(i) || on_border(j));
+  };
+  const double unit = op.L.diagonal().cwiseAbs().mean() / std::sqrt(12.);
+  const double beyond = 100 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
+  for(Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
+    matrix->prune([&](const Eigen::Index i, const Eigen::Index j, double) { return !couples(i, j); });
+  for(Eigen::Index v = 0; v < op.L.rows(); ++v)
+    if(on_border(v))
+      op.L.coeffRef(v, v) = beyond * op.B.coeff(v, v);
+  op.boundary = Boundary_condition::dirichlet;
+  op.vanishing = Eigen::Index(std::count(border.begin(), border.end(), 1));
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
+                                                                      const Eigen::Vector3d& q,
+                                                                      const Eigen::Vector3d& r)
+{
+  return internal::cotangents_of(p, q, r, nullptr);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T,
+                                                                const Eigen::MatrixXd& corner_masses,
+                                                                double theta)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  internal::check_local_operator(theta, V.rows());
+  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
+    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
+  return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
+    return internal::Face_element(internal::checked_cotangents(V, T, f), corner_masses.row(f));
+  });
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
+                                                                const Eigen::MatrixXi& T,
+                                                                const Local_operator& op)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  internal::check_local_operator(op, V.rows());
+  Laplace_operator result = internal::assemble(T, V.rows(), op.theta, [&](const Eigen::Index f) {
+    return internal::Face_element(internal::checked_cotangents(V, T, f, op.coefficients), op.voronoi);
+  });
+  result.voronoi = op.voronoi;
+  result.has_coefficients = op.coefficients.rows() != 0;
+  if(op.boundary == Boundary_condition::dirichlet)
+    internal::impose_dirichlet(internal::border_vertices(T, V.rows()), result);
+  return result;
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_COTANGENT_LAPLACIAN_IMPL_H

@@ -1,0 +1,461 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H
+
+#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+
+namespace internal {
+
+/// The steps of a diagnosis. Faces that are no polygons of different, existing vertices are counted and left out
+/// of all that follows.
+class Mesh_examination
+{
+public:
+  using Polygons = std::vector<std::vector<std::size_t>>;
+
+  Mesh_examination(const Eigen::MatrixXd& V, const Polygons& polygons)
+    : m_V(V)
+    , m_polygons(polygons)
+    , m_n(std::size_t(V.rows()))
+  {}
+
+  Mesh_diagnosis run()
+  {
+    m_result.number_of_vertices = m_n;
+    m_result.number_of_faces = m_polygons.size();
+    m_result.extent = extent_of(m_V);
+    examine_vertices();
+    examine_faces();
+    find_duplicates();
+    collect_sides();
+    examine_edges();
+    examine_fans();
+    examine_areas();
+    find_coincident_vertices();
+    collect_components();
+    return m_result;
+  }
+
+private:
+  struct Side // of a face, along an edge
+  {
+    std::size_t low, high, face;
+    std::uint32_t place; // in the face
+    bool forward;
+    bool operator<(const Side& other) const
+    {
+      return std::tie(low, high, face) < std::tie(other.low, other.high, other.face);
+    }
+  };
+
+  bool finite(const std::size_t v) const { return m_finite[v]; }
+
+  bool same_position(const std::size_t v, const std::size_t w) const
+  {
+    return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
+  }
+
+  void examine_vertices()
+  {
+    for(std::size_t v = 0; v < m_n; ++v) {
+      m_finite.push_back(m_V.row(Eigen::Index(v)).allFinite());
+      if(!m_finite[v])
+        m_result.non_finite_vertices.add(v);
+    }
+  }
+
+  void examine_faces()
+  {
+    m_sound.assign(m_polygons.size(), false);
+    std::vector<bool> used(m_n, false);
+    std::vector<std::size_t> sorted;
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      sorted = m_polygons[f];
+      std::sort(sorted.begin(), sorted.end());
+      const bool foreign = !sorted.empty() && sorted.back() >= m_n;
+      const bool repeated =
+          sorted.size() < 3 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+      for(const std::size_t v : sorted)
+        if(v < m_n)
+          used[v] = true;
+      if(foreign)
+        m_result.foreign_indices.add(f);
+      else if(repeated)
+        m_result.repeated_vertices.add(f);
+      else {
+        m_sound[f] = true;
+        if(sorted.size() > 3)
+          m_result.polygons.add(f, sorted.size());
+      }
+    }
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(!used[v])
+        m_result.isolated_vertices.add(v);
+  }
+
+  // Only faces with the same smallest vertex and the same sum can have the same vertices.
+  void find_duplicates()
+  {
+    struct Key
+    {
+      std::size_t smallest, sum, face;
+      bool operator<(const Key& other) const
+      {
+        return std::tie(smallest, sum, face) < std::tie(other.smallest, other.sum, other.face);
+      }
+    };
+    std::vector<Key> keys;
+    keys.reserve(m_polygons.size());
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f]) {
+        const std::vector<std::size_t>& p = m_polygons[f];
+        keys.push_back(
+            {*std::min_element(p.begin(), p.end()), std::accumulate(p.begin(), p.end(), std::size_t(0)), f});
+      }
+    std::sort(keys.begin(), keys.end());
+    std::vector<std::pair<std::size_t, std::size_t>> duplicates;
+    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sets;
+    for(std::size_t i = 0, j; i < keys.size(); i = j) {
+      for(j = i + 1; j < keys.size() && keys[j].smallest == keys[i].smallest && keys[j].sum == keys[i].sum;)
+        ++j;
+      if(j == i + 1)
+        continue;
+      sets.clear();
+      for(std::size_t k = i; k < j; ++k) {
+        sets.emplace_back(m_polygons[keys[k].face], keys[k].face);
+        std::sort(sets.back().first.begin(), sets.back().first.end());
+      }
+      std::sort(sets.begin(), sets.end());
+      for(std::size_t k = 1, first = 0; k < sets.size(); ++k)
+        if(sets[k].first == sets[first].first)
+          duplicates.emplace_back(sets[k].second, sets[first].second);
+        else
+          first = k;
+    }
+    add_sorted(duplicates, m_result.duplicate_faces);
+  }
+
+  // Those of a vertex side by side by counting, then each vertex' own: they are few.
+  void collect_sides()
+  {
+    std::vector<std::size_t> begin(m_n + 2, 0);
+    const auto for_each_side = [&](const auto& f) {
+      for(std::size_t face = 0; face < m_polygons.size(); ++face) {
+        const std::vector<std::size_t>& polygon = m_polygons[face];
+        for(std::size_t i = 0; m_sound[face] && i < polygon.size(); ++i)
+          f(face, i, polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
+      }
+    };
+    for_each_side([&](std::size_t, std::size_t, const std::size_t v, const std::size_t w) {
+      ++begin[(std::min)(v, w) + 2];
+    });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    m_sides.resize(begin.back());
+    for_each_side([&](const std::size_t face, const std::size_t i, const std::size_t v, const std::size_t w) {
+      m_sides[begin[(std::min)(v, w) + 1]++] = {(std::min)(v, w), (std::max)(v, w), face, std::uint32_t(i),
+                                                v < w};
+    });
+    for(std::size_t v = 0; v < m_n; ++v)
+      std::sort(m_sides.begin() + std::ptrdiff_t(begin[v]), m_sides.begin() + std::ptrdiff_t(begin[v + 1]));
+  }
+
+  void examine_edges()
+  {
+    m_border.assign(m_n, false);
+    std::vector<std::pair<std::size_t, std::size_t>> misoriented;
+    for(std::size_t i = 0, j; i < m_sides.size(); i = j) {
+      const Side& side = m_sides[i];
+      for(j = i; j < m_sides.size() && m_sides[j].low == side.low && m_sides[j].high == side.high;)
+        ++j;
+      if(j - i > 2)
+        m_result.non_manifold_edges.add(side.low, side.high);
+      else if(j - i == 2 && side.forward == m_sides[i + 1].forward)
+        misoriented.emplace_back(side.face, m_sides[i + 1].face);
+      else if(j - i == 1)
+        m_border[side.low] = m_border[side.high] = true;
+      if(same_position(side.low, side.high))
+        m_result.zero_length_edges.add(side.low, side.high);
+    }
+    add_sorted(misoriented, m_result.misoriented_edges);
+  }
+
+  // The corners of a vertex that edges join form one fan.
+  void examine_fans()
+  {
+    std::vector<std::size_t> first_corner(m_polygons.size() + 1, 0);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      first_corner[f + 1] = first_corner[f] + (m_sound[f] ? m_polygons[f].size() : 0);
+    const auto corner = [&](const Side& side, const bool of_low) {
+      const std::size_t next = side.place + 1 == m_polygons[side.face].size() ? 0 : side.place + 1;
+      return first_corner[side.face] + (of_low == side.forward ? side.place : next);
+    };
+    boost::disjoint_sets_with_storage<> corners(first_corner.back());
+    for(std::size_t i = 1; i < m_sides.size(); ++i)
+      if(m_sides[i].low == m_sides[i - 1].low && m_sides[i].high == m_sides[i - 1].high)
+        for(const bool of_low : {true, false})
+          corners.union_set(corner(m_sides[i], of_low), corner(m_sides[i - 1], of_low));
+    std::vector<std::size_t> fans(m_n, 0);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      for(std::size_t c = first_corner[f]; c < first_corner[f + 1]; ++c)
+        if(corners.find_set(c) == c)
+          ++fans[m_polygons[f][c - first_corner[f]]];
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(fans[v] > 1)
+        m_result.non_manifold_vertices.add(v, fans[v]);
+  }
+
+  // Polygons are left to their triangulation.
+  void examine_areas()
+  {
+    enum State : unsigned char { unused, massless, massive };
+    std::vector<State> state(m_n, unused);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f) {
+      const std::vector<std::size_t>& p = m_polygons[f];
+      if(!m_sound[f] || !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return finite(v); }))
+        continue;
+      double area = 1;
+      if(p.size() == 3) {
+        const Triangle_cotangents t = triangle_cotangents(
+            m_V.row(Eigen::Index(p[0])), m_V.row(Eigen::Index(p[1])), m_V.row(Eigen::Index(p[2])));
+        area = t.area;
+        if(area == 0)
+          m_result.zero_area_faces.add(f);
+        else if(!(t.cot.cwiseAbs().maxCoeff() <= largest_cotangent) || !std::isfinite(area))
+          m_result.overflowing_faces.add(f);
+      }
+      for(const std::size_t v : p)
+        state[v] = (std::max)(state[v], area == 0 ? massless : massive);
+    }
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(state[v] == massless)
+        m_result.massless_vertices.add(v);
+  }
+
+  void find_coincident_vertices()
+  {
+    std::vector<std::pair<std::array<double, 3>, std::size_t>> order;
+    order.reserve(m_n);
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(finite(v))
+        order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
+    std::sort(order.begin(), order.end());
+    const auto joined = [&](const std::size_t v, const std::size_t w) {
+      const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{v, w, 0, 0, false});
+      return side != m_sides.end() && side->low == v && side->high == w;
+    };
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for(std::size_t i = 1, first = 0; i < order.size(); ++i)
+      if(order[i].first != order[first].first)
+        first = i;
+      else if(!joined(order[first].second, order[i].second) && !joined(order[i - 1].second, order[i].second))
+        pairs.emplace_back(order[i].second, order[first].second);
+    add_sorted(pairs, m_result.coincident_vertices);
+  }
+
+  void collect_components()
+  {
+    boost::disjoint_sets_with_storage<> sets(m_n);
+    std::vector<bool> has_face(m_n, false); // by representatives
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      for(std::size_t i = 1; m_sound[f] && i < m_polygons[f].size(); ++i)
+        sets.union_set(m_polygons[f][0], m_polygons[f][i]);
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f])
+        has_face[sets.find_set(m_polygons[f][0])] = true;
+    std::vector<std::size_t> component(m_n, std::size_t(-1)); // the same
+    for(std::size_t v = 0; v < m_n; ++v) {
+      const std::size_t root = sets.find_set(v);
+      if(!has_face[root]) // isolated
+        continue;
+      if(component[root] == std::size_t(-1)) {
+        component[root] = m_result.components.size();
+        m_result.components.emplace_back();
+        m_result.components.back().first = v;
+      }
+      Mesh_component& c = m_result.components[component[root]];
+      ++c.vertices;
+      c.closed = c.closed && !m_border[v];
+    }
+    for(std::size_t f = 0; f < m_polygons.size(); ++f)
+      if(m_sound[f])
+        ++m_result.components[component[sets.find_set(m_polygons[f][0])]].faces;
+  }
+
+  static void add_sorted(std::vector<std::pair<std::size_t, std::size_t>>& pairs, Mesh_finding& finding)
+  {
+    std::sort(pairs.begin(), pairs.end());
+    for(const auto& [first, second] : pairs)
+      finding.add(first, second);
+  }
+
+  const Eigen::MatrixXd& m_V;
+  const Polygons& m_polygons;
+  std::size_t m_n;
+  std::vector<bool> m_finite, m_sound, m_border;
+  std::vector<Side> m_sides; // sorted
+  Mesh_diagnosis m_result;
+};
+
+/// "1 face", "2 faces"
+inline std::string counted(const std::size_t n, const char* one, const char* many)
+{
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+inline const Mesh_component& smallest_component(const std::vector<Mesh_component>& all)
+{
+  return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.vertices < b.vertices; });
+}
+
+/// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `does` is in the singular and the plural.
+inline std::string finding_clause(const Mesh_finding& finding, const std::size_t total, const bool faces,
+                                  const std::string& singular, const std::string& plural)
+{
+  const std::string kind = faces ? "face" : "vertex", kinds = faces ? "faces" : "vertices";
+  const std::string first = kind + " " + std::to_string(finding.first) + " (counted from 0)";
+  if(finding.count == 1)
+    return first + " " + singular;
+  return std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds + " " + plural +
+         ", the first is " + first;
+}
+
+/// The same for edges, which have no number but two ends.
+inline std::string edge_clause(const Mesh_finding& finding, const std::string& singular,
+                               const std::string& plural)
+{
+  const std::string first = "from vertex " + std::to_string(finding.first) + " to vertex " +
+                            std::to_string(finding.second) + " (counted from 0)";
+  if(finding.count == 1)
+    return "the edge " + first + " " + singular;
+  return std::to_string(finding.count) + " edges " + plural + ", the first runs " + first;
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles() const
+{
+  using std::to_string;
+  std::vector<std::string> result;
+  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many, const char* help) {
+    if(f.count != 0)
+      result.push_back(internal::finding_clause(f, number_of_vertices, false, one, many) + ": " + help);
+  };
+  const auto faces = [&](const Mesh_finding& f, const std::string& one, const char* many,
+                         const std::string& help) {
+    if(f.count != 0)
+      result.push_back(internal::finding_clause(f, number_of_faces, true, one, many) + ": " + help);
+  };
+  vertices(non_finite_vertices, "has a coordinate that is not a finite number",
+           "have a coordinate that is not a finite number", "correct it or remove the faces around");
+  if(out_of_scale())
+    result.push_back(std::string("the largest coordinate is ") + (extent > 1 ? "above 1e50" : "below 1e-50") +
+                     " in magnitude: scale the mesh to another unit of length");
+  faces(foreign_indices, "uses a vertex that does not exist", "use a vertex that does not exist",
+        "correct the indices");
+  faces(repeated_vertices, "uses a vertex twice or has fewer than three",
+        "use a vertex twice or have fewer than three", "remove such faces");
+  const std::string corners = "has " + to_string(polygons.second) + " vertices";
+  faces(polygons, corners, "have more than three vertices",
+        (polygons.count > 1 ? "it " + corners + "; " : std::string()) + "triangulate the faces");
+  const std::string twin = "has the vertices of face " + to_string(duplicate_faces.second);
+  faces(duplicate_faces, twin, "have the vertices of an earlier one",
+        (duplicate_faces.count > 1 ? "it " + twin + "; " : std::string()) + "remove the copies");
+  if(non_manifold_edges.count != 0)
+    result.push_back(
+        internal::edge_clause(non_manifold_edges, "has more than two faces", "have more than two faces") +
+        ": separate the sheets");
+  if(misoriented_edges.count != 0)
+    result.push_back(
+        "the faces " + to_string(misoriented_edges.first) + " and " + to_string(misoriented_edges.second) +
+        " (counted from 0) run along their common edge in the same direction, " +
+        internal::counted(misoriented_edges.count, "edge", "edges") + " in all: orient the faces alike");
+  vertices(non_manifold_vertices, "is where parts of the surface touch in a single vertex",
+           "are where parts of the surface touch in a single vertex", "give each part a vertex of its own");
+  vertices(isolated_vertices, "is isolated, no face uses it", "are isolated, no face uses them",
+           "remove every such vertex");
+  faces(overflowing_faces, "is a needle or too large, its cotangents or its area overflow",
+        "are needles or too large, their cotangents or their area overflow",
+        "collapse the shortest edges, remesh or rescale the mesh");
+  vertices(massless_vertices, "has no mass because all its faces have zero area",
+           "have no mass because all their faces have zero area", "remove such faces");
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::remarks() const
+{
+  std::vector<std::string> result;
+  if(zero_length_edges.count != 0)
+    result.push_back(internal::edge_clause(zero_length_edges, "has no length", "have no length") +
+                     ": their ends are merged first");
+  if(zero_area_faces.count != 0)
+    result.push_back(
+        internal::finding_clause(zero_area_faces, number_of_faces, true, "has zero area", "have zero area") +
+        ": they contribute nothing to the operator");
+  if(coincident_vertices.count != 0)
+    result.push_back(internal::finding_clause(coincident_vertices, number_of_vertices, false,
+                                              "lies where another vertex lies",
+                                              "lie where another vertex lies") +
+                     ": seams stay open unless they are stitched");
+  if(components.size() > 1) {
+    const Mesh_component& smallest = internal::smallest_component(components);
+    result.push_back("there are " + std::to_string(components.size()) + " components, the smallest of " +
+                     std::to_string(smallest.vertices) + " vertices around vertex " +
+                     std::to_string(smallest.first) + " (counted from 0): each of them is kept");
+  }
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(const std::size_t K,
+                                                                                const std::size_t N) const
+{
+  std::vector<std::string> result;
+  if(N < least_vertices())
+    result.push_back("A target of " + internal::counted(N, "vertex", "vertices") + " cannot be reached: " +
+                     internal::counted(components.size(), "component needs", "components need") +
+                     " at least " + std::to_string(least_vertices()) + " vertices.");
+  if(components.size() > 1 && K <= components.size())
+    result.push_back("With " + internal::counted(K, "eigenvector", "eigenvectors") +
+                     " only functions are preserved that are constant on each of the " +
+                     std::to_string(components.size()) +
+                     " components, not their shapes: ask for more than there are components.");
+  else if(components.size() > 1) {
+    const Mesh_component& smallest = internal::smallest_component(components);
+    if(K >= smallest.vertices)
+      result.push_back("The smallest of " + std::to_string(components.size()) +
+                       " components, around vertex " + std::to_string(smallest.first) +
+                       " (counted from 0), has " + std::to_string(smallest.vertices) +
+                       " vertices and as many modes, not more than the " + std::to_string(K) +
+                       " eigenvectors asked for, which belong to the larger components mostly.");
+  }
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Mesh_diagnosis
+diagnose_polygon_soup(const Eigen::MatrixXd& V, const std::vector<std::vector<std::size_t>>& polygons)
+{
+  return internal::Mesh_examination(V, polygons).run();
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H

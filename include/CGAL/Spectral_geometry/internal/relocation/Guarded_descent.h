@@ -1,0 +1,168 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/*!
+L-BFGS (Nocedal and Wright, algorithm 7.5) over the positions of all vertices, with guards that cut the
+steps of single vertices: where the full step would break a triangle or leave the ball of a vertex, that vertex
+alone moves less and the others go on. A step of the whole that no longer descends is halved.
+
+`Objective`: `double value_and_gradient(const Positions&, Positions& gradient)`.
+`Guards`: `void tangential(const Positions& at, Positions& direction)` removes what a vertex may not do from a
+direction or gradient; `void admit(const Positions& from, Positions& to)` makes `to` legal, `from` being so.
+*/
+template <class Objective, class Guards>
+class Guarded_descent
+{
+public:
+  using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+  Guarded_descent(Objective& objective, Guards& guards, const double first_step)
+    : m_objective(objective)
+    , m_guards(guards)
+    , m_first_step(first_step)
+  {}
+
+  /// starts at legal positions.
+  void start(const Positions& V)
+  {
+    m_V = V;
+    m_value = m_objective.value_and_gradient(m_V, m_gradient);
+    m_guards.tangential(m_V, m_gradient);
+    m_history.clear();
+    set_scales();
+  }
+
+  /// takes value and gradient anew; the objective has changed a little.
+  void refresh()
+  {
+    m_value = m_objective.value_and_gradient(m_V, m_gradient);
+    m_guards.tangential(m_V, m_gradient);
+  }
+
+  const Positions& positions() const { return m_V; }
+  double value() const { return m_value; }
+
+  /// one step; false if none that descends was found.
+  bool step()
+  {
+    if(try_direction())
+      return true;
+    if(m_history.empty())
+      return false;
+    m_history.clear(); // once more along the gradient
+    return try_direction();
+  }
+
+private:
+  static constexpr std::size_t memory = 12;
+
+  struct Pair
+  {
+    Positions s, y;
+    double rho;
+  };
+
+  static double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
+
+  // The gradient at the vertices of a needle is larger than all others by orders of magnitude, and would be the
+  // only one that is followed. The first guess of the inverse Hessian levels it off: lengths
+  // below 1, one half at the median.
+  void set_scales()
+  {
+    Eigen::VectorXd lengths = m_gradient.rowwise().norm();
+    std::vector<double> sorted;
+    for(const double l : lengths)
+      if(l > 0)
+        sorted.push_back(l);
+    m_scales.setOnes(lengths.size());
+    if(sorted.empty())
+      return;
+    const auto middle = sorted.begin() + sorted.size() / 2;
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    m_scales = (lengths.array() + *middle).inverse();
+  }
+
+  Positions scaled(const Positions& d) const { return m_scales.asDiagonal() * d; }
+
+  Positions direction() const
+  {
+    Positions d = -m_gradient;
+    if(m_history.empty())
+      return m_first_step * scaled(d);
+    std::vector<double> a(m_history.size());
+    for(std::size_t i = m_history.size(); i-- > 0;) {
+      a[i] = m_history[i].rho * dot(m_history[i].s, d);
+      d -= a[i] * m_history[i].y;
+    }
+    const Pair& last = m_history.back();
+    d = (1 / (last.rho * dot(last.y, scaled(last.y))) * scaled(d)).eval();
+    for(std::size_t i = 0; i < m_history.size(); ++i)
+      d += (a[i] - m_history[i].rho * dot(m_history[i].y, d)) * m_history[i].s;
+    return d;
+  }
+
+  bool try_direction()
+  {
+    Positions d = direction();
+    m_guards.tangential(m_V, d);
+    double t = 1;
+    for(int halvings = 0; halvings < 12; ++halvings, t /= 2) {
+      Positions V = m_V + t * d;
+      m_guards.admit(m_V, V);
+      const Positions s = V - m_V;
+      const double slope = dot(m_gradient, s);
+      if(!(slope < 0))
+        continue;
+      Positions gradient;
+      const double value = m_objective.value_and_gradient(V, gradient);
+      if(!(value <= m_value + 1e-4 * slope))
+        continue;
+      m_guards.tangential(V, gradient);
+      remember(s, gradient - m_gradient);
+      m_V = V;
+      m_gradient = gradient;
+      m_value = value;
+      return true;
+    }
+    return false;
+  }
+
+  void remember(const Positions& s, const Positions& y)
+  {
+    const double sy = dot(s, y);
+    if(!(sy > 1e-12 * s.norm() * y.norm()))
+      return;
+    m_history.push_back({s, y, 1 / sy});
+    if(m_history.size() > memory)
+      m_history.pop_front();
+  }
+
+  Objective& m_objective;
+  Guards& m_guards;
+  double m_first_step;
+  Positions m_V, m_gradient;
+  Eigen::VectorXd m_scales;
+  double m_value = 0;
+  std::deque<Pair> m_history;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H

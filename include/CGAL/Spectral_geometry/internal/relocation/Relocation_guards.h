@@ -1,0 +1,328 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_GUARDS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_GUARDS_H
+
+#include <CGAL/Spectral_geometry/Relocation_options.h>
+#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// A piece of the boundary that a vertex may slide along.
+struct Boundary_segment
+{
+  Eigen::Vector3d a, b;
+
+  Eigen::Vector3d closest(const Eigen::Vector3d& p) const
+  {
+    const Eigen::Vector3d ab = b - a;
+    const double length2 = ab.squaredNorm();
+    const double s = length2 > 0 ? std::clamp(ab.dot(p - a) / length2, 0., 1.) : 0.;
+    return a + s * ab;
+  }
+};
+
+/// What single vertices and triangles may do while vertices are relocated. Legal at the start; afterwards `admit()`
+/// cuts the steps of the vertices that would break something, and of no others.
+class Relocation_guards
+{
+public:
+  using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+  struct Limits
+  {
+    double trust = 0.5; // radius of a vertex' ball in mean incident edges
+    double smallest_angle_ratio = 0.5;
+    double largest_turn_cosine = 0.5; // of a triangle's normal against the start
+  };
+
+  Relocation_guards(const Positions& V, const Eigen::MatrixXi& T, const Positions& anchors,
+                    const Limits& limits)
+    : m_T(T)
+    , m_limits(limits)
+    , m_anchors(anchors)
+    , m_fixed(std::size_t(V.rows()), false)
+    , m_boundary(std::size_t(V.rows()))
+    , m_held_by(std::size_t(V.rows()), 0)
+  {
+    // The rounding of what is legal only just must not make the start illegal; nor below.
+    m_limits.largest_turn_cosine = (std::min)(m_limits.largest_turn_cosine, 1 - 1e-12);
+    measure_vertices(V);
+    measure_triangles(V);
+  }
+
+  void fix(const Eigen::Index v) { m_fixed[std::size_t(v)] = true; }
+  bool is_fixed(const Eigen::Index v) const { return m_fixed[std::size_t(v)]; }
+  double radius(const Eigen::Index v) const { return m_radius(v); }
+
+  /// Lets a vertex move along the pieces of a boundary only. Far ones are dropped.
+  void keep_on(const Eigen::Index v, const std::vector<Boundary_segment>& segments)
+  {
+    const Eigen::Vector3d anchor = m_anchors.row(v);
+    for(const Boundary_segment& s : segments)
+      if((s.closest(anchor) - anchor).norm() <= 2 * m_radius(v))
+        m_boundary[std::size_t(v)].push_back(s);
+    if(m_boundary[std::size_t(v)].empty())
+      fix(v);
+  }
+
+  bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[std::size_t(v)].empty(); }
+
+  /// A further condition on the position of a vertex: a distance to a surface.
+  using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
+  void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
+
+  /// Threads to use, from 1, for conditions on single vertices; no result depends on them.
+  void set_threads(const int threads) { m_threads = threads; }
+
+  /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
+  using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
+  void set_leaps(Leaps leaps) { m_leaps = std::move(leaps); }
+
+  /// How many vertices each guard has held since the start.
+  Relocation_result::Held held() const
+  {
+    Relocation_result::Held held;
+    held.fixed = std::size_t(std::count(m_fixed.begin(), m_fixed.end(), true));
+    for(const unsigned char by : m_held_by) {
+      held.trust += (by & by_trust) != 0;
+      held.boundary += (by & by_boundary) != 0;
+      held.sheet += (by & by_sheet) != 0;
+      held.distance += (by & by_distance) != 0;
+      held.triangles += (by & by_triangles) != 0;
+    }
+    return held;
+  }
+
+  void tangential(const Positions& at, Positions& direction) const
+  {
+    for(Eigen::Index v = 0; v < at.rows(); ++v)
+      if(m_fixed[std::size_t(v)])
+        direction.row(v).setZero();
+      else if(!m_boundary[std::size_t(v)].empty()) {
+        const Boundary_segment& s = closest_segment(v, at.row(v));
+        const Eigen::Vector3d t = (s.b - s.a).normalized();
+        direction.row(v) = (t.dot(direction.row(v)) * t).transpose();
+      }
+  }
+
+  void admit(const Positions& from, Positions& to) const
+  {
+    const auto admit_vertex = [&](const Eigen::Index v) {
+      to.row(v) = nearest_allowed(v, from.row(v), to.row(v)).transpose();
+      if(m_leaps && to.row(v) != from.row(v))
+        stay_on_sheet(v, from, to);
+    };
+    for_each_task(to.rows(), m_threads, admit_vertex, 16);
+    admit_without_projection(from, to);
+  }
+
+  /// The same where single vertices are known to be allowed where they are.
+  void admit_without_projection(const Positions& from, Positions& to) const
+  {
+    std::vector<char> offends(std::size_t(to.rows()), 0);
+    for(int round = 0; mark_offenders(to, offends); ++round)
+      for(Eigen::Index v = 0; v < to.rows(); ++v)
+        if(offends[std::size_t(v)]) {
+          offends[std::size_t(v)] = 0;
+          m_held_by[std::size_t(v)] |= by_triangles;
+          step_back(v, from, to, round);
+        }
+  }
+
+  /// true if the triangle keeps its side and its angles.
+  bool legal(const Eigen::Index f, const Positions& V) const
+  {
+    const Eigen::Vector3d normal = normal_of(f, V);
+    if(!(normal.dot(m_normal[std::size_t(f)]) >= m_limits.largest_turn_cosine * normal.norm()))
+      return false;
+    return smallest_angle(f, V) >= m_smallest_angle(f);
+  }
+
+private:
+  enum Guard : unsigned char {
+    by_trust = 1,
+    by_boundary = 2,
+    by_sheet = 4,
+    by_distance = 8,
+    by_triangles = 16
+  };
+
+  // A step that leaps is taken in part, or not at all.
+  void stay_on_sheet(const Eigen::Index v, const Positions& from, Positions& to) const
+  {
+    for(int cut = 0; m_leaps(v, from.row(v), to.row(v)); ++cut) {
+      m_held_by[std::size_t(v)] |= by_sheet;
+      if(cut == 3) {
+        to.row(v) = from.row(v);
+        return;
+      }
+      to.row(v) = (0.6 * from.row(v) + 0.4 * to.row(v)).eval();
+    }
+  }
+
+  void measure_vertices(const Positions& V)
+  {
+    Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = Eigen::VectorXd::Zero(V.rows());
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+      for(int k = 0; k < 3; ++k) {
+        const int i = m_T(f, k), j = m_T(f, (k + 1) % 3);
+        const double l = (V.row(i) - V.row(j)).norm();
+        for(const int v : {i, j}) {
+          length(v) += l;
+          count(v) += 1;
+        }
+      }
+    m_radius.resize(V.rows());
+    for(Eigen::Index v = 0; v < V.rows(); ++v)
+      m_radius(v) = (std::max)(m_limits.trust * length(v) / (std::max)(count(v), 1.),
+                               (V.row(v) - m_anchors.row(v)).norm());
+  }
+
+  void measure_triangles(const Positions& V)
+  {
+    m_smallest_angle.resize(m_T.rows());
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      m_normal.push_back(normal_of(f, V).normalized());
+      m_smallest_angle(f) = (m_limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+    }
+  }
+
+  Eigen::Vector3d normal_of(const Eigen::Index f, const Positions& V) const
+  {
+    const Eigen::Vector3d a = V.row(m_T(f, 1)) - V.row(m_T(f, 0)), b = V.row(m_T(f, 2)) - V.row(m_T(f, 0));
+    return a.cross(b);
+  }
+
+  double smallest_angle(const Eigen::Index f, const Positions& V) const
+  {
+    Eigen::Vector3d edge[3];
+    for(int k = 0; k < 3; ++k)
+      edge[k] = V.row(m_T(f, (k + 2) % 3)) - V.row(m_T(f, (k + 1) % 3));
+    const Triangle_element t = triangle_element(edge);
+    return t.is_degenerate() ? 0 : std::atan2(t.twice_area, *std::max_element(t.dot, t.dot + 3));
+  }
+
+  const Boundary_segment& closest_segment(const Eigen::Index v, const Eigen::Vector3d& p) const
+  {
+    const std::vector<Boundary_segment>& segments = m_boundary[std::size_t(v)];
+    return *std::min_element(segments.begin(), segments.end(), [&](const auto& s, const auto& t) {
+      return (s.closest(p) - p).squaredNorm() < (t.closest(p) - p).squaredNorm();
+    });
+  }
+
+  Eigen::Vector3d nearest_allowed(const Eigen::Index v, const Eigen::Vector3d& from, Eigen::Vector3d to) const
+  {
+    if(m_fixed[std::size_t(v)] || !to.allFinite())
+      return from;
+    const Eigen::Vector3d anchor = m_anchors.row(v);
+    const double distance = (to - anchor).norm();
+    unsigned char& held = m_held_by[std::size_t(v)];
+    if(distance > m_radius(v)) {
+      held |= by_trust;
+      to = anchor + m_radius(v) / distance * (to - anchor);
+    }
+    if(!m_boundary[std::size_t(v)].empty()) {
+      to = closest_segment(v, to).closest(to);
+      if((to - anchor).norm() > 1.01 * m_radius(v)) {
+        held |= by_boundary;
+        return from;
+      }
+    }
+    if(m_allowed && !m_allowed(v, to)) {
+      held |= by_distance;
+      return from;
+    }
+    return to;
+  }
+
+  bool mark_offenders(const Positions& V, std::vector<char>& offends) const
+  {
+    bool any = false;
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+      if(!legal(f, V)) {
+        any = true;
+        for(int k = 0; k < 3; ++k)
+          offends[std::size_t(m_T(f, k))] = 1;
+      }
+    return any;
+  }
+
+  void step_back(const Eigen::Index v, const Positions& from, Positions& to, const int round) const
+  {
+    if(round >= 4)
+      to.row(v) = from.row(v);
+    else
+      to.row(v) = nearest_allowed(v, from.row(v), 0.5 * (from.row(v) + to.row(v))).transpose();
+  }
+
+  Eigen::MatrixXi m_T;
+  Limits m_limits;
+  Positions m_anchors;
+  std::vector<bool> m_fixed;
+  std::vector<std::vector<Boundary_segment>> m_boundary;
+  Allowed m_allowed;
+  Leaps m_leaps;
+  mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
+  Eigen::VectorXd m_radius, m_smallest_angle;
+  int m_threads = 1;
+  std::vector<Eigen::Vector3d> m_normal;
+};
+
+/// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
+/// Legs lie close to the body and some faces intersect; one vertex whose signals leap would end the descent for all.
+class Sheet_guard
+{
+public:
+  Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
+    : m_closest(&closest)
+    , m_parts(&parts)
+    , m_starts(parts.size())
+  {}
+
+  bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  {
+    Start& start = m_starts[std::size_t(v)];
+    if(start.position != from) {
+      start.closest =
+          start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from, (*m_parts)[std::size_t(v)]);
+      start.position = from;
+      start.known = true;
+    }
+    return ((*m_closest)(to, start.closest).point - start.closest.point).norm() > 3 * (to - from).norm();
+  }
+
+private:
+  struct Start
+  {
+    bool known = false;
+    Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    Closest_point_query::Answer closest;
+  };
+
+  const Closest_point_query* m_closest;
+  const std::vector<Eigen::Index>* m_parts;
+  std::vector<Start> m_starts; // by vertex: several may be asked about at a time
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_GUARDS_H

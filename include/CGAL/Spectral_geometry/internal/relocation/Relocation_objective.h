@@ -1,0 +1,195 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
+
+#include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/relocation_energy.h>
+#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a tolerance: a penalty that begins at
+/// half of it, steep enough to end before its whole.
+class Size_bounds
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine, const double tolerance)
+    : m_T(T)
+    , m_tolerance(tolerance)
+    , m_closed(boundary_edges(T).empty() && boundary_edges(fine.T).empty())
+  {
+    double fine_area, fine_volume;
+    measure(m_T, V, m_area.from, m_volume.from);
+    measure(fine.T, fine.V, fine_area, fine_volume);
+    // Those of a mesh far from the fine one (a few vertices, or an offset) are not to be reached at any price.
+    m_area.set_other(fine_area);
+    m_volume.set_other(fine_volume);
+    // A mesh without volume to speak of (two sheets, say) cannot keep a part of it.
+    m_closed = m_closed && std::abs(m_volume.from) > 1e-3 * m_area.from * std::sqrt(m_area.from) / 10.6;
+  }
+
+  /// Of the coarse mesh.
+  double area() const { return m_area.from; }
+
+  bool within(const Positions& V) const
+  {
+    double area, volume;
+    measure(m_T, V, area, volume);
+    return std::abs(m_area.beyond(area)) <= m_tolerance &&
+           (!m_closed || std::abs(m_volume.beyond(volume)) <= m_tolerance);
+  }
+
+  /// In parts of the objective at the start.
+  double penalty(const Positions& V, const double weight, Positions& gradient) const
+  {
+    double area, volume;
+    measure(m_T, V, area, volume);
+    const double by_area = slope(m_area.beyond(area)),
+                 by_volume = m_closed ? slope(m_volume.beyond(volume)) : 0;
+    if(by_area == 0 && by_volume == 0)
+      return 0;
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      Eigen::Vector3d p[3];
+      for(int k = 0; k < 3; ++k)
+        p[k] = V.row(m_T(f, k));
+      const Eigen::Vector3d unit = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+      for(int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
+        const Eigen::Vector3d g = by_area / m_area.from / 2 * unit.cross(r - q) +
+                                  by_volume / (m_closed ? m_volume.from : 1.) / 6 * q.cross(r);
+        gradient.row(m_T(f, k)) += weight * g.transpose();
+      }
+    }
+    // slope = 2 steepness h, the penalty is steepness h^2
+    return weight * (by_area * by_area + by_volume * by_volume) / (4 * steepness());
+  }
+
+private:
+  // What the coarse mesh has at the start, and how far the fine one lies from it, in parts of that.
+  struct Range
+  {
+    double from = 0, low = 0, high = 0;
+
+    void set_other(const double fine)
+    {
+      const double change = std::clamp(fine / from - 1, -0.1, 0.1);
+      low = (std::min)(change, 0.);
+      high = (std::max)(change, 0.);
+    }
+    double beyond(const double value) const
+    {
+      const double change = value / from - 1;
+      return change > high ? change - high : change < low ? change - low : 0.;
+    }
+  };
+
+  template <class Points>
+  static void measure(const Eigen::MatrixXi& T, const Points& V, double& area, double& volume)
+  {
+    area = volume = 0;
+    const Eigen::Vector3d origin = V.row(0);
+    for(Eigen::Index f = 0; f < T.rows(); ++f) {
+      const Eigen::Vector3d p = V.row(T(f, 0)).transpose() - origin, q = V.row(T(f, 1)).transpose() - origin,
+                            r = V.row(T(f, 2)).transpose() - origin;
+      area += (q - p).cross(r - p).norm() / 2;
+      volume += p.dot(q.cross(r)) / 6;
+    }
+  }
+
+  // At nine tenths of the tolerance it costs as much as all there was at the start.
+  double steepness() const { return 1 / (0.16 * m_tolerance * m_tolerance); }
+
+  double slope(const double beyond) const
+  {
+    const double excess = std::abs(beyond) - m_tolerance / 2;
+    return excess <= 0 ? 0 : 2 * steepness() * (beyond > 0 ? excess : -excess);
+  }
+
+  Eigen::MatrixXi m_T;
+  double m_tolerance;
+  bool m_closed;
+  Range m_area, m_volume;
+};
+
+/// What the descent sees: the smoothed energy, or E alone, and the penalties on the size and on the spectrum.
+class Relocation_objective
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                       const Local_operator& op, const Size_bounds& size, const Positions& start,
+                       Position_dependent_signals* sampled, const bool carried, const double tau,
+                       const double plain, const double beyond)
+    : m_E(T, F, Z, op)
+    , m_size(size)
+    , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
+  {
+    // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
+    if(tau > 0 || sampled) {
+      // In the unit of 1 / lambda: density and area over conductivity.
+      const Operator_coefficients& c = op.coefficients;
+      const double density = c.rows() == 0 ? 1. : c.col(0).mean();
+      const double smallest = 1e-6 * density / mean_conductivity(c) * size.area() / double(F.rows());
+      const Eigen::Index columns = carried ? F.cols() : 0;
+      m_smoothed = std::make_unique<Smoothed_relocation_energy>(T, F.leftCols(columns), Z.leftCols(columns),
+                                                                op, (std::max)(tau, smallest), 0., sampled);
+      m_smoothed->value(start);
+      if(m_smoothed->plain_part() > 0)
+        m_smoothed->set_mu(plain * m_smoothed->smoothed_part() / m_smoothed->plain_part());
+    }
+    m_scale = m_smoothed ? m_smoothed->value(start) : E(start);
+  }
+
+  /// Brings what changes slowly up to date; true if that changes the values.
+  bool refresh(const Positions& V)
+  {
+    m_spectrum.refresh(V);
+    return m_spectrum.is_active();
+  }
+
+  void set_threads(const int threads)
+  {
+    if(m_smoothed)
+      m_smoothed->set_threads(threads);
+  }
+
+  double E(const Positions& V) { return m_E.value(V); }
+
+  double value_and_gradient(const Positions& V, Positions& gradient)
+  {
+    const double value =
+        m_smoothed ? m_smoothed->value_and_gradient(V, gradient) : m_E.value_and_gradient(V, gradient);
+    if(!std::isfinite(value))
+      return value;
+    return value + m_size.penalty(V, m_scale, gradient) + m_spectrum.penalty(V, m_scale, gradient);
+  }
+
+private:
+  Relocation_energy m_E;
+  std::unique_ptr<Smoothed_relocation_energy> m_smoothed;
+  Size_bounds m_size;
+  Spectrum_guard m_spectrum;
+  double m_scale = 1;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H

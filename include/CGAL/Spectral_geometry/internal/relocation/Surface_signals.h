@@ -1,0 +1,102 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+/// Signals of the fine mesh, read off at the closest points of the coarse vertices.
+class Surface_signals : public Position_dependent_signals
+{
+public:
+  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. These five are kept by reference.
+  Surface_signals(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts,
+                  const Eigen::MatrixXi& T, const Rows& F, const Rows& Z, const int threads)
+    : m_closest(closest)
+    , m_parts(parts)
+    , m_T(T)
+    , m_F(F)
+    , m_Z(Z)
+    , m_threads(threads)
+  {}
+
+  Eigen::Index number_of_signals() const override { return m_F.cols(); }
+
+  void evaluate(const Positions& V, Rows& F, Rows& Z) override
+  {
+    F.resize(V.rows(), m_F.cols());
+    Z.resize(V.rows(), m_F.cols());
+    const bool first = m_answers.size() != std::size_t(V.rows());
+    m_answers.resize(std::size_t(V.rows()));
+    const auto read_off = [&](const Eigen::Index w) {
+      Closest_point_query::Answer& a = m_answers[std::size_t(w)];
+      a = first ? m_closest(V.row(w), m_parts[std::size_t(w)]) : m_closest(V.row(w), a);
+      const Eigen::RowVector3i t = m_T.row(a.face);
+      F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
+      Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
+    };
+    for_each_task(V.rows(), m_threads, read_off, 16);
+  }
+
+  // The signals are linear in the face. A closest point on an edge stays on it for a while, one in a corner does
+  // not move at all.
+  void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
+  {
+    const auto add = [&](const Eigen::Index w) {
+      const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
+      const Eigen::Matrix3d& p = m_closest.corners(a.face);
+      const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
+      const double size2 = normal.squaredNorm();
+      int zeros = 0, zero = 0;
+      for(int k = 0; k < 3; ++k)
+        if(!(a.weights(k) > 0)) {
+          ++zeros;
+          zero = k;
+        }
+      if(zeros == 2 || !(size2 > 0))
+        return;
+      Eigen::Vector3d g = Eigen::Vector3d::Zero();
+      for(int k = 0; k < 3; ++k) {
+        const double slope =
+            by_F.row(w).dot(m_F.row(m_T(a.face, k))) + by_Z.row(w).dot(m_Z.row(m_T(a.face, k)));
+        g += slope / size2 * normal.cross(p.col((k + 2) % 3) - p.col((k + 1) % 3));
+      }
+      if(zeros == 1) {
+        const Eigen::Vector3d edge = (p.col((zero + 2) % 3) - p.col((zero + 1) % 3)).normalized();
+        g = edge.dot(g) * edge;
+      }
+      gradient.row(w) += g.transpose();
+    };
+    for_each_task(gradient.rows(), m_threads, add, 16);
+  }
+
+private:
+  const Closest_point_query& m_closest;
+  const std::vector<Eigen::Index>& m_parts;
+  const Eigen::MatrixXi& m_T;
+  const Rows &m_F, &m_Z;
+  int m_threads;
+  std::vector<Closest_point_query::Answer> m_answers;
+};
+
+} // namespace internal
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H

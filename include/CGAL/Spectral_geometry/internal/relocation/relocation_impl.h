@@ -1,0 +1,354 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_IMPL_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_IMPL_H
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/operators/connected_components.h>
+#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/relocation.h>
+
+#include <CGAL/Real_timer.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Spectral_geometry {
+namespace internal {
+
+inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd& V,
+                             const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
+                             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                             const std::vector<bool>& fixed)
+{
+  const auto require = [](const bool fine_so_far, const std::string& sentence) {
+    if(!fine_so_far)
+      throw std::invalid_argument("relocation: " + sentence);
+  };
+  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
+    return std::to_string(rows) + " x " + std::to_string(columns);
+  };
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(),
+          "P is " + size(P.rows(), P.cols()) + " where " + size(V.rows(), fine.V.rows()) +
+              " is needed, coarse x fine; pass matrices that belong together.");
+  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
+          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
+              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
+              " fine vertices and one column for each signal.");
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    require(V.row(v).allFinite(),
+            vertex_name(v) + " has a coordinate that is not a finite number; repair it.");
+  require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
+          "the list of fixed vertices has " + std::to_string(fixed.size()) + " entries for " +
+              std::to_string(V.rows()) + " vertices; pass one for each, or none.");
+  check_relocation_options(o);
+}
+
+/// One relocation from the set-up of its objective to the repair at its end.
+class Relocation
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+             const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+             const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
+    : m_options(options)
+    , m_start(V)
+    , m_T(T)
+    , m_fine(fine)
+    , m_guards(m_start, T, Positions(P * fine.V), limits())
+    , m_size(T, m_start, fine, options.size_tolerance)
+  {
+    m_timer.start();
+    set_parts(P);
+    set_guards(fixed);
+    set_objective(P, F, Z, op);
+    m_has_reverted.assign(std::size_t(m_start.rows()), 0);
+    if(m_options.keep_free_of_self_intersections)
+      m_crossing = self_intersecting_faces(m_start, m_T);
+    if(m_options.keep_hausdorff_distance)
+      measure_fine();
+  }
+
+  /// P at the closest points; where signals are sampled.
+  Eigen::SparseMatrix<double> sampled_restriction(const Eigen::MatrixXd& V) const
+  {
+    return interpolation(*m_closest, m_fine, V, m_parts);
+  }
+
+  Positions run(Relocation_result& result)
+  {
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+      if(!(triangle_cotangents(m_start.row(m_T(f, 0)), m_start.row(m_T(f, 1)), m_start.row(m_T(f, 2))).area >
+           0))
+        throw std::invalid_argument("relocation: " + face_name(f) +
+                                    " of the coarse mesh has no area; remove it.");
+    Guarded_descent<Relocation_objective, Relocation_guards> descent(
+        *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
+    result.E_before = m_objective->E(m_start);
+    Positions V = m_start;
+    m_guards.admit(m_start, V); // boundary vertices go to the boundary
+    descent.start(V);
+    result.objective_before = descent.value();
+    double last = descent.value();
+    using Reason = Relocation_result::Stop_reason;
+    for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
+      if(m_options.progress && !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
+        throw Cancelled();
+      if(!(m_timer.time() < m_options.maximum_seconds)) {
+        result.stop_reason = Reason::seconds;
+        break;
+      }
+      if(!descent.step()) {
+        result.stop_reason = Reason::no_descent;
+        break;
+      }
+      if(++result.steps % 10 == 0) {
+        if(descent.value() > (1 - m_options.relative_decrease) * last) {
+          result.stop_reason = Reason::converged;
+          break;
+        }
+        if(result.steps < m_options.maximum_steps) {
+          const Positions repaired_so_far = repaired(descent.positions());
+          const bool refreshed = m_objective->refresh(repaired_so_far);
+          if(repaired_so_far != descent.positions())
+            descent.start(repaired_so_far);
+          else if(refreshed)
+            descent.refresh();
+        }
+        last = descent.value();
+      }
+    }
+    result.objective_after = descent.value();
+    V = repaired(descent.positions());
+    result.held = m_guards.held();
+    result.reverted_vertices = std::size_t(std::count(m_has_reverted.begin(), m_has_reverted.end(), 1));
+    result.held.fixed -= result.reverted_vertices;
+    result.E_after = m_objective->E(V);
+    for(Eigen::Index v = 0; v < V.rows(); ++v)
+      result.moved_vertices += V.row(v) != m_start.row(v);
+    result.seconds = m_timer.time();
+    return V;
+  }
+
+private:
+  Relocation_guards::Limits limits() const
+  {
+    return {m_options.trust_radius, m_options.smallest_angle_ratio, std::cos(m_options.largest_turn)};
+  }
+
+  void set_guards(const std::vector<bool>& fixed)
+  {
+    for(std::size_t v = 0; v < fixed.size(); ++v)
+      if(fixed[v])
+        m_guards.fix(Eigen::Index(v));
+    std::vector<std::vector<Boundary_segment>> boundary(m_fine_parts.size()); // of each component
+    for(const auto& [i, j] : boundary_edges(m_fine.T))
+      boundary[std::size_t(m_fine_parts[std::size_t(i)])].push_back({m_fine.V.row(i), m_fine.V.row(j)});
+    const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
+    for(std::size_t v = 0; v < on_boundary.size(); ++v)
+      if(on_boundary[v] && m_options.fix_boundary)
+        m_guards.fix(Eigen::Index(v));
+      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
+        m_guards.keep_on(Eigen::Index(v), boundary[std::size_t(m_parts[v])]);
+    if(m_options.signals != Relocation_options::Signals::carried)
+      m_guards.set_leaps(Sheet_guard(*m_closest, m_parts));
+    if(std::isfinite(m_options.largest_distance))
+      m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
+        return ((*m_closest)(p, m_parts[std::size_t(v)]).point - p).norm() <= m_options.largest_distance;
+      });
+  }
+
+  // The closest points of a vertex, on the surface or on its boundary, are those of the component that its row of P is about.
+  void set_parts(const Eigen::SparseMatrix<double>& P)
+  {
+    m_fine_parts = connected_components(m_fine.V.rows(), m_fine.T);
+    std::vector<char> has_faces(m_fine_parts.size(), 0);
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+      has_faces[std::size_t(m_fine.T(f, 0))] = has_faces[std::size_t(m_fine.T(f, 1))] =
+          has_faces[std::size_t(m_fine.T(f, 2))] = 1;
+    m_parts.assign(std::size_t(P.rows()), m_fine_parts[std::size_t(m_fine.T(0, 0))]);
+    Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
+    for(Eigen::Index j = 0; j < P.cols(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
+        if(has_faces[std::size_t(j)] && it.value() > most(it.row())) {
+          most(it.row()) = it.value();
+          m_parts[std::size_t(it.row())] = m_fine_parts[std::size_t(j)];
+        }
+    if(m_options.signals != Relocation_options::Signals::carried || std::isfinite(m_options.largest_distance))
+      m_closest = std::make_unique<Closest_point_query>(m_fine, m_fine_parts);
+  }
+
+  void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                     const Local_operator& op)
+  {
+    const Eigen::MatrixXd carried_F = P * F, carried_Z = P * Z;
+    const double largest =
+        std::sqrt((Z.colwise().squaredNorm().array() /
+                   F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
+                      .maxCoeff());
+    if(m_options.signals != Relocation_options::Signals::carried) {
+      m_fine_F = F;
+      m_fine_Z = Z;
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z,
+                                                    m_options.threads);
+    }
+    m_objective = std::make_unique<Relocation_objective>(
+        m_T, carried_F, carried_Z, op, m_size, m_start, m_sampled.get(),
+        m_options.signals != Relocation_options::Signals::sampled,
+        largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
+    m_objective->set_threads(m_options.threads);
+    m_guards.set_threads(m_options.threads);
+  }
+
+  // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
+  // out of its bounds. Vertices that did stay from then on, so that the others go on around them.
+  Positions repaired(Positions V)
+  {
+    for(int round = 0;; ++round) {
+      std::vector<char> back(std::size_t(V.rows()), 0);
+      if(m_options.keep_free_of_self_intersections)
+        for(const auto& pair : self_intersecting_faces(V, m_T))
+          if(!std::binary_search(m_crossing.begin(), m_crossing.end(), pair))
+            for(const Eigen::Index f : {pair.first, pair.second})
+              mark_face(f, back);
+      if(m_options.keep_hausdorff_distance)
+        mark_left_behind(V, back);
+      const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
+      if(!any && !too_large)
+        break;
+      if(round >= 24) { // single vertices going back have put others in the way
+        std::fill(back.begin(), back.end(), 1);
+        V = m_start;
+      }
+      for(Eigen::Index v = 0; v < V.rows(); ++v)
+        if(too_large || back[std::size_t(v)]) {
+          // Half way back a vertex of the boundary would lie beside it.
+          const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
+          V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
+        }
+      for(std::size_t v = 0; v < back.size(); ++v)
+        if(back[v] && !m_guards.is_fixed(Eigen::Index(v))) {
+          m_has_reverted[v] = 1;
+          m_guards.fix(Eigen::Index(v));
+        }
+      m_guards.admit_without_projection(m_start, V);
+      if(round >= 24)
+        break;
+    }
+    return V;
+  }
+
+  void mark_face(const Eigen::Index f, std::vector<char>& marks) const
+  {
+    for(int k = 0; k < 3; ++k)
+      marks[std::size_t(m_T(f, k))] = 1;
+  }
+
+  // Where the fine vertices lie at the start.
+  void measure_fine()
+  {
+    const Closest_point_query closest(Mesh_matrices{m_start, m_T});
+    m_nearest.resize(std::size_t(m_fine.V.rows()));
+    const auto measure = [&](const Eigen::Index i) {
+      const Eigen::Vector3d point = m_fine.V.row(i);
+      const Closest_point_query::Answer answer = closest(point);
+      m_nearest[std::size_t(i)] = {answer.face, (answer.point - point).norm()};
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
+    for(const Nearest& n : m_nearest)
+      m_furthest = (std::max)(m_furthest, n.distance);
+  }
+
+  // The corners of the faces closest to fine vertices that are further from V than any was at the start. A face that was
+  // near and has moved little is still near: most need not be looked for.
+  void mark_left_behind(const Positions& V, std::vector<char>& marks) const
+  {
+    const Closest_point_query closest(Mesh_matrices{V, m_T});
+    const Eigen::VectorXd moved = (V - m_start).rowwise().norm();
+    std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
+    const auto look = [&](const Eigen::Index i) {
+      const Nearest& n = m_nearest[std::size_t(i)];
+      const auto corners = m_T.row(n.face);
+      if(n.distance + (std::max)({moved(corners(0)), moved(corners(1)), moved(corners(2))}) <= m_furthest)
+        return;
+      const Eigen::Vector3d point = m_fine.V.row(i);
+      const Closest_point_query::Answer answer = closest(point);
+      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
+        left_behind[std::size_t(i)] = answer.face;
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, look, 64);
+    for(std::size_t i = 0; i < m_nearest.size(); ++i)
+      if(left_behind[i] >= 0) {
+        mark_face(left_behind[i], marks);
+        mark_face(m_nearest[i].face, marks); // once that is back, the distance is what it was
+      }
+  }
+
+  struct Nearest
+  {
+    Eigen::Index face;
+    double distance;
+  };
+
+  Relocation_options m_options;
+  Positions m_start;
+  Eigen::MatrixXi m_T;
+  const Mesh_matrices& m_fine;
+  Real_timer m_timer;
+  Relocation_guards m_guards;
+  Size_bounds m_size;
+  std::unique_ptr<Closest_point_query> m_closest;
+  std::vector<Eigen::Index> m_fine_parts; // the component of each vertex of the fine mesh
+  std::vector<Eigen::Index> m_parts;      // that in which each vertex is looked for
+  Position_dependent_signals::Rows m_fine_F, m_fine_Z;
+  std::unique_ptr<Surface_signals> m_sampled;
+  std::unique_ptr<Relocation_objective> m_objective;
+  Face_pairs m_crossing;          // at the start
+  std::vector<Nearest> m_nearest; // of each fine vertex at the start
+  double m_furthest = 0;
+  std::vector<char> m_has_reverted;
+};
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
+    Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
+    const std::vector<bool>& fixed, const Relocation_options& options)
+{
+  internal::check_relocation(options, V, P, fine, F, Z, fixed);
+  Relocation_result result;
+  internal::Relocation relocation(V, T, P, fine, F, Z, op, fixed, options);
+  V = relocation.run(result);
+  result.resampled = options.signals == Relocation_options::Signals::sampled;
+  result.restriction = result.resampled ? relocation.sampled_restriction(V) : P;
+  return result;
+}
+
+} // namespace Spectral_geometry
+} // namespace CGAL
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_IMPL_H

@@ -1,0 +1,455 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_search.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+// The scratch memory of one thread.
+struct alignas(cache_line) Spectral_collapse_core::Workspace
+{
+  Spectral_collapse_kernel kernel;
+  std::vector<Spectral_row_entry> row;
+};
+
+inline auto triangle_in(const Spectral_fields& fields)
+{
+  return [&fields](const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) {
+    return fields.triangle(c, a, b);
+  };
+}
+
+inline void set_candidate(Spectral_candidate& c, const Spectral_sample& sample)
+{
+  if(!std::isfinite(sample.cost))
+    return;
+  c.collapsible = true;
+  c.cost = sample.cost;
+  c.weight = sample.weight;
+  c.point = sample.point;
+}
+
+inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
+                       const double weight)
+{
+  rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core() = default;
+CGAL_SPECTRAL_GEOMETRY_INLINE
+Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = default;
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() = default;
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda,
+                                  const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
+                                  const double area_scale, const Spectral_cost_parameters& parameters)
+{
+  m_number_of_signals = F.cols();
+  m_fields.F.assign(F);
+  m_fields.R.assign(0, 0);
+  m_fields.Z.assign(0, 0);
+  m_fields.lambda.assign(0, 0);
+  if(lambda.size() != 0)
+    m_fields.lambda.assign(lambda.transpose());
+  else
+    set_Z(Z);
+  m_fields.theta = op.theta;
+  m_fields.voronoi = op.voronoi;
+  const Spectral_geometry::Operator_coefficients& c = op.coefficients;
+  m_fields.coefficients.clear();
+  for(Eigen::Index v = 0; v < c.rows(); ++v)
+    m_fields.coefficients.push_back(c.row(v).transpose());
+  m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
+  m_fields.area_scale = area_scale;
+  m_fields.largest_degree_of_others = parameters.largest_degree_of_others;
+  m_parameters = parameters;
+  m_surface_scale = 0;
+  m_fields.vanishing.clear();
+  m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
+  m_shape = Spectral_shape_term();
+  m_pool = std::make_unique<Pool>(parameters.threads);
+  m_forest = Spectral_geometry::Merge_forest(F.rows());
+  m_candidates.resize(std::size_t(F.rows()));
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
+                                                                     Spectral_rings rings)
+{
+  m_fields.points = std::move(points);
+  m_fields.rings = std::move(rings);
+  if(m_dirichlet && m_fields.vanishing.empty())
+    for(std::size_t w = 0; w < m_fields.points.size(); ++w)
+      m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
+  if(m_surface_scale == 0)
+    m_surface_scale = m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area();
+  if(m_parameters.shape > 0)
+    m_shape.set_geometry(m_fields.points, m_fields.rings, m_surface_scale);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::follow(const Spectral_slot removed, const Spectral_slot kept, const double weight)
+{
+  m_shape.merge(removed, kept);
+  m_forest.merge(removed, kept, weight);
+  if(is_kept(removed))
+    m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
+  merge_rows(m_fields.F, removed, kept, weight);
+  if(m_fields.has_z_rows())
+    merge_rows(m_fields.Z, removed, kept, weight);
+  if(m_fields.vanishes_at(removed))
+    m_fields.vanishing[kept] = 1;
+  if(!m_fields.coefficients.empty())
+    m_fields.coefficients[kept] =
+        (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points,
+                                                                        Spectral_rings rings)
+{
+  set_input(std::move(points), std::move(rings)); // of a later run it keeps the positions and the rings alone
+  const Eigen::Index n = Eigen::Index(m_fields.points.size());
+  if(m_fields.R.empty())
+    m_fields.R.assign(n, m_number_of_signals);
+  m_fields.mass = Eigen::VectorXd::Zero(n);
+  m_fields.E = Eigen::VectorXd::Zero(n);
+  m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
+    m_fields.rings.find_back(Spectral_slot(w));
+    m_fields.rings.update_triangles(Spectral_slot(w), triangle_in(m_fields));
+    update_row(Spectral_slot(w), workspace.row);
+  });
+  m_number_of_vertices = 0;
+  for(std::size_t w = 0; w < std::size_t(n); ++w)
+    m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
+  if(m_parameters.keep_free_of_self_intersections)
+    m_crossing.set_geometry(m_fields.points, m_fields.rings);
+  m_total = Sum();
+  m_total.add(m_fields.E.sum());
+  m_recent_cost = 0;
+  m_candidates.clear();
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
+{
+  double sum = 0;
+  for(std::size_t w = 0; w < m_fields.points.size(); ++w)
+    m_fields.rings.for_triangles(Spectral_slot(w), [&](const Spectral_slot a, const Spectral_slot b) {
+      sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
+    });
+  return sum / 3; // each triangle from its three corners
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE bool
+Spectral_collapse_core::moves_kept_vertex(const Spectral_slot u, const Spectral_slot v,
+                                          const Eigen::Vector3d& point) const
+{
+  const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
+    return is_kept(kept) && (is_kept(other) || point != m_fields.points[kept] ||
+                             (m_fields.vanishes_at(other) && !m_fields.vanishes_at(kept)));
+  };
+  return would_move(u, v) || would_move(v, u);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate(
+    Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel, const double bound) const
+{
+  if(v < u)
+    std::swap(u, v);
+  Spectral_candidate result;
+  result.other = v;
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    return result;
+  set_candidate(result, search().best(u, v, kernel, bound));
+  result.deferred = result.collapsible && result.cost > bound;
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_for_queue(
+    Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel, const double bound) const
+{
+  if(v < u)
+    std::swap(u, v);
+  if(m_parameters.exact_costs || (!m_fields.is_hub(u) && !m_fields.is_hub(v)))
+    return evaluate(u, v, kernel, bound);
+  Spectral_candidate result;
+  result.other = v;
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    return result;
+  set_candidate(result, search().at_large_end(u, v, kernel));
+  result.deferred = result.collapsible;
+  return result.collapsible ? result : evaluate(u, v, kernel, bound);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
+Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, const bool any_version)
+{
+  const Spectral_candidate* found = m_candidates.find(u, v);
+  if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
+    ++m_number_of_evaluations;
+    found = &m_candidates.insert(
+        (std::min)(u, v), any_version
+                              ? evaluate(u, v, m_pool->workspace().kernel)
+                              : evaluate_for_queue(u, v, m_pool->workspace().kernel, minimiser_bound()));
+  }
+  if(any_version && found->collapsible && crosses(u, v, found->point)) {
+    ++m_number_of_evaluations;
+    found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v));
+    m_number_of_crossings += !found->collapsible;
+  }
+  return *found;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE bool
+Spectral_collapse_core::crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+{
+  return m_crossing.is_active() && m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double
+Spectral_collapse_core::cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+{
+  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    return std::numeric_limits<double>::infinity();
+  ++m_number_of_evaluations;
+  Spectral_sample sample;
+  sample.point = point;
+  sample.weight = projected_weight(u, v, point);
+  search().evaluate(u, v, kernel, &sample, 1);
+  return sample.cost;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Spectral_slot u,
+                                                                       const Spectral_slot v,
+                                                                       const double weight,
+                                                                       const Eigen::Vector3d& point)
+{
+  return m_pool->workspace().kernel.change(m_fields, u, v, weight, point);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double
+Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_slot v,
+                                         const Eigen::Vector3d& point) const
+{
+  return search().projected_weight(u, v, point);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE bool
+Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress)
+{
+  const double bound = minimiser_bound();
+  const std::size_t n = m_fields.points.size(), chunk = 1024;
+  for(std::size_t first = 0; first < n; first += chunk) {
+    const std::size_t size = (std::min)(chunk, n - first);
+    m_pool->for_each(size, 16, [&](const std::size_t i, Workspace& workspace) {
+      evaluate_edges_of(Spectral_slot(first + i), bound, workspace.kernel);
+    });
+    for(std::size_t u = first; u < first + size; ++u)
+      m_number_of_evaluations += m_fields.rings.number_above(Spectral_slot(u));
+    if(!progress(double(first + size) / double(n)))
+      return false;
+  }
+  return true;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const Spectral_slot kept)
+{
+  defer_around(kept);
+  m_number_of_evaluations += m_batch.size();
+  m_results.resize(m_batch.size());
+  const double bound = minimiser_bound();
+  m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
+    m_results[i] = evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
+  });
+  for(std::size_t i = 0; i < m_batch.size(); ++i)
+    m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
+                               const Eigen::Vector3d& point, Spectral_ring ring)
+{
+  const double before = total();
+  const Spectral_weighted_shape shape = weighted_shape();
+  const double shape_cost =
+      shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
+  const double largest_loss = shape.largest_loss * (m_fields.mass[removed] + m_fields.mass[kept]);
+  --m_number_of_vertices;
+  follow(removed, kept, weight);
+  m_total.add(-m_fields.E[removed]);
+  m_fields.E[removed] = m_fields.mass[removed] = 0;
+  m_fields.points[kept] = point;
+  m_fields.rings.merge(removed, kept, std::move(ring));
+  m_fields.rings.update_triangles(kept, triangle_in(m_fields));
+  m_candidates.merge(removed);
+  follow_around(removed, kept);
+  if(m_crossing.is_active())
+    m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
+  refresh_around(kept);
+  const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
+  m_recent_cost = (std::max)(loss + shape_cost, m_recent_cost * recent_cost_decay);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_around(const Spectral_slot kept)
+{
+  for(const Spectral_ring_entry& e : m_fields.rings[kept])
+    for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
+      m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search Spectral_collapse_core::search() const
+{
+  return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(Spectral_slot u,
+                                                                                        Spectral_slot v)
+{
+  if(v < u)
+    std::swap(u, v);
+  Spectral_candidate result;
+  result.other = v;
+  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
+  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+    return result;
+  set_candidate(result, search().best_on_edge(u, v, kernel, [&](const Eigen::Vector3d& point) {
+    return !crosses(u, v, point);
+  }));
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_weighted_shape Spectral_collapse_core::weighted_shape() const
+{
+  Spectral_weighted_shape shape;
+  if(!m_shape.is_empty()) {
+    const double scale = m_parameters.sum_of_squares > 0 ? m_parameters.sum_of_squares : 1.;
+    shape.term = &m_shape;
+    shape.weight = m_parameters.shape * scale * double(m_number_of_vertices);
+    shape.largest_loss = m_parameters.largest_loss * scale;
+  }
+  return shape;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w,
+                                                                      std::vector<Spectral_row_entry>& row)
+{
+  const Spectral_ring& ring = m_fields.rings[w];
+  double area = 0, to_self = 0;
+  row.clear();
+  for(std::size_t i = 0; i < ring.size(); ++i) {
+    const Spectral_triangle &after = ring[i].triangle, &before = ring[Spectral_rings::prev(ring, i)].triangle;
+    const double cot = (after.cot_second + before.cot_first) / 2;
+    row.push_back(Spectral_row_entry{
+        ring[i].vertex, Spectral_lanes{cot},
+        Spectral_lanes{(after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()}});
+    to_self -= cot;
+    area += m_fields.area_of_center(after) * m_fields.area_scale;
+  }
+  row.push_back(
+      Spectral_row_entry{w, Spectral_lanes{to_self}, Spectral_lanes{area * m_fields.diagonal_share()}});
+  double square = 0;
+  Spectral_geometry::internal::on_vector_units([&] {
+    const Spectral_row_entry *const first = row.data(), *const end = first + row.size();
+    spectral_combine_rows<1>(m_fields, first, m_fields.theta == 0 ? end - 1 : first, end, nullptr,
+                             m_fields.R[w], &square);
+  });
+  m_fields.mass[w] = area / 3;
+  m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow_around(const Spectral_slot removed,
+                                                                         const Spectral_slot kept)
+{
+  Spectral_rings& rings = m_fields.rings;
+  for(std::size_t i = 0; i < rings[kept].size(); ++i) {
+    const Spectral_slot w = rings[kept][i].vertex;
+    rings.follow(removed, kept, i);
+    m_candidates.forget(w, removed);
+  }
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot kept)
+{
+  const std::size_t n = m_fields.rings[kept].size() + 1;
+  for(std::size_t i = 0; i < n; ++i)
+    m_total.add(-m_fields.E[kept_or_neighbor(kept, i)]);
+  m_pool->for_each(n, 1, [this, kept](const std::size_t i, Workspace& workspace) {
+    update_row(kept_or_neighbor(kept, i), workspace.row);
+  });
+  for(std::size_t i = 0; i < n; ++i)
+    m_total.add(m_fields.E[kept_or_neighbor(kept, i)]);
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_slot
+Spectral_collapse_core::kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const
+{
+  return i == 0 ? kept : m_fields.rings[kept][i - 1].vertex;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() const
+{
+  return m_parameters.placement == Spectral_placement_strategy::on_edge && !m_parameters.exact_costs
+             ? m_recent_cost
+             : std::numeric_limits<double>::infinity();
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_edges_of(const Spectral_slot u,
+                                                                             const double bound,
+                                                                             Spectral_collapse_kernel& kernel)
+{
+  m_candidates.reserve(u, m_fields.rings.number_above(u));
+  for(const Spectral_ring_entry& e : m_fields.rings[u])
+    if(u < e.vertex)
+      m_candidates.insert(u, evaluate_for_queue(u, e.vertex, kernel, bound));
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)
+{
+  m_batch.clear();
+  m_marks.resize(m_fields.points.size(), 0);
+  ++m_mark;
+  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
+    m_marks[neighbor.vertex] = m_mark;
+  // An edge between two neighbours is in both of their rings.
+  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
+    for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex]) {
+      const bool inner = m_marks[e.vertex] == m_mark;
+      if(inner && e.vertex < neighbor.vertex)
+        continue;
+      const Spectral_slot u = (std::min)(neighbor.vertex, e.vertex),
+                          v = (std::max)(neighbor.vertex, e.vertex);
+      const std::size_t place = m_candidates.place(u, v);
+      const double factor = inner ? inner_deferral_factor : outer_deferral_factor;
+      if(m_parameters.exact_costs || e.vertex == kept ||
+         !m_candidates.defer(u, place, factor * m_recent_cost))
+        m_batch.push_back(Edge{u, v, place});
+    }
+}
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H

@@ -1,0 +1,145 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
+
+#include <CGAL/Spectral_geometry/internal/parallel/Aligned_buffer.h>
+#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+using Spectral_geometry::internal::Aligned_buffer;
+using Spectral_geometry::internal::cache_line;
+
+/// The rows of F, Z and R are padded with zeros to a multiple of this.
+constexpr std::size_t spectral_padding = cache_line / sizeof(double);
+
+/// A matrix whose rows begin with a cache line each.
+class Spectral_rows
+{
+public:
+  /// All zero; `length` before padding.
+  void assign(const Eigen::Index rows, const Eigen::Index length)
+  {
+    constexpr Eigen::Index multiple = spectral_padding;
+    m_rows = rows;
+    m_cols = (length + multiple - 1) / multiple * multiple;
+    m_numbers.assign(std::size_t(m_rows * m_cols));
+  }
+
+  void assign(const Eigen::MatrixXd& matrix)
+  {
+    assign(matrix.rows(), matrix.cols());
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    Eigen::Map<Rows>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
+  }
+
+  bool empty() const { return m_rows == 0 || m_cols == 0; }
+  Eigen::Index cols() const { return m_cols; }
+  const double* data() const { return m_numbers.data(); }
+  double* data() { return m_numbers.data(); }
+
+  const double* operator[](const std::size_t i) const { return data() + i * std::size_t(m_cols); }
+  double* operator[](const std::size_t i) { return data() + i * std::size_t(m_cols); }
+  Eigen::Map<const Eigen::RowVectorXd> row(const std::size_t i) const { return {(*this)[i], m_cols}; }
+  Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
+
+private:
+  Aligned_buffer m_numbers;
+  Eigen::Index m_rows = 0, m_cols = 0;
+};
+
+/*!
+ * The current mesh and what lives on it, in slots: for each slot w the rows f_w, z_w and
+ * R_w = (B Z)_w - (L F)_w, the mass M_w and E_w = |R_w|^2 / M_w (Eq. 2, decomposed by vertex).
+ * Areas and masses are those of the input scaled to unit area.
+ */
+struct Spectral_fields
+{
+  Spectral_rows F;      ///< n x padded K
+  Spectral_rows Z;      ///< the same, or empty where Z = F Lambda
+  Spectral_rows lambda; ///< 1 x padded K, read where Z is empty
+  Spectral_rows R;      ///< n x padded K
+  Eigen::VectorXd mass; ///< lumped M_w
+  Eigen::VectorXd E;    ///< E_w
+  std::vector<Eigen::Vector3d> points;
+  Spectral_rings rings;
+  double theta = 0;     ///< B = (1 - theta) M_lumped + theta M_consistent
+  bool voronoi = false; ///< M_lumped has mixed Voronoi areas
+  /// of the operator, merged as f_w is; empty for the cotangent Laplacian
+  std::vector<Spectral_geometry::internal::Point_coefficients> coefficients;
+  /// Whether functions vanish there, on the border: its row is not in E. Empty: nowhere.
+  std::vector<char> vanishing;
+  double conductivity = 1; ///< their mean on the input: the unit of cotangents
+  double area_scale = 1;   ///< 1 / area of the input, weighted by the density
+  /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed, until its turn comes, for whatever else
+  /// may become of it changes all of its triangles.
+  std::size_t largest_degree_of_others = 256;
+
+  bool is_hub(const Spectral_slot s) const { return rings[s].size() > largest_degree_of_others; }
+
+  /// The triangle (c; a, b), weighted by the coefficients.
+  Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
+  {
+    if(coefficients.empty())
+      return spectral_triangle(points[c], points[a], points[b]);
+    const Spectral_geometry::internal::Point_coefficients mean =
+        (coefficients[c] + coefficients[a] + coefficients[b]) / 3;
+    return spectral_triangle(points[c], points[a], points[b], &mean);
+  }
+
+  bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }
+
+  /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is divided equally.
+  double area_of_center(const Spectral_triangle& t) const
+  {
+    return voronoi
+               ? 3 * t.area *
+                     Spectral_geometry::internal::mixed_voronoi_share(t.cot_center, t.cot_first, t.cot_second)
+               : t.area;
+  }
+
+  // Shares of a triangle's area: row sums of B stay A / 3 per corner.
+  double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
+  double off_diagonal_share() const { return theta / 12; }
+
+  bool has_z_rows() const { return !Z.empty(); }
+  const double* r_row(const Spectral_slot s) const { return R[s]; }
+};
+
+/// The part of `Spectral_options` that the cost of a candidate depends on.
+struct Spectral_cost_parameters
+{
+  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
+  bool binary = false;
+  bool preserve_border = false;
+  bool single_precision_points = false; ///< the mesh stores its points as float
+  bool keep_free_of_self_intersections = false;
+  bool exact_costs = false;  ///< see `Spectral_options::exact_costs`
+  double shape = 0;          ///< see `Spectral_options::shape`
+  double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
+  double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
+  int threads = 1;
+  std::size_t largest_degree_of_others = Spectral_fields().largest_degree_of_others;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H

@@ -1,0 +1,296 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/// The shape term and what it weighs beside E; `term` is null where there is none.
+struct Spectral_weighted_shape
+{
+  const Spectral_shape_term* term = nullptr;
+  double weight = 0;
+  double largest_loss = 0; ///< of E, for each unit of mass at the ends of an edge
+};
+
+/*!
+ * The placement of a candidate (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
+ * the state and changes nothing; the kernel has been prepared for the edge.
+ */
+class Spectral_placement_search
+{
+public:
+  /// `kept`: one flag for each slot of the vertices that survive with their position and their row of P, or nothing.
+  Spectral_placement_search(const Spectral_fields& fields, const Spectral_cost_parameters& parameters,
+                            const std::vector<char>& kept, const Spectral_weighted_shape& shape)
+    : m_fields(&fields)
+    , m_parameters(&parameters)
+    , m_kept(&kept)
+    , m_shape(shape)
+  {}
+
+  /// Fills the costs of up to four samples: the change of E and, where there is a shape term, that of the weighted term. Then
+  /// no change of E counts for more than `largest_loss` times what the signals have at both ends: beside needles E is
+  /// larger than that by orders of magnitude, and a few folds of the input (eyes, nostrils) would never be collapsed.
+  void evaluate(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
+                Spectral_sample* samples, const int count) const
+  {
+    kernel.evaluate(samples, count);
+    if(m_shape.term == nullptr)
+      return;
+    const double largest = m_shape.largest_loss * (m_fields->mass[u] + m_fields->mass[v]);
+    for(int s = 0; s < count; ++s)
+      if(std::isfinite(samples[s].cost))
+        samples[s].cost = (std::min)(samples[s].cost, largest) +
+                          m_shape.weight * m_shape.term->change(m_fields->points, u, v, samples[s].point);
+  }
+
+  bool is_kept(const Spectral_slot s) const { return !m_kept->empty() && (*m_kept)[s] != 0; }
+
+  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
+  /// an edge without length; all of it on an end that is to be kept.
+  double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  {
+    return rounded(u, v, projected_edge_weight(m_fields->points[u], m_fields->points[v], point));
+  }
+
+  /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
+  /// there. Where all three samples cost more than `bound`, the best of them.
+  Spectral_sample best(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
+                       const double bound) const
+  {
+    Spectral_sample samples[3];
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(fixed.u && fixed.v)
+      return Spectral_sample(); // of infinite cost
+    if(fixed.u || fixed.v) {
+      samples[0] = sample_at(u, v, fixed.v ? 1. : 0.);
+      evaluate(u, v, kernel, samples, 1);
+      return samples[0];
+    }
+    if(m_parameters->placement == Spectral_placement_strategy::midpoint) {
+      samples[0] = sample_at(u, v, 0.5);
+      evaluate(u, v, kernel, samples, 1);
+      return samples[0];
+    }
+    const bool free = m_parameters->placement == Spectral_placement_strategy::free && !fixed.on_border;
+    if(free && m_shape.term != nullptr)
+      return best_by_shape(u, v, kernel);
+    for(int s = 0; s < 3; ++s)
+      samples[s] = sample_at(u, v, s / 2.);
+    evaluate(u, v, kernel, samples, 3);
+    Spectral_sample best = *cheapest(samples, 3);
+    if(best.cost > bound)
+      return best;
+
+    // p(alpha) = c0 + b alpha + a alpha^2
+    const double a = 2 * (samples[0].cost - 2 * samples[1].cost + samples[2].cost);
+    const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
+    const double alpha = -b / (2 * a);
+    if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
+      Spectral_sample minimiser = sample_at(u, v, alpha);
+      evaluate(u, v, kernel, &minimiser, 1);
+      if(minimiser.cost < best.cost)
+        best = minimiser;
+    }
+    if(free)
+      return best_free_sample(u, v, samples, best, kernel);
+    return best;
+  }
+
+  /// The end of more neighbours stays where it is, which nearly always costs least at a hub. Infinite cost elsewhere.
+  Spectral_sample at_large_end(const Spectral_slot u, const Spectral_slot v,
+                               Spectral_collapse_kernel& kernel) const
+  {
+    Spectral_sample sample;
+    if((!m_fields->is_hub(u) && !m_fields->is_hub(v)) ||
+       m_parameters->placement == Spectral_placement_strategy::midpoint)
+      return sample;
+    const bool more_at_u = m_fields->rings[u].size() >= m_fields->rings[v].size();
+    const Fixed_ends fixed = fixed_ends(u, v);
+    if(more_at_u ? fixed.v : fixed.u)
+      return sample;
+    sample = sample_at(u, v, more_at_u ? 0. : 1.);
+    evaluate(u, v, kernel, &sample, 1);
+    return sample;
+  }
+
+  /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true.
+  template <class Allowed>
+  Spectral_sample best_on_edge(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
+                               const Allowed& allowed) const
+  {
+    const Fixed_ends fixed = fixed_ends(u, v);
+    Spectral_sample samples[3];
+    int count = 0;
+    for(int s = 0; s < 3; ++s)
+      if((!fixed.u || s == 0) && (!fixed.v || s == 2))
+        samples[count++] = sample_at(u, v, s / 2.);
+    if(count == 0)
+      return Spectral_sample(); // of infinite cost
+    evaluate(u, v, kernel, samples, count);
+    for(; count > 0; --count) {
+      Spectral_sample* const best = cheapest(samples, count);
+      if(std::isfinite(best->cost) && allowed(best->point))
+        return *best;
+      *best = samples[count - 1];
+    }
+    return Spectral_sample();
+  }
+
+private:
+  static Spectral_sample* cheapest(Spectral_sample* samples, const int count)
+  {
+    return std::min_element(samples, samples + count,
+                            [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  }
+
+  double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    if(is_kept(u) || is_kept(v))
+      return is_kept(u) ? 0. : 1.;
+    if(m_fields->vanishes_at(u) != m_fields->vanishes_at(v))
+      return m_fields->vanishes_at(u) ? 0. : 1.;
+    if(!m_parameters->binary)
+      return alpha;
+    if(alpha != 0.5)
+      return alpha < 0.5 ? 0. : 1.;
+    if(m_fields->mass[u] != m_fields->mass[v])
+      return m_fields->mass[u] > m_fields->mass[v] ? 0. : 1.;
+    return u < v ? 0. : 1.;
+  }
+
+  Spectral_sample sample_at(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  {
+    Spectral_sample s;
+    const Eigen::Vector3d &pu = m_fields->points[u], &pv = m_fields->points[v];
+    s.point = alpha == 0 ? pu : alpha == 1 ? pv : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
+    if(m_parameters->single_precision_points)
+      s.point = s.point.cast<float>().cast<double>();
+    s.weight = rounded(u, v, alpha);
+    return s;
+  }
+
+  // The sum of the normals around both ends, weighted by area.
+  Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    for(const Spectral_slot c : {u, v})
+      m_fields->rings.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
+        normal +=
+            (m_fields->points[a] - m_fields->points[c]).cross(m_fields->points[b] - m_fields->points[c]);
+      });
+    return normal;
+  }
+
+  Spectral_sample sample_off_edge(const Spectral_slot u, const Spectral_slot v, Eigen::Vector3d point) const
+  {
+    Spectral_sample s;
+    if(m_parameters->single_precision_points)
+      point = point.cast<float>().cast<double>();
+    s.point = point;
+    s.weight = projected_weight(u, v, point);
+    return s;
+  }
+
+  // Free placement with a shape term: its minimiser, or what is cheaper of the ends and the middle, which the kernel evaluates
+  // at the same time. Where E has its least hardly matters then: ten samples around the edge and their quadric lower
+  // |C|_L by 3 % and take twice as long (twelve meshes).
+  Spectral_sample best_by_shape(const Spectral_slot u, const Spectral_slot v,
+                                Spectral_collapse_kernel& kernel) const
+  {
+    const Eigen::Vector3d &pu = m_fields->points[u], &pv = m_fields->points[v];
+    const Eigen::Vector3d middle = (pu + pv) / 2;
+    const double radius = (pv - pu).norm();
+    Eigen::Vector3d x = m_shape.term->minimiser(u, v);
+    const double distance = (x - middle).norm();
+    if(distance > radius)
+      x = middle + radius / distance * (x - middle);
+    constexpr int n = Spectral_collapse_kernel::max_samples;
+    Spectral_sample samples[n] = {sample_at(u, v, 0), sample_at(u, v, 0.5), sample_at(u, v, 1),
+                                  sample_off_edge(u, v, x.allFinite() ? x : middle)};
+    evaluate(u, v, kernel, samples, n);
+    return *cheapest(samples, n);
+  }
+
+  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
+  // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
+  Spectral_sample best_free_sample(const Spectral_slot u, const Spectral_slot v,
+                                   const Spectral_sample* on_edge, Spectral_sample best,
+                                   Spectral_collapse_kernel& kernel) const
+  {
+    using Quadric = Spectral_placement_quadric;
+    Quadric quadric;
+    if(!quadric.set_frame(m_fields->points[u], m_fields->points[v], normal_at_edge(u, v)))
+      return best;
+    constexpr int n = Quadric::number_of_samples, first = Quadric::number_on_edge;
+    Spectral_sample samples[n];
+    double costs[n];
+    std::copy(on_edge, on_edge + first, samples);
+    for(int i = first; i < n; ++i)
+      samples[i] = sample_off_edge(u, v, quadric.point(i));
+    for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
+      evaluate(u, v, kernel, samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
+    for(int i = 0; i < n; ++i) {
+      costs[i] = samples[i].cost;
+      if(costs[i] < best.cost)
+        best = samples[i];
+    }
+    if(!quadric.fit(costs))
+      return best;
+    Spectral_sample minimiser = sample_off_edge(u, v, quadric.minimiser());
+    evaluate(u, v, kernel, &minimiser, 1);
+    return minimiser.cost < best.cost ? minimiser : best;
+  }
+
+  struct Fixed_ends
+  {
+    bool u, v;
+    bool on_border; // the whole edge is the border, which is to be preserved
+  };
+
+  // The ends that the merged vertex must lie on.
+  Fixed_ends fixed_ends(const Spectral_slot u, const Spectral_slot v) const
+  {
+    Fixed_ends fixed{is_kept(u), is_kept(v), false};
+    if(m_parameters->preserve_border) {
+      // Functions go on to vanish where the border of a hole was, when it has closed.
+      const bool border_u = m_fields->rings.is_border(u) || m_fields->vanishes_at(u),
+                 border_v = m_fields->rings.is_border(v) || m_fields->vanishes_at(v);
+      fixed.on_border = border_u && border_v;
+      fixed.u = fixed.u || (border_u && !border_v);
+      fixed.v = fixed.v || (border_v && !border_u);
+    }
+    return fixed;
+  }
+
+  const Spectral_fields* m_fields;
+  const Spectral_cost_parameters* m_parameters;
+  const std::vector<char>* m_kept;
+  Spectral_weighted_shape m_shape;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H

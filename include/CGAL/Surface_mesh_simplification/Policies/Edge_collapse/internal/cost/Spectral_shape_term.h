@@ -1,0 +1,98 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_SHAPE_TERM_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_SHAPE_TERM_H
+
+#include <CGAL/license/Surface_mesh_simplification.h>
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_simplification {
+namespace internal {
+
+/*!
+ * The shape term of the cost: for each slot w the quadric
+ * \f[ Q_w(x) = \sum_f |f| \left( (n_f \cdot (x - p))^2 + \sigma^2 |x - p|^2 \right) \f]
+ * over the faces f around each input vertex p that was merged into w, and as much for each border edge with the plane
+ * through it at right angles to its face, weighted by ten times its squared length. A collapse of (u,v) to x costs
+ * \f$ Q_u(x) + Q_v(x) - Q_u(p_u) - Q_v(p_v) \f$, for the input scaled to unit area.
+ *
+ * The first part keeps the surface. The second is the energy of a centroidal Voronoi tessellation: it spreads vertices
+ * evenly. Weights are areas, so that the resolution of the input does not matter.
+ *
+ * Before set_geometry() it is empty and costs nothing. Reads may run on several threads.
+ */
+class Spectral_shape_term
+{
+public:
+  bool is_empty() const { return m_quadrics.empty(); }
+
+  /// The planes of a mesh as its rings have it, unless those of an earlier state are there: merged vertices keep theirs.
+  void set_geometry(const std::vector<Eigen::Vector3d>& points, const Spectral_rings& rings,
+                    const double area_scale)
+  {
+    if(!is_empty() || points.empty())
+      return;
+    m_origin = points.front();
+    m_scale = area_scale * area_scale;
+    m_quadrics.resize(points.size());
+    for(std::size_t w = 0; w < points.size(); ++w)
+      add_ring(points, rings[Spectral_slot(w)], Spectral_slot(w));
+  }
+
+  /// What a collapse of (u,v) to x adds.
+  double change(const std::vector<Eigen::Vector3d>& points, const Spectral_slot u, const Spectral_slot v,
+                const Eigen::Vector3d& x) const
+  {
+    const Spectral_quadric &at_u = m_quadrics[u], &at_v = m_quadrics[v];
+    const Eigen::Vector3d y = x - m_origin;
+    return m_scale * (at_u(y) + at_v(y) - at_u(points[u] - m_origin) - at_v(points[v] - m_origin));
+  }
+
+  /// The x of least cost. Unique: the variance makes the sum positive definite unless the faces have no area.
+  Eigen::Vector3d minimiser(const Spectral_slot u, const Spectral_slot v) const
+  {
+    return m_origin + (m_quadrics[u] + m_quadrics[v]).minimiser();
+  }
+
+  /// Follows the collapse of `removed` into `kept`.
+  void merge(const Spectral_slot removed, const Spectral_slot kept)
+  {
+    if(!is_empty())
+      m_quadrics[kept] += m_quadrics[removed];
+  }
+
+private:
+  // Angles and lengths are taken from the vertex itself: far from the origin nothing is lost.
+  void add_ring(const std::vector<Eigen::Vector3d>& points, const Spectral_ring& ring, const Spectral_slot w)
+  {
+    const Eigen::Vector3d p = points[w] - m_origin;
+    for(std::size_t i = 0; i < ring.size(); ++i) {
+      if(!ring[i].face)
+        continue;
+      const std::size_t before = Spectral_rings::prev(ring, i), after = Spectral_rings::next(ring, i);
+      m_quadrics[w].add_corner(p, points[ring[i].vertex] - points[w], !ring[before].face,
+                               points[ring[after].vertex] - points[w], !ring[after].face);
+    }
+  }
+
+  Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
+  double m_scale = 1;
+  std::vector<Spectral_quadric> m_quadrics;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_simplification
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_SHAPE_TERM_H
