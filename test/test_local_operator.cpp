@@ -14,7 +14,6 @@
 #include <CGAL/Spectral_geometry/internal/operators/border.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
-#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
 
 #include <Eigen/Dense>
 
@@ -507,7 +506,7 @@ TEST_CASE("Energies of relocation and flips with an operator are those of its ma
       SG::restriction_energy(SG::laplace_operator(s->coarse.V, s->coarse.T, local), P, s->F(), s->Z());
   SG::Relocation_energy energy(s->coarse.T, F, Z, local);
   CHECK(relative_difference(energy.value(s->coarse.V), slow) < 1e-10);
-  SG::Smoothed_relocation_energy smoothed(s->coarse.T, F, Z, local, 0.01, 0.3);
+  SG::Relocation_energy smoothed(s->coarse.T, F, Z, local, 0.01, 0.3);
   CHECK(relative_difference((smoothed.value(s->coarse.V), smoothed.plain_part()), slow) < 1e-9);
 
   using Positions = SG::Relocation_energy::Positions;

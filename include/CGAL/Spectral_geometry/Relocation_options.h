@@ -38,7 +38,7 @@ struct Relocation_options
   };
   Signals signals = Signals::sampled; ///< the choice among them
 
-  /// tau lambda_K of `Smoothed_relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
+  /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
   /// times faster).
   double smoothing = 1;
   /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies in modes that the norms

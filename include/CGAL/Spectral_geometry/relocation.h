@@ -25,7 +25,7 @@ moves the vertices of a coarse mesh so that its Laplace-Beltrami operator agrees
 which triangles there are, and the restriction, stay.
 
 It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) that the functional map sees,
-see `Smoothed_relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle
+see `Relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle
 is inverted or degenerates, no new self-intersection, total area and volume and the eigenvalues beyond K are kept, no
 vertex leaves the place its signals were taken from, boundary vertices stay on the boundary. The mesh may come from anywhere: from an edge
 collapse with the restriction it carried, or from a remesher with `closest_point_interpolation()`.

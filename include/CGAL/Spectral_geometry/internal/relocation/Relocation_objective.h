@@ -8,14 +8,12 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
 #include <CGAL/Spectral_geometry/internal/operators/border.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
-#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace CGAL {
 namespace Spectral_geometry {
@@ -126,7 +124,7 @@ private:
   Range m_area, m_volume;
 };
 
-/// What the descent sees: the smoothed energy, or E alone, and the penalties on the size and on the spectrum.
+/// What the descent sees: S, and the penalties on the size and on the spectrum.
 class Relocation_objective
 {
 public:
@@ -137,23 +135,16 @@ public:
                        Position_dependent_signals* sampled, const bool carried, const double tau,
                        const double plain, const double beyond)
     : m_E(T, F, Z, op)
+    , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
+          tau > 0 ? 0. : 1., sampled)
     , m_size(size)
     , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
   {
-    // Without smoothing the plain metric is all there is; a tau of next to nothing leaves a multiple of it.
-    if(tau > 0 || sampled) {
-      // In the unit of 1 / lambda: density and area over conductivity.
-      const Operator_coefficients& c = op.coefficients;
-      const double density = c.rows() == 0 ? 1. : c.col(0).mean();
-      const double smallest = 1e-6 * density / mean_conductivity(c) * size.area() / double(F.rows());
-      const Eigen::Index columns = carried ? F.cols() : 0;
-      m_smoothed = std::make_unique<Smoothed_relocation_energy>(T, F.leftCols(columns), Z.leftCols(columns),
-                                                                op, (std::max)(tau, smallest), 0., sampled);
-      m_smoothed->value(start);
-      if(m_smoothed->plain_part() > 0)
-        m_smoothed->set_mu(plain * m_smoothed->smoothed_part() / m_smoothed->plain_part());
+    m_scale = m_S.value(start);
+    if(tau > 0 && m_S.plain_part() > 0) {
+      m_S.set_mu(plain * m_S.smoothed_part() / m_S.plain_part());
+      m_scale = m_S.value(start);
     }
-    m_scale = m_smoothed ? m_smoothed->value(start) : E(start);
   }
 
   /// Brings what changes slowly up to date; true if that changes the values.
@@ -163,26 +154,20 @@ public:
     return m_spectrum.is_active();
   }
 
-  void set_threads(const int threads)
-  {
-    if(m_smoothed)
-      m_smoothed->set_threads(threads);
-  }
+  void set_threads(const int threads) { m_S.set_threads(threads); }
 
   double E(const Positions& V) { return m_E.value(V); }
 
   double value_and_gradient(const Positions& V, Positions& gradient)
   {
-    const double value =
-        m_smoothed ? m_smoothed->value_and_gradient(V, gradient) : m_E.value_and_gradient(V, gradient);
+    const double value = m_S.value_and_gradient(V, gradient);
     if(!std::isfinite(value))
       return value;
     return value + m_size.penalty(V, m_scale, gradient) + m_spectrum.penalty(V, m_scale, gradient);
   }
 
 private:
-  Relocation_energy m_E;
-  std::unique_ptr<Smoothed_relocation_energy> m_smoothed;
+  Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
   Spectrum_guard m_spectrum;
   double m_scale = 1;

@@ -8,7 +8,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
-#include <CGAL/Spectral_geometry/smoothed_relocation_energy.h>
+#include <CGAL/Spectral_geometry/relocation_energy.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
