@@ -180,6 +180,35 @@ TEST_CASE("Nearest rows are those of a search through all of them")
   CHECK_THROWS_AS(SG::nearest_rows(points, queries, 0), std::invalid_argument);
 }
 
+TEST_CASE(
+    "Nearest rows in many dimensions: the first of those that are equally near, whatever was found before")
+{
+  // A curve, as eigenvectors of low frequency embed it, in noise; every point twice.
+  const Index n = 700, dimension = 60;
+  Eigen::MatrixXd points = 0.02 * random_matrix(2 * n, dimension, 8), queries;
+  for(Index i = 0; i < 2 * n; ++i)
+    for(Index k = 0; k < dimension; ++k)
+      points(i, k) += std::cos(double(k + 1) * double(i % n) / double(n));
+  points.bottomRows(n) = points.topRows(n);
+  queries = points + 0.05 * random_matrix(2 * n, dimension, 9);
+  queries.topRows(100) = points.bottomRows(100); // without any distance
+  const Map found = SG::nearest_rows(points, queries);
+  for(Index i = 0; i < queries.rows(); ++i) {
+    Index first;
+    (points.rowwise() - queries.row(i)).rowwise().squaredNorm().minCoeff(&first);
+    CHECK(found[static_cast<std::size_t>(i)] == first);
+  }
+  const Map p = random_permutation(queries.rows(), 10);
+  Eigen::MatrixXd shuffled(queries.rows(), dimension);
+  for(Index i = 0; i < queries.rows(); ++i)
+    shuffled.row(i) = queries.row(p[static_cast<std::size_t>(i)]);
+  const Map again = SG::nearest_rows(points, shuffled, 2);
+  for(std::size_t i = 0; i < p.size(); ++i)
+    CHECK(again[i] == found[static_cast<std::size_t>(p[i])]);
+  const Eigen::MatrixXd one_place = Eigen::MatrixXd::Ones(40, 3);
+  CHECK(SG::nearest_rows(one_place, one_place) == Map(40, 0));
+}
+
 TEST_CASE("A permutation goes through its functional map and back")
 {
   const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
@@ -219,6 +248,18 @@ TEST_CASE("Points of faces are closer than vertices")
   const Eigen::MatrixXd from_X = C.transpose();
   const auto points = SG::target_to_source_points(from_X, x.pairs.vectors, x.T, y.pairs.vectors);
   const Map vertices = SG::target_to_source_map(from_X, x.pairs.vectors, y.pairs.vectors);
+  // No point of the face, and no vertex, is closer to the query: the way there begins with a step that does not come closer.
+  const Eigen::MatrixXd embedded = x.pairs.vectors * from_X.transpose(),
+                        nearest = points * embedded - y.pairs.vectors;
+  for(Index i = 0; i < Y.V.rows(); ++i) {
+    const Eigen::VectorXd away = nearest.row(i), from = nearest.row(i) + y.pairs.vectors.row(i);
+    for(Index v = 0; v < points.cols(); ++v)
+      if(points.coeff(i, v) != 0)
+        CHECK(std::abs((embedded.row(v).transpose() - from).dot(away)) <
+              1e-10 * embedded.row(v).squaredNorm());
+    CHECK(away.squaredNorm() <=
+          (embedded.rowwise() - y.pairs.vectors.row(i)).rowwise().squaredNorm().minCoeff() * (1 + 1e-12));
+  }
   double of_points = 0, of_vertices = 0;
   const Eigen::MatrixXd placed = points * X.V;
   for(Index i = 0; i < Y.V.rows(); ++i) {
