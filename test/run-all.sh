@@ -28,7 +28,7 @@ install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev 
 prefer_ninja "$build"
 # CMAKE_ARGS is split into words on purpose.
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSPECTRAL_BUILD_TESTS=ON -DSPECTRAL_BUILD_EXAMPLES=ON \
-  -DSPECTRAL_UNITY_BUILD=ON ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
+  -DSPECTRAL_QUICK_BUILD=ON ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
 cmake --build "$build" -j "$jobs" || stop "The tests were not run: the build failed."
 
 log=$build/ctest.log
