@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_MATCHING_ELASTIC_SURFACE_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -24,8 +26,9 @@
 class Elastic_surface
 {
 public:
-  explicit Elastic_surface(CGAL::Spectral_geometry::Mesh_matrices rest)
+  Elastic_surface(CGAL::Spectral_geometry::Mesh_matrices rest, const int threads)
     : m_rest(std::move(rest))
+    , m_threads(threads)
     , m_rotations(static_cast<std::size_t>(m_rest.V.rows()), Eigen::Matrix3d::Identity())
     , m_weights(m_rest.V.rows(), m_rest.V.rows())
   {
@@ -48,14 +51,17 @@ public:
   const CGAL::Spectral_geometry::Mesh_matrices& rest() const { return m_rest; }
   const std::vector<Eigen::Matrix3d>& rotations() const { return m_rotations; }
 
-  // The smooth points near to `targets`, one column per vertex: solves (A + L) P = A targets with A of these weights.
-  Eigen::MatrixXd smoothed(const Eigen::MatrixXd& targets, const Eigen::VectorXd& weights) const
+  // Takes targets, one column per vertex, to the smooth points near to them: solves (A + L) P = A targets with A of these weights.
+  auto smoothing(const Eigen::VectorXd& weights) const
   {
     const Eigen::VectorXd sums = m_weights * Eigen::VectorXd::Ones(m_weights.cols());
     const Eigen::SparseMatrix<double> diagonal((sums + weights).asDiagonal());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(diagonal - m_weights);
-    const Eigen::MatrixXd right = weights.asDiagonal() * targets.transpose();
-    return Eigen::MatrixXd(solver.solve(right)).transpose();
+    const auto solver =
+        std::make_shared<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>(diagonal - m_weights);
+    return [solver, weights](const Eigen::MatrixXd& targets) {
+      const Eigen::MatrixXd right = weights.asDiagonal() * targets.transpose();
+      return Eigen::MatrixXd(Eigen::MatrixXd(solver->solve(right)).transpose());
+    };
   }
 
   // The rotation of each vertex that takes its edges at rest nearest to those of P, one column per vertex, and with `likeness` also to
@@ -101,20 +107,31 @@ public:
     }
     Eigen::SparseMatrix<double> A(3 * n, 3 * n);
     A.setFromTriplets(entries.begin(), entries.end());
-    if(m_solver.rows() == 0)
-      m_solver.analyzePattern(A);
-    m_solver.factorize(A);
-    const Eigen::VectorXd p = m_solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()));
-    if(m_solver.info() != Eigen::Success || !p.allFinite())
-      throw std::runtime_error("a mesh cannot be bent, its coordinates span too many magnitudes: repair it.");
+    constexpr const char* refusal =
+        "a mesh cannot be bent, its coordinates span too many magnitudes: repair it.";
+    try {
+      if(m_factor)
+        m_factor->factorise(A, m_threads);
+      else
+        m_factor = std::make_unique<Factor>(A, m_threads);
+    } catch(const CGAL::Spectral_geometry::internal::Not_positive_definite&) {
+      throw std::runtime_error(refusal);
+    }
+    const Eigen::VectorXd p =
+        m_factor->solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()), m_threads);
+    if(!p.allFinite())
+      throw std::runtime_error(refusal);
     return Eigen::Map<const Eigen::MatrixXd>(p.data(), 3, n);
   }
 
 private:
+  using Factor = CGAL::Spectral_geometry::internal::Supernodal_factor;
+
   CGAL::Spectral_geometry::Mesh_matrices m_rest;
+  int m_threads;
   std::vector<Eigen::Matrix3d> m_rotations;
   Eigen::SparseMatrix<double> m_weights;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> m_solver;
+  std::unique_ptr<Factor> m_factor;
 };
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_ELASTIC_SURFACE_H

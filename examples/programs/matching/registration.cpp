@@ -294,7 +294,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   // where their images do.
   constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10;
   constexpr int first_iterations = 20, second_iterations = 10;
-  Elastic_surface elastic(m_X.control);
+  Elastic_surface elastic(m_X.control, m_threads);
   const Eigen::Index n = m_X.control.V.rows();
   constexpr int settling_iterations = 8;
   std::vector<Eigen::Index> images =
@@ -303,16 +303,16 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   Eigen::MatrixXd targets(3, n);
   for(Eigen::Index i = 0; i < n; ++i)
     targets.col(i) = m_Y.V.col(images[static_cast<std::size_t>(i)]);
-  const Eigen::VectorXd smoothing = m_X.areas / smoothing_time,
-                        first_stiffnesses = first_stiffness * m_X.areas;
-  const Eigen::MatrixXd smooth_targets = elastic.smoothed(targets, smoothing);
+  const Eigen::VectorXd first_stiffnesses = first_stiffness * m_X.areas;
+  const auto smoothed = elastic.smoothing(m_X.areas / smoothing_time);
+  const Eigen::MatrixXd smooth_targets = smoothed(targets);
   Eigen::MatrixXd P = smooth_targets;
   Springs springs(n);
   for(Eigen::Index i = 0; i < n; ++i)
     springs.D[static_cast<std::size_t>(i)] = first_stiffnesses(i) * Eigen::Matrix3d::Identity();
   for(int iteration = 0; iteration < first_iterations; ++iteration) {
     elastic.fit_rotations(P, likeness);
-    springs.f = (smooth_targets + P - elastic.smoothed(P, smoothing)) * first_stiffnesses.asDiagonal();
+    springs.f = (smooth_targets + P - smoothed(P)) * first_stiffnesses.asDiagonal();
     P = elastic.solve(springs.D, springs.f);
   }
   for(int iteration = 0; iteration < second_iterations; ++iteration) {
