@@ -141,8 +141,7 @@ Texture_point Texture_seams::closest(const Kernel::Point_3& query, std::vector<M
     Eigen::Matrix3d triangle;
     for(int j = 0; j < 3; ++j)
       triangle.col(j) = vector(m_mesh.point(m_mesh.target(sides[std::size_t(j)])));
-    const auto point =
-        CGAL::Spectral_geometry::internal::closest_point_of_triangle(vector(query), triangle);
+    const auto point = CGAL::Spectral_geometry::internal::closest_point_of_triangle(vector(query), triangle);
     if(point.squared_distance < least) {
       least = point.squared_distance;
       for(std::size_t k = 0; k < 2; ++k) {

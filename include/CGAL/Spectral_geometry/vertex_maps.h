@@ -32,7 +32,8 @@ namespace Spectral_geometry {
 /*!
 returns for each row of `queries` the index of the row of `points` that is nearest to it in the Euclidean norm.
 
-Exact, by CGAL's k-d tree. Fast where the points lie on something of low dimension, as embeddings of surfaces do.
+Exact, the first of those that are equally near. Fast where the leading columns tell most points apart, as those of embeddings by
+eigenvectors do, and where queries come in an order in which one is near to the next.
 
 @param points n x d, n and d positive, finite
 @param queries m x d, finite
