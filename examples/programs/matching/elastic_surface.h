@@ -6,7 +6,6 @@
 #define SPECTRAL_EXAMPLES_MATCHING_ELASTIC_SURFACE_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -26,9 +25,8 @@
 class Elastic_surface
 {
 public:
-  Elastic_surface(CGAL::Spectral_geometry::Mesh_matrices rest, const int threads)
+  explicit Elastic_surface(CGAL::Spectral_geometry::Mesh_matrices rest)
     : m_rest(std::move(rest))
-    , m_threads(threads)
     , m_rotations(static_cast<std::size_t>(m_rest.V.rows()), Eigen::Matrix3d::Identity())
     , m_weights(m_rest.V.rows(), m_rest.V.rows())
   {
@@ -107,31 +105,20 @@ public:
     }
     Eigen::SparseMatrix<double> A(3 * n, 3 * n);
     A.setFromTriplets(entries.begin(), entries.end());
-    constexpr const char* refusal =
-        "a mesh cannot be bent, its coordinates span too many magnitudes: repair it.";
-    try {
-      if(m_factor)
-        m_factor->factorise(A, m_threads);
-      else
-        m_factor = std::make_unique<Factor>(A, m_threads);
-    } catch(const CGAL::Spectral_geometry::internal::Not_positive_definite&) {
-      throw std::runtime_error(refusal);
-    }
-    const Eigen::VectorXd p =
-        m_factor->solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()), m_threads);
-    if(!p.allFinite())
-      throw std::runtime_error(refusal);
+    if(m_solver.rows() == 0)
+      m_solver.analyzePattern(A);
+    m_solver.factorize(A);
+    const Eigen::VectorXd p = m_solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()));
+    if(m_solver.info() != Eigen::Success || !p.allFinite())
+      throw std::runtime_error("a mesh cannot be bent, its coordinates span too many magnitudes: repair it.");
     return Eigen::Map<const Eigen::MatrixXd>(p.data(), 3, n);
   }
 
 private:
-  using Factor = CGAL::Spectral_geometry::internal::Supernodal_factor;
-
   CGAL::Spectral_geometry::Mesh_matrices m_rest;
-  int m_threads;
   std::vector<Eigen::Matrix3d> m_rotations;
   Eigen::SparseMatrix<double> m_weights;
-  std::unique_ptr<Factor> m_factor;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> m_solver;
 };
 
 #endif // SPECTRAL_EXAMPLES_MATCHING_ELASTIC_SURFACE_H

@@ -294,7 +294,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   // where their images do.
   constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10;
   constexpr int first_iterations = 20, second_iterations = 10;
-  Elastic_surface elastic(m_X.control, m_threads);
+  Elastic_surface elastic(m_X.control);
   const Eigen::Index n = m_X.control.V.rows();
   constexpr int settling_iterations = 8;
   std::vector<Eigen::Index> images =
