@@ -11,7 +11,7 @@
 #include <CGAL/Spectral_geometry/edge_flips.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 

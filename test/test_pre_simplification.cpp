@@ -11,7 +11,7 @@
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include "catch.h"

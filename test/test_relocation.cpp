@@ -14,7 +14,7 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 

@@ -38,8 +38,7 @@ struct Relocation_options
   };
   Signals signals = Signals::sampled; ///< the choice among them
 
-  /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E (with signals carried, thirty
-  /// times faster).
+  /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E, half as much work.
   double smoothing = 1;
   /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies in modes that the norms
   /// do not see: a large weight costs them their gain, with none E may rise to a multiple.

@@ -53,27 +53,6 @@ std::vector<std::pair<int, int>> constrained_edges(const TriangleMesh& mesh, con
   return result;
 }
 
-/// The same for any local operator.
-template <class TriangleMesh, class NamedParameters>
-Spectral_geometry::Edge_flip_result
-flip_mesh_edges(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
-                const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
-                const Spectral_geometry::Edge_flip_options& options, const NamedParameters& np)
-{
-  Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
-  Spectral_geometry::Edge_flip_result result =
-      Spectral_geometry::flip_edges(coarse.V, coarse.T, P, F, Z, op, constrained_edges(mesh, np), options);
-  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles;
-  for(const auto v : vertices(mesh))
-    handles.push_back(v);
-  for(const Spectral_geometry::Edge_flip& flip : result.flips) {
-    const auto h = halfedge(handles[std::size_t(flip.from[0])], handles[std::size_t(flip.from[1])], mesh);
-    CGAL_assertion(h.second);
-    Euler::flip_edge(h.first, mesh);
-  }
-  return result;
-}
-
 } // namespace internal
 
 /*!
@@ -104,7 +83,18 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
                     const Spectral_geometry::Edge_flip_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
-  return internal::flip_mesh_edges(mesh, P, F, Z, op, options, np);
+  Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
+  Spectral_geometry::Edge_flip_result result = Spectral_geometry::flip_edges(
+      coarse.V, coarse.T, P, F, Z, op, internal::constrained_edges(mesh, np), options);
+  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles;
+  for(const auto v : vertices(mesh))
+    handles.push_back(v);
+  for(const Spectral_geometry::Edge_flip& flip : result.flips) {
+    const auto h = halfedge(handles[std::size_t(flip.from[0])], handles[std::size_t(flip.from[1])], mesh);
+    CGAL_assertion(h.second);
+    Euler::flip_edge(h.first, mesh);
+  }
+  return result;
 }
 
 /*!

@@ -8,7 +8,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/flips/Flip_connectivity.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 
 #include <Eigen/Core>
 

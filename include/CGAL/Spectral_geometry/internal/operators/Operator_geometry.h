@@ -7,7 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

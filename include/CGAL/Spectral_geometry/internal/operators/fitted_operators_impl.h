@@ -12,7 +12,7 @@
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Tall_products.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/operators/connected_components.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 
 #include <CGAL/number_type_config.h>
 

@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
 #include <Eigen/Core>

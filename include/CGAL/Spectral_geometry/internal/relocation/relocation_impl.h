@@ -11,9 +11,8 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/operators/connected_components.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 

@@ -9,7 +9,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 

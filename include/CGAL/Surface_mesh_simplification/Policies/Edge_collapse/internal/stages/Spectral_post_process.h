@@ -12,7 +12,7 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
-#include <CGAL/Spectral_geometry/internal/operators/border.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -176,7 +176,7 @@ private:
       return policies.state().report(Spectral_phase::flips, fraction);
     };
     const Eigen::Index seen = policies.state().core().number_of_signals();
-    result.flips = flip_mesh_edges(mesh, P, F.leftCols(seen), Z.leftCols(seen), op, flipping, np);
+    result.flips = spectral_edge_flips(mesh, P, F.leftCols(seen), Z.leftCols(seen), op, flipping, np);
     set_error(mesh, policies.state().area(), P, F.leftCols(seen), Z.leftCols(seen), np, result);
   }
 
