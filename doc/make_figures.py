@@ -21,7 +21,7 @@ import sys
 import zlib
 
 from charts import GREY, Axis, Curve, legend, panel, svg, text
-from make_results import name, norms
+from make_results import commit, name, norms
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 K = 100
@@ -567,7 +567,8 @@ def main():
     curve(folder, output)
     scaling(output)
     degree(output)
-    data = {"norms_over_n": [{"mass": mass, "line": line, "points": points} for (mass, line), points in lines_over_n(folder).items()],
+    data = {"commit": commit(),
+            "norms_over_n": [{"mass": mass, "line": line, "points": points} for (mass, line), points in lines_over_n(folder).items()],
             "steps": steps(folder, output), "masses": masses(folder, output), "relocation": relocation(folder, output), "border": borders(folder, output)}
     with open(os.path.join(HERE, "figures.json"), "w") as file:
         json.dump(data, file, indent=1)

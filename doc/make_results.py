@@ -170,7 +170,7 @@ def summary(results):
 
 def tables(results):
     first = results[0]
-    text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread. The command for each mesh:\n\n"
+    text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread; commit {commit()}. The command for each mesh:\n\n"
     text += "".join(f"    {' '.join(['examples/spectral_compare', r['path'], '--vertices', SIZES, *options(r['path'])])} --json results/{r['path']}.json\n"
                     for r in results)
     text += "\n## Norms of all meshes\n"
@@ -196,6 +196,14 @@ def main():
     here = os.path.dirname(os.path.abspath(__file__))
     replace(os.path.join(here, "results.md"), "tables", tables(results))
     replace(os.path.join(here, "results.md"), "summary", summary(results))
+
+
+# Of the code that a number comes from, "-dirty" where it was changed afterwards, this folder apart.
+def commit():
+    here = os.path.dirname(os.path.abspath(__file__))
+    name, changes = (subprocess.run(["git", "-C", here, *words], capture_output=True, text=True, check=True).stdout.strip()
+                     for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":(top,exclude)doc"]))
+    return name + ("-dirty" if changes else "")
 
 
 # What stands between the two marks of that name.

@@ -16,7 +16,7 @@ import shlex
 import subprocess
 import sys
 
-from make_results import replace
+from make_results import commit, replace
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIMIT = 240
@@ -47,8 +47,7 @@ def measured(build, mesh, output, solver, tolerance):
 def machine():
     with open("/proc/cpuinfo") as file:
         model = next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
-    commit = subprocess.run(["git", "-C", HERE, "describe", "--always", "--dirty"], capture_output=True, text=True, check=True).stdout.strip()
-    return f"{model}, {os.cpu_count()} cores; commit {commit}"
+    return f"{model}, {os.cpu_count()} cores; commit {commit()}"
 
 
 def main():

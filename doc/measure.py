@@ -20,6 +20,7 @@ import sys
 import tempfile
 import time
 
+from make_results import commit
 from make_rivals import OURS, SUMMARY
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -125,14 +126,10 @@ PARTS = {"demo": demo, "nefertiti": nefertiti, "benchmark": benchmark}
 
 
 def measure(build, meshes, parts):
-    # Parts measured one after the other change this file alone.
-    commit, changes = (subprocess.run(["git", "-C", HERE, *words], capture_output=True, text=True, check=True).stdout.strip()
-                       for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":!measured.json"]))
-    commit += "-dirty" if changes else ""
     with open(DATA) as file:
         data = json.load(file)
     for part in parts:
-        data[part] = {"commit": commit, "processors": os.cpu_count(), "machine": platform.machine(), **PARTS[part](os.path.abspath(build), meshes)}
+        data[part] = {"commit": commit(), "processors": os.cpu_count(), "machine": platform.machine(), **PARTS[part](os.path.abspath(build), meshes)}
     with open(DATA, "w") as file:
         json.dump(data, file, indent=1)
         file.write("\n")
