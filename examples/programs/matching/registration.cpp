@@ -291,12 +291,13 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
 
   // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they are long. The surface is
   // first drawn with both smoothed, which leaves limbs free to turn with what they grow out of, then at the vertices that face
-  // where their images do.
-  constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10;
+  // where their images do. Neighbouring rotations stay a little alike to the end: a paw that is free settles as it happens to be turned.
+  constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10,
+                   last_likeness = 0.3;
   constexpr int first_iterations = 20, second_iterations = 10;
   Elastic_surface elastic(m_X.control);
   const Eigen::Index n = m_X.control.V.rows();
-  constexpr int settling_iterations = 8;
+  constexpr int settling_iterations = 4;
   std::vector<Eigen::Index> images =
       SG::target_to_source_map(settled(C, (std::min)(iterations, settling_iterations), keep_going), psi,
                                at_control(phi, m_X), m_threads);
@@ -351,7 +352,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
       springs.add(i, normals.col(i), m_Y.V.col(y), m_Y.normals.col(y), stiffness * m_Y.areas(k));
     }
     for(int step = 0; step < 2; ++step) {
-      elastic.fit_rotations(P);
+      elastic.fit_rotations(P, last_likeness);
       P = elastic.solve(springs.D, springs.f);
     }
   }
