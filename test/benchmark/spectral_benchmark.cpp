@@ -34,6 +34,7 @@ struct Arguments
   int threads = (std::max)(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool no_spectra = false;
   std::string pairs, solver = "block";
+  std::string rivals;
   std::string preset = "best";
   std::string json, scaling;
   std::string scaling_vertices = "12000,25000,50000,100000,200000,400000,1000000";
@@ -50,7 +51,7 @@ Arguments parse_arguments(int argc, char* argv[])
       "spectral_benchmark MESH... [options]\nspectral_benchmark --scaling CSV [options]\n\n"
       "Measures the spectral simplification of each MESH (a file, generated:N for a shape of about N "
       "vertices, disc:D or gear:D for fans of D faces) beside "
-      "CGAL's Garland-Heckbert (plane) and Lindstrom-Turk costs.\n\nOptions",
+      "CGAL's Garland-Heckbert (plane) and Lindstrom-Turk costs, and programs of --rivals.\n\nOptions",
       100, 60);
   auto add = visible.add_options();
   add("help", "show this text");
@@ -71,7 +72,9 @@ Arguments parse_arguments(int argc, char* argv[])
   add("pairs", po::value(&a.pairs)->value_name("LIST"),
       "measure nothing but eigenpairs, at each of these tolerances, with one thread and with all");
   add("solver", po::value(&a.solver)->value_name("block|spectra")->default_value(a.solver),
-      "of --pairs; Spectra has one thread");
+      "of --pairs; Spectra has the threads of its BLAS");
+  add("rivals", po::value(&a.rivals)->value_name("FOLDER"),
+      "measure the programs FOLDER/NAME/run beside them, as doc/run_rivals.sh explains them");
   add("json", po::value(&a.json)->value_name("FILE"), "write the main figures of each mesh");
   add("scaling", po::value(&a.scaling)->value_name("CSV"),
       "measure generated shapes down to 1 % of their vertices, fans of which 20 vertices are taken, and "
@@ -106,6 +109,8 @@ Arguments parse_arguments(int argc, char* argv[])
   if(a.scaling_shape != "generated" && a.scaling_shape != "disc" && a.scaling_shape != "gear")
     throw std::runtime_error("--scaling-shape is '" + a.scaling_shape +
                              "', it must be generated, disc or gear.");
+  if(!a.rivals.empty() && (a.meshes.empty() || !a.pairs.empty()))
+    throw std::runtime_error("--rivals simplify a MESH: they have no part in --pairs or --scaling.");
   if(a.runs < 1 || a.threads < 1 || a.eigenvectors < 1)
     throw std::runtime_error("--runs, --threads and --eigenvectors must be positive.");
   return a;
@@ -159,6 +164,45 @@ void run_rival(const std::string& mesh, Rival rival, std::size_t target, Samples
   samples.add(t, peak);
 }
 
+// A program outside of CGAL. One that fails is not asked again.
+struct Program_samples
+{
+  std::string name, path;
+  Samples samples;
+  std::string failure;
+};
+
+std::vector<Program_samples> programs(const std::string& folder)
+{
+  std::vector<Program_samples> result;
+  if(folder.empty())
+    return result;
+  std::error_code missing;
+  for(const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
+    const std::filesystem::path run = std::filesystem::absolute(entry.path() / "run");
+    if(std::filesystem::exists(run))
+      result.push_back({entry.path().filename().string(), run.string(), {}, {}});
+  }
+  if(result.empty())
+    throw std::runtime_error("--rivals: there is no NAME/run in '" + folder + "'.");
+  std::sort(result.begin(), result.end(),
+            [](const Program_samples& a, const Program_samples& b) { return a.name < b.name; });
+  return result;
+}
+
+void run_program(const std::string& mesh, std::size_t target, Program_samples& program)
+{
+  if(!program.failure.empty())
+    return;
+  double peak = 0;
+  try {
+    const Collapse_time t = in_child([&] { return measure_program(program.path, mesh, target); }, peak);
+    program.samples.add(t, peak);
+  } catch(const std::exception& error) {
+    program.failure = error.what();
+  }
+}
+
 struct Solver_samples
 {
   std::string name;
@@ -168,6 +212,11 @@ struct Solver_samples
   std::vector<double> seconds;
   double residual = 0, peak_mb = 0;
 };
+
+std::string threads_of(const Solver_samples& s)
+{
+  return s.solver == Solver::block ? std::to_string(s.threads) : "BLAS's";
+}
 
 void run_solver(const std::string& mesh, const Setting& setting, Solver_samples& s)
 {
@@ -213,6 +262,7 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
   setting.paper = a.preset == "paper";
 
   Samples one, many, garland_heckbert, lindstrom_turk;
+  std::vector<Program_samples> rivals = programs(a.rivals);
   std::vector<Solver_samples> paths = solvers(a);
   for(int run = 0; run < a.runs; ++run) { // in turn, so that a disturbance of the machine meets all of them
     run_spectral(mesh, setting, a.threads, many);
@@ -220,6 +270,8 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
     run_rival(mesh, Rival::lindstrom_turk, setting.target, lindstrom_turk);
     if(a.threads > 1)
       run_spectral(mesh, setting, 1, one);
+    for(Program_samples& rival : rivals)
+      run_program(mesh, setting.target, rival);
     for(Solver_samples& path : paths)
       run_solver(mesh, setting, path);
   }
@@ -234,6 +286,14 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
     print_collapses("spectral, 1 thread", one, base);
   print_collapses("Garland-Heckbert, plane", garland_heckbert, base);
   print_collapses("Lindstrom-Turk", lindstrom_turk, base);
+  for(const Program_samples& rival : rivals)
+    if(rival.failure.empty())
+      print_collapses(rival.name.c_str(), rival.samples, base);
+    else
+      std::printf("  %-28s failed: %s\n", rival.name.c_str(), rival.failure.c_str());
+  if(!rivals.empty())
+    std::printf("  Programs outside of CGAL read and write files in their time, unless they leave one of "
+                "their own.\n");
   std::printf("  evaluations per collapse %.1f, us per evaluation (first costs) %.2f; seconds: eigenpairs "
               "%.2f, first "
               "costs %.2f, collapses with them %.2f; memory as estimated %.0f MB\n",
@@ -242,8 +302,8 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
               median(many.seconds_collapse), estimated_memory(size.vertices, setting) / 1e6);
   std::printf("  %-28s %9s %9s %10s %9s\n", "eigenpairs", "tolerance", "threads", "seconds", "residual");
   for(const Solver_samples& path : paths)
-    std::printf("  %-28s %9.0e %9d %10.2f %9.1e\n", path.name.c_str(), path.tolerance, path.threads,
-                median(path.seconds), path.residual);
+    std::printf("  %-28s %9.0e %9s %10.2f %9.1e\n", path.name.c_str(), path.tolerance,
+                threads_of(path).c_str(), median(path.seconds), path.residual);
   std::printf("\n");
   std::fflush(stdout);
 
@@ -260,6 +320,12 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
                          {"peak_rss_mb", median(many.peak_mb)}};
   if(!a.no_spectra)
     json["seconds_eigenpairs_spectra"] = median(paths.back().seconds);
+  for(const Program_samples& rival : rivals)
+    json["rivals"][rival.name] =
+        rival.failure.empty() ? nlohmann::json({{"us_per_collapse", median(rival.samples.us_per_collapse)},
+                                                {"seconds_total", median(rival.samples.seconds_total)},
+                                                {"peak_rss_mb", median(rival.samples.peak_mb)}})
+                              : nlohmann::json({{"failed", rival.failure}});
   return json;
 }
 
@@ -304,8 +370,8 @@ nlohmann::json measure_pairs(const std::string& mesh, const Arguments& a)
                          {"pairs", nlohmann::json::array()}};
   for(const Solver_samples& path : paths) {
     const double seconds = median(path.seconds);
-    std::printf("  %-28s %9.0e %9d %10.2f %9.1e %9.0f\n", path.name.c_str(), path.tolerance, path.threads,
-                seconds, path.residual, path.peak_mb);
+    std::printf("  %-28s %9.0e %9s %10.2f %9.1e %9.0f\n", path.name.c_str(), path.tolerance,
+                threads_of(path).c_str(), seconds, path.residual, path.peak_mb);
     json["pairs"].push_back({{"solver", path.name},
                              {"tolerance", path.tolerance},
                              {"threads", path.threads},

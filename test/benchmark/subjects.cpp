@@ -5,6 +5,7 @@
 #include "subjects.h"
 
 #include "../../examples/programs/io/input_mesh.h"
+#include "../../examples/programs/io/mesh_io.h"
 #include "../spectra_eigenpairs.h"
 #include "generated_shape.h"
 
@@ -19,6 +20,14 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
 #include <string>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
@@ -57,6 +66,55 @@ SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int
     options.metric_eigenvectors = setting.eigenvectors;
   options.relocate = options.relocate && !setting.loop_alone;
   return options;
+}
+
+// A folder that goes with its owner.
+struct Scratch_folder
+{
+  std::filesystem::path path;
+
+  Scratch_folder()
+  {
+    std::string name = (std::filesystem::temp_directory_path() / "spectral_benchmark.XXXXXX").string();
+    if(mkdtemp(&name[0]) == nullptr)
+      throw std::runtime_error("'" + name + "' cannot be made.");
+    path = name;
+  }
+
+  ~Scratch_folder()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+std::string quoted(const std::string& word)
+{
+  std::string result = "'";
+  for(const char c : word)
+    result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
+}
+
+std::string last_line(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  std::string result;
+  for(std::string line; std::getline(stream, line);)
+    if(!line.empty())
+      result = line;
+  return result;
+}
+
+// The file that holds dgemm_: BLAS is chosen when the program starts, by the alternatives of the system.
+std::string blas()
+{
+  void* const function = dlsym(RTLD_DEFAULT, "dgemm_");
+  Dl_info info{};
+  if(function == nullptr || dladdr(function, &info) == 0)
+    return "none";
+  std::error_code ignored;
+  return std::filesystem::canonical(info.dli_fname, ignored).filename().string();
 }
 
 } // namespace
@@ -103,6 +161,32 @@ Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t ta
   return {timer.time(), n - mesh.number_of_vertices()};
 }
 
+Collapse_time measure_program(const std::string& program, const std::string& name, std::size_t target)
+{
+  const Scratch_folder scratch;
+  const std::string input = (scratch.path / "input.off").string(), prefix = (scratch.path / "out").string(),
+                    said = (scratch.path / "said").string();
+  const Mesh mesh = load(name);
+  write_mesh(input, mesh, input);
+  const std::string command = quoted(program) + ' ' + quoted(input) + ' ' + std::to_string(target) + ' ' +
+                              quoted(prefix) + " >" + quoted(said) + " 2>&1";
+  CGAL::Real_timer timer;
+  timer.start();
+  const int status = std::system(command.c_str());
+  timer.stop();
+  const bool has_mesh = std::filesystem::exists(prefix + ".off");
+  if(status != 0 || (!has_mesh && !std::filesystem::exists(prefix + ".L.mtx"))) {
+    const std::string words = last_line(said);
+    throw std::runtime_error(words.empty() ? "left neither a mesh nor a word" : words);
+  }
+  // Not all of them leave a manifold.
+  const std::size_t n = mesh.number_of_vertices(),
+                    reached = has_mesh ? read_polygon_soup(prefix + ".off").points.size() : target;
+  double seconds = 0;
+  const bool has_seconds = bool(std::ifstream(prefix + ".seconds") >> seconds);
+  return {has_seconds ? seconds : timer.time(), n - (std::min)(n, reached)};
+}
+
 Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setting, Solver solver,
                                    double tolerance, int threads)
 {
@@ -134,7 +218,7 @@ std::string build_description()
 {
   std::string result = "CGAL " CGAL_VERSION_STR;
 #ifdef SPECTRAL_TEST_WITH_CHOLMOD
-  result += ", Spectra with CHOLMOD";
+  result += ", Spectra with CHOLMOD on " + blas();
 #else
   result += ", Spectra with Eigen's Cholesky factorisation";
 #endif

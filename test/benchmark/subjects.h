@@ -59,6 +59,10 @@ Spectral_time measure_spectral(const std::string& mesh, const Setting& setting, 
 // CGAL's edge_collapse() with a cost and placement of its own, their construction included.
 Collapse_time measure_rival(const std::string& mesh, Rival rival, std::size_t target);
 
+// A program outside of CGAL, from its start to its end, reading and writing included, or, where it leaves PREFIX.seconds, so long.
+// It is called as doc/run_rivals.sh says: `program INPUT N PREFIX`. Throws with its last words when it fails.
+Collapse_time measure_program(const std::string& program, const std::string& mesh, std::size_t target);
+
 // eigenpairs(), without the Laplacian; `residual` is the largest.
 Eigenpairs_time measure_eigenpairs(const std::string& mesh, const Setting& setting, Solver solver,
                                    double tolerance, int threads);
@@ -69,7 +73,7 @@ double estimated_memory(std::size_t vertices, const Setting& setting);
 // The tolerance of the basis that spectral_edge_collapse() computes by default.
 double default_tolerance();
 
-// With which flags of the compiler's choice this program was built.
+// With which flags of the compiler's choice this program was built, and with which BLAS it runs.
 std::string build_description();
 
 #endif // SPECTRAL_BENCHMARK_SUBJECTS_H
