@@ -81,7 +81,7 @@ COLUMNS = [
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100, True),
     ("HKS %", lambda r: r["distance_errors"]["heat_kernel_signature"], 2, 100, True),
     ("WKS %", lambda r: r["distance_errors"]["wave_kernel_signature"], 2, 100, True),
-    ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100, True),
+    ("Hausdorff, %", lambda r: r["hausdorff_over_diagonal"], 2, 100, True),
     ("angle °", lambda r: r["smallest_angle_degrees"], 1, 1, False),
     ("volume", lambda r: r["volume_ratio"], 3, 1, False),
     ("self-int.", lambda r: r["self_intersections"], 0, 1, False),
@@ -143,10 +143,10 @@ def summary(results):
     columns = [("mass of the metric", lambda r: r["metric_mass"].replace("none", "–"), None, 1),
                ("C_L", lambda r: r["closest_point_P"]["norm_L"], 1, 1),
                ("C_D", lambda r: r["closest_point_P"]["norm_D"], 2, 1),
-               ("eigenvalues %", lambda r: r["eigenvalue_error_mean"], 2, 100),
-               ("modes 2 to 20 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
-               ("biharmonic distance %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
-               ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100)]
+               ("eigenvalues, %", lambda r: r["eigenvalue_error_mean"], 2, 100),
+               ("eigenvalues 2 to 20, %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
+               ("biharmonic distance, %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
+               ("Hausdorff, %", lambda r: r["hausdorff_over_diagonal"], 2, 100)]
     cases = sum(len({r["requested_vertices"] for r in result["rows"] if r["requested_vertices"] >= 3 * result["K"]})
                 for result in results)
     found = {name: [r for result in results for r in result["rows"] if r["simplifier"] == name and

@@ -176,7 +176,7 @@ def pages(output):
     with contextlib.redirect_stdout(page):
         tables(output)
     replace(os.path.join(here, "rivals.md"), "tables", page.getvalue())
-    titles = [r"\|C\|_L", r"\|C\|_D", "eigenvalues %", "modes 2 to 20 %", "biharmonic distance %", "Hausdorff %"]
+    titles = [r"\|C\|_L", r"\|C\|_D", "eigenvalues, %", "eigenvalues 2 to 20, %", "biharmonic distance, %", "Hausdorff, %"]
     columns = [(title, *column[1:]) for title, column in zip(titles, COLUMNS)]
     replace(os.path.join(here, "..", "README.md"), "summary", means(results_in(output), "averaged", columns, SUMMARY))
     return 0

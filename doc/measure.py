@@ -35,11 +35,13 @@ QUOTED = [
     ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("measured.demo.eigenvalue_error_percent",)),
     ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\s+cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
      ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
+    ("../README.md", r"takes `--fit-operators DIR --fit-mass\s+diagonal` \(([\d.]+) %\)", ("rivals.lumped.fitted.2",)),
+    ("../README.md", r"a million vertices take a\s+minute and ([\d.]+) GB", ("scaling.998562.100.gigabytes",)),
     ("user_manual.md", r"What best costs: ([\d.]+) times the time of paper's", ("best_over_paper",)),
     ("user_manual.md", r"A collapse of rocker-arm takes ([\d.]+) µs,\s+first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
      ("measured.benchmark.us_per_collapse", "measured.benchmark.ratio_garland_heckbert")),
     ("user_manual.md", r"everything ([\d.]+) s and\s+([\d.]+) MB", ("measured.benchmark.seconds_total", "measured.benchmark.peak_rss_mb")),
-    ("user_manual.md", r"late cost keeps its old place in the queue and is evaluated when its turn comes: ([\d.]+) evaluations",
+    ("user_manual.md", r"the latest collapses keeps its old place in the queue and is evaluated when its turn comes: ([\d.]+) evaluations",
      ("measured.benchmark.evaluations_per_collapse",)),
     ("user_manual.md", r"takes ([\d,]+) µs with 1,000 neighbours, where Garland-Heckbert's takes ([\d,]+), and ([\d,]+) with 10,000, where that takes ([\d,]+)",
      tuple(f"degree.{d}.{key}" for d in (1000, 10000) for key in ("us_per_collapse", "us_per_collapse_garland_heckbert"))),
@@ -53,10 +55,13 @@ QUOTED = [
     ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+), and relocation to ([\d.]+):", ("figures.steps.0", "figures.steps.1", "figures.steps.2")),
     ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+)\.\*", ("figures.relocation.before", "figures.relocation.after")),
     ("user_manual.md", r"‖C‖_L of the preset best is ([\d.]+) to ([\d.]+) times that of isotropic\s+remeshing, whose even triangles are a good use of "
-     r"too few vertices, and ‖C‖_D ([\d.]+) to ([\d.]+) times; from there on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+)\s+times",
+     r"too few vertices, and ‖C‖_D ([\d.]+) to ([\d.]+) times; from 3 K on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+)\s+times",
      tuple(f"over_isotropic.{part}.{norm}.{end}" for part in ("below", "above") for norm in ("L", "D") for end in ("least", "most"))),
     ("user_manual.md", r"by ([\d.]+) % in the mean; the averaged mass is off by\s+([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
      r"([\d.]+) % with one on the edges", tuple("figures.masses." + key for key in ("lumped", "averaged", "lumped_fitted", "averaged_fitted"))),
+    ("user_manual.md", r"judged in the lumped mass it has ‖C‖_L ([\d.]+) in the mean of nine meshes, paper ([\d.]+) and the best rival\s+([\d.]+)\. "
+     r"Or fit operators with a diagonal mass \(`--fit-operators DIR --fit-mass diagonal`\): ([\d.]+), and eigenvalues within ([\d.]+) %",
+     ("rivals.lumped.own.0", "lumped_means.paper", "lumped_means.rival", "rivals.lumped.fitted.0", "rivals.lumped.fitted.2")),
     ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
     ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
     ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
@@ -199,6 +204,11 @@ def data_of():
         row.update(ratio=row["us_per_collapse"] / row["us_per_collapse_garland_heckbert"], gigabytes=row["peak_rss_mb"] / 1000)
         data["scaling"].setdefault(f"{row['vertices']:.0f}", {})[f"{row['eigenvectors']:.0f}"] = row
     meshes, data["rivals"] = rivals_by_mesh()
+    means = {title: float(row[0]) for title, row in
+             cells(read("rivals.md").split("## Geometric means, judged in the lumped mass")[1].split("\n## ")[0]).items() if re.match(r"[\d.]+$", row[0])}
+    paper = OURS["spectral, paper"].strip("*")
+    ours = [title.strip("*") for title in OURS.values()]
+    data["lumped_means"] = {"paper": means[paper], "rival": min(value for title, value in means.items() if title not in ours)}
     ratios = [[float(m["averaged"]["fitted"][k]) / float(m["averaged"]["own"][k]) for m in meshes.values()] for k in (0, 1)]
     data["fitted"] = [{"least": min(r), "most": max(r)} for r in ratios]
     norms = read("results.md").split("C_L, judged in the averaged mass:")[1].split("\n\n")[1]
