@@ -213,9 +213,15 @@ Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, 
                               ? evaluate(u, v, m_pool->workspace().kernel)
                               : evaluate_for_queue(u, v, m_pool->workspace().kernel, minimiser_bound()));
   }
-  if(any_version && found->collapsible && crosses(u, v, found->point)) {
+  if(!any_version)
+    return *found;
+  m_at_another_point = found->collapsible && crosses(u, v, found->point);
+  if(m_at_another_point) {
     ++m_number_of_evaluations;
-    found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v));
+    const double bound = crossing_factor * (std::max)(found->cost, m_recent_cost);
+    Spectral_candidate apart = evaluate_apart(u, v);
+    apart.collapsible = apart.collapsible && apart.cost <= bound;
+    found = &m_candidates.insert((std::min)(u, v), apart);
     m_number_of_crossings += !found->collapsible;
   }
   return *found;
@@ -309,7 +315,7 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
     m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
   const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
-  m_recent_cost = (std::max)(loss + shape_cost, m_recent_cost * recent_cost_decay);
+  m_recent_cost = (std::max)(m_at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_around(const Spectral_slot kept)
