@@ -60,7 +60,7 @@ QUOTED = [
     ("user_manual.md", r"by ([\d.]+) % in the mean; the averaged mass is off by\s+([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
      r"([\d.]+) % with one on the edges", tuple("figures.masses." + key for key in ("lumped", "averaged", "lumped_fitted", "averaged_fitted"))),
     ("user_manual.md", r"judged in the lumped mass it has ‖C‖_L ([\d.]+) in the mean of nine meshes, paper ([\d.]+) and the best rival\s+([\d.]+)\. "
-     r"Or fit operators with a diagonal mass \(`--fit-operators DIR --fit-mass diagonal`\): ([\d.]+), and eigenvalues within ([\d.]+) %",
+     r"Or fit operators with a diagonal mass \(`fit_operators\(\)`\): ([\d.]+), and eigenvalues within ([\d.]+) %",
      ("rivals.lumped.own.0", "lumped_means.paper", "lumped_means.rival", "rivals.lumped.fitted.0", "rivals.lumped.fitted.2")),
     ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
     ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
