@@ -81,7 +81,7 @@ COLUMNS = [
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100, True),
     ("HKS %", lambda r: r["distance_errors"]["heat_kernel_signature"], 2, 100, True),
     ("WKS %", lambda r: r["distance_errors"]["wave_kernel_signature"], 2, 100, True),
-    ("Hausdorff, %", lambda r: r["hausdorff_over_diagonal"], 2, 100, True),
+    ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100, True),
     ("angle °", lambda r: r["smallest_angle_degrees"], 1, 1, False),
     ("volume", lambda r: r["volume_ratio"], 3, 1, False),
     ("self-int.", lambda r: r["self_intersections"], 0, 1, False),
