@@ -26,8 +26,8 @@ int main(int argc, char* argv[])
   }
   const std::size_t N = std::strtoul(argv[3], nullptr, 10);
   //! [policies]
-  SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, mesh),
+  SMS::Spectral_policies spectral(mesh);
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(N, mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor()));

@@ -105,8 +105,8 @@ int main(int argc, char* argv[])
     labels.push_back(label[v]);
   }
 
-  SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(std::strtoul(argv[3], nullptr, 10), mesh),
+  SMS::Spectral_policies spectral(mesh);
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(std::strtoul(argv[3], nullptr, 10), mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor(Interpolating_visitor(mixed))));

@@ -31,7 +31,7 @@ TEST_CASE("OpenMesh is simplified as other meshes are, with points in single pre
   Open_mesh mesh;
   shapes::make_mesh(mesh, bordered ? wavy_grid_matrices(14, 13) : shapes::bumpy_icosphere_matrices(3));
   const shapes::Matrices input = SG::mesh_matrices(mesh); // its points are floats
-  const SMS::Spectral_policies<Open_mesh> policies(mesh, options_with(10));
+  const SMS::Spectral_policies policies(mesh, options_with(10));
   collapse(mesh, policies, 80);
   CHECK(count_vertices(mesh) == 80);
   CHECK(policies.state().number_of_vertices() == 80);

@@ -189,7 +189,7 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
   Spectral_options options;
   options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
   options.shape = 2;
-  const SMS::Spectral_policies<Mesh> policies(mesh, options);
+  const SMS::Spectral_policies policies(mesh, options);
   using Variances = CGAL::Constant_property_map<Mesh::Face_index, std::pair<double, double>>;
   const SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel, Variances> quadrics(
       theirs, 100., Variances{{variance, 0.}});
@@ -249,7 +249,7 @@ TEST_CASE("A weight of the shape term means the same at every unit of length")
   options.number_of_eigenvectors = 20;
   const auto map_at = [&](const double factor) {
     Mesh mesh = make_mesh(scaled(input, factor));
-    const SMS::Spectral_policies<Mesh> policies(mesh, options);
+    const SMS::Spectral_policies policies(mesh, options);
     collapse(mesh, policies, 120);
     return policies.vertex_map();
   };
@@ -391,7 +391,7 @@ TEST_CASE("Several runs with a shape term go on from each other")
   Spectral_options options;
   options.number_of_eigenvectors = 12;
   Mesh once = make_mesh(input), twice = make_mesh(input);
-  const SMS::Spectral_policies<Mesh> a(once, options), b(twice, options);
+  const SMS::Spectral_policies a(once, options), b(twice, options);
   collapse(once, a, 100);
   collapse(twice, b, 300);
   collapse(twice, b, 100);

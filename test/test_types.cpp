@@ -47,7 +47,7 @@ void check_against_surface_mesh(const shapes::Matrices& input, const Spectral_ed
                                 const std::size_t N)
 {
   Mesh expected = make_mesh(input);
-  const SMS::Spectral_policies<Mesh, Kernel> reference(expected, options);
+  const SMS::Spectral_policies reference(expected, options);
   collapse(expected, reference, N);
   const std::vector<std::size_t> expected_partition = partition(reference.vertex_map());
 
@@ -118,7 +118,7 @@ TEST_CASE("With points in single precision E is that of the rounded mesh, P give
   Single_mesh mesh;
   shapes::make_mesh(mesh, bordered ? wavy_grid_matrices(22, 20) : shapes::bumpy_icosphere_matrices(3));
   const shapes::Matrices input = SG::mesh_matrices(mesh); // in doubles, rounded
-  const SMS::Spectral_policies<Single_mesh, Single> policies(mesh, options);
+  const SMS::Spectral_policies policies(mesh, options);
   CHECK(collapse(mesh, policies, 100) > 0);
   CHECK(count_vertices(mesh) == 100);
   const Input fine = eigen_input(input, options.mass, *policies.eigenpairs());
@@ -144,8 +144,7 @@ TEST_CASE("A mesh with garbage is as good as one without")
   const shapes::Matrices left = SG::mesh_matrices(mesh);
   Mesh clean = make_mesh(left);
 
-  const SMS::Spectral_policies<Mesh, Kernel> policies(mesh, options_with(10)),
-      reference(clean, options_with(10));
+  const SMS::Spectral_policies policies(mesh, options_with(10)), reference(clean, options_with(10));
   collapse(mesh, policies, 100);
   collapse(clean, reference, 100);
   CHECK(fault_of_run(mesh, policies, eigen_input(left, SG::Mass::lumped, *policies.eigenpairs())) == "");
@@ -164,9 +163,8 @@ TEST_CASE("A point map of the user's is read and written, the mesh's own points 
     mesh.point(v) = Kernel::Point_3(0, 0, 0);
   }
   const auto map = boost::make_iterator_property_map(points.begin(), get(boost::vertex_index, mesh));
-  using Map = std::remove_const_t<decltype(map)>;
   const auto np = CGAL::parameters::vertex_point_map(map).geom_traits(Kernel());
-  const SMS::Spectral_policies<Mesh, Kernel, Map> policies(mesh, options_with(10), np);
+  const SMS::Spectral_policies policies(mesh, options_with(10), np);
   collapse(mesh, policies, 100);
   CHECK(fault_of_run(mesh, policies, eigen_input(input, SG::Mass::lumped, *policies.eigenpairs())) == "");
   for(const auto v : vertices(mesh))

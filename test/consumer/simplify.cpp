@@ -16,7 +16,7 @@ Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices,
 {
   SMS::Spectral_options options;
   options.number_of_eigenvectors = 20;
-  SMS::Spectral_policies<Mesh, Kernel> spectral(mesh, options);
+  SMS::Spectral_policies spectral(mesh, options);
   SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(number_of_vertices, mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())

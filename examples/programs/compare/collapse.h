@@ -33,12 +33,12 @@ Coarse_mesh collapse(const Mesh& fine, std::size_t N, const Make_policies& make_
 {
   Coarse_mesh result;
   result.mesh = fine;
-  const CGAL::Surface_mesh_simplification::Restriction_visitor<Mesh> visitor(result.mesh);
+  const CGAL::Surface_mesh_simplification::Restriction_visitor visitor(result.mesh);
   CGAL::Real_timer timer;
   timer.start();
   make_policies(result.mesh, [&](const auto& cost, const auto& placement) {
     CGAL::Surface_mesh_simplification::edge_collapse(
-        result.mesh, CGAL::Surface_mesh_simplification::Vertex_count_stop_predicate<Mesh>(N, result.mesh),
+        result.mesh, CGAL::Surface_mesh_simplification::Vertex_count_stop_predicate(N, result.mesh),
         CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
   });
   result.seconds = timer.time();

@@ -82,7 +82,7 @@ SG::Mesh_matrices control_mesh(const Eigen::MatrixXd& V, const Eigen::MatrixXi& 
 {
   Mesh mesh = mesh_of({V.transpose(), T});
   if(mesh.number_of_vertices() > vertices)
-    SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(vertices, mesh),
+    SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(vertices, mesh),
                        CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Mesh>())
                            .get_placement(SMS::LindstromTurk_placement<Mesh>()));
   return SG::mesh_matrices(mesh);

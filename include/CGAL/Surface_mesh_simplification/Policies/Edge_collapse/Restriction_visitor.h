@@ -122,7 +122,7 @@ private:
  * length. P is the product of these steps.
  *
  * \code
- * SMS::Restriction_visitor<Mesh> visitor(mesh);
+ * SMS::Restriction_visitor visitor(mesh);
  * SMS::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
  * Eigen::SparseMatrix<double> P = visitor.restriction();
  * \endcode

@@ -25,7 +25,7 @@ namespace Surface_mesh_simplification {
  * \cgalModels{StopPredicate}
  *
  * \code
- * SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
+ * SMS::Spectral_policies spectral(mesh);
  * SMS::Spectral_error_stop_predicate stop(spectral, 0.14);
  * \endcode
  *

@@ -52,8 +52,8 @@ namespace Surface_mesh_simplification {
  * area.
  *
  * \code
- * SMS::Spectral_policies<Mesh, Kernel> spectral(mesh);
- * SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(600, mesh),
+ * SMS::Spectral_policies spectral(mesh);
+ * SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(600, mesh),
  *                    CGAL::parameters::get_cost(spectral.get_cost())
  *                                     .get_placement(spectral.get_placement())
  *                                     .visitor(spectral.visitor()));
@@ -187,6 +187,12 @@ public:
 private:
   std::shared_ptr<State> m_state;
 };
+
+/// `vertex_point_map` and `geom_traits` among the named parameters choose the types.
+template <class TriangleMesh, class NamedParameters>
+Spectral_policies(TriangleMesh&, const Spectral_options&, const NamedParameters&)
+    -> Spectral_policies<TriangleMesh, typename GetGeomTraits<TriangleMesh, NamedParameters>::type,
+                         typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>;
 
 /// @}
 
