@@ -14,7 +14,7 @@ import os
 import subprocess
 import sys
 
-from make_results import replace
+from make_results import commit, replace
 
 NAMES = ["spectral, best", "Garland-Heckbert probabilistic plane, area 20000"]
 # Title, value, digits, factor.
@@ -54,7 +54,7 @@ def main():
             refused.append(f"{os.path.basename(mesh)}: {rows}")
         else:
             pairs.append((os.path.join(*os.path.abspath(mesh).split(os.sep)[-2:]), *rows))
-    lines = []
+    lines = [f"Commit {commit()}.", ""]
     ratios, better, cells = [], [], {mesh: [] for mesh, _, _ in pairs}
     for _, value, digits, factor in COLUMNS:
         both = [(value(a), value(b)) for _, a, b in pairs if value(a) is not None and value(b) is not None]

@@ -369,6 +369,33 @@ TEST_CASE("Where two sheets cross in one place the crossing does not spread")
   CHECK(number_crossing(SG::mesh_matrices(mesh)) < before / 2);
 }
 
+TEST_CASE("Where faces would cross whatever is collapsed the run ends above its target and says so")
+{
+  // Four shells, each close inside of the one before: with so few vertices they cannot keep apart.
+  const shapes::Matrices shell = shapes::bumpy_icosphere_matrices(2);
+  shapes::Matrices input = shapes::components_matrices(shell, 4);
+  const Eigen::Index n = shell.V.rows();
+  for(int c = 0; c < 4; ++c)
+    input.V.middleRows(c * n, n) = (1 - 0.006 * c) * shell.V;
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 12;
+  options.relocate = false;
+  Mesh guarded = make_mesh(input), free = guarded;
+  const auto result = SMS::spectral_edge_collapse(guarded, 20, options);
+  const shapes::Matrices coarse = SG::mesh_matrices(guarded);
+  CHECK(SG::internal::self_intersecting_faces(coarse.V, coarse.T).empty());
+  CHECK(result.stop_reason == SMS::Spectral_edge_collapse_result::Stop_reason::queue_exhausted);
+  CHECK(result.output_vertices > 20);
+  CHECK(result.output_vertices < 40);
+  CHECK(result.refusals.crossing > 0);
+  CHECK(result.refusals.crossing <= result.refusals.placement);
+  CHECK_THAT(result.explanation, ContainsSubstring("keep_free_of_self_intersections"));
+  options.keep_free_of_self_intersections = false;
+  const auto other = SMS::spectral_edge_collapse(free, 20, options);
+  CHECK(other.output_vertices == 20);
+  CHECK(other.refusals.crossing == 0);
+}
+
 TEST_CASE("Sheets that lie in each other from the start do not hold a run up")
 {
   shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(3), 2);

@@ -35,7 +35,7 @@ struct Spectral_edge_collapse_result
   /// Why the loop ended.
   enum class Stop_reason {
     target_reached,  ///< the mesh has the number of vertices that was asked for
-    queue_exhausted, ///< no edge is left that may be collapsed; see `explanation`
+    queue_exhausted, ///< every edge that is left was refused; see `explanation`
     cancelled,       ///< by the progress callback or `Spectral_options::cancel`
     error_reached ///< one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
   };
@@ -44,11 +44,12 @@ struct Spectral_edge_collapse_result
   /// it comes back whenever something near it has changed.
   struct Refusals
   {
-    std::size_t topology = 0; ///< CGAL's link condition and the like
-    std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
-    std::size_t filter = 0;   ///< the `filter` named parameter
-    std::size_t placement =
-        0; ///< no position without a degenerate triangle, or without a crossing that is refused
+    std::size_t topology = 0;  ///< CGAL's link condition and the like
+    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
+    std::size_t filter = 0;    ///< the `filter` named parameter
+    std::size_t placement = 0; ///< no position without a degenerate triangle, or for the next reason
+    /// of these: no position near the edge's cost without a face through another
+    std::size_t crossing = 0;
   };
 
   std::size_t input_vertices = 0;  ///< number of vertices before

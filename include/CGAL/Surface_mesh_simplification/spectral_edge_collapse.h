@@ -109,8 +109,13 @@ std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edg
          to_string(wanted) + " because every edge left was refused (topology " +
          to_string(result.refusals.topology) + ", geometry " + to_string(result.refusals.geometry) +
          ", filter " + to_string(result.refusals.filter) + ", placement " +
-         to_string(result.refusals.placement) + " times; constrained edges are never collapsed): it has " +
-         to_string(components) + (components == 1 ? " component" : " components") +
+         to_string(result.refusals.placement) + " times" +
+         (result.refusals.crossing == 0 ? ""
+                                        : ", " + to_string(result.refusals.crossing) +
+                                              " of them so that no face goes through another, as "
+                                              "keep_free_of_self_intersections asks") +
+         "; constrained edges are never collapsed): it has " + to_string(components) +
+         (components == 1 ? " component" : " components") +
          ", each of which needs at least 3 (open) or 4 (closed) vertices, and " + to_string(border_edges) +
          " border edges.";
 }
@@ -297,6 +302,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.refusals.geometry = state.refusals().geometry;
   result.refusals.filter = state.refusals().filter;
   result.refusals.placement = state.refusals().placement;
+  result.refusals.crossing = state.core().number_of_crossings();
   set_stop_reason(result, mesh, end, target);
   result.E = policies.error();
   result.relative_error = policies.relative_error();

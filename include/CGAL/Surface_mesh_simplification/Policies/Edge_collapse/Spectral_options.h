@@ -118,7 +118,7 @@ struct Spectral_options
   /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement
   /// found would, the ends and the middle of the edge are tried, at no more than 16 times its cost or that of the collapses of
   /// late, and then the edge stays until a collapse beside it. Beside faces that cross already, as in scans, this holds until
-  /// n / 20 collapses were refused for it: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
+  /// n / 20 points were refused for it: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
   /// Of collapses by quadrics it holds for the mesh that they end with, and an edge whose collapse would waits.
   bool keep_free_of_self_intersections = true;
 

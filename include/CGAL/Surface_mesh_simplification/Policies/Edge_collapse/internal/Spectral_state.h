@@ -82,7 +82,7 @@ public:
         0; ///< CGAL's link condition and the like; a filter that is not in `Spectral_policies::filter()`, where a wrapper does not ask our placement
     std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
     std::size_t filter = 0;   ///< the `filter` named parameter
-    /// no position without a degenerate triangle, or none that leaves kept vertices where they are
+    /// no position without a degenerate triangle or a crossing, or none that leaves kept vertices where they are
     std::size_t placement = 0;
   };
 

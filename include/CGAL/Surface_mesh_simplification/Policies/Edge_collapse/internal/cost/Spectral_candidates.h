@@ -35,7 +35,8 @@ struct Spectral_candidate
   Spectral_slot other = null_spectral_slot;
   std::uint32_t version = 0; ///< the number of commits that it has seen
   bool collapsible = false;
-  bool deferred = false; ///< something near has changed, but it cost too much to be worth a look
+  bool deferred = false;         ///< something near has changed, but it cost too much to be worth a look
+  bool at_another_point = false; ///< its best one would put a face through another
   double cost = std::numeric_limits<double>::infinity();
   double weight = 0; ///< f_x = (1 - weight) f_u + weight f_other
   Eigen::Vector3d point = Eigen::Vector3d::Zero();

@@ -147,7 +147,7 @@ private:
   // 1.00 (averaged); with these factors 16, and against the former |C|_L times 1.003 and 1.005.
   static constexpr double outer_deferral_factor = 2, inner_deferral_factor = 8;
   static constexpr double recent_cost_decay = 0.998;
-  // An edge whose placement would put a face through another may cost so many times more at another point than it did in the queue,
+  // An edge whose placement would put a face through another may cost so many times more at another point than at that placement,
   // or than the collapses of late. Otherwise one vertex swallows what lies around it, at a thousand times the cost of others.
   // With 4, 8, 16, 32 and 64 |C|_L of 19 runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
@@ -181,9 +181,10 @@ private:
 
   Spectral_placement_search search() const;
 
-  // What is left for an edge whose best placement would cross another sheet: the cheapest of its ends and its middle that
-  // does not.
-  Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v);
+  // What is left for an edge whose best placement, `crossing`, would cross another sheet: the cheapest of its ends and its middle that
+  // does not, at a cost of at most `bound`.
+  Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v, const Eigen::Vector3d& crossing,
+                                    const double bound);
 
   // What makes `Spectral_options::shape` a number without unit: both terms of the cost grow with the scale of E, and the shape
   // term, a squared distance times an area, is compared with 1 / n, the area that a vertex stands for.
@@ -224,7 +225,6 @@ private:
 
   Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point
-  bool m_at_another_point = false; // whether the candidate whose turn it is goes there
   Spectral_geometry::Merge_forest m_forest;
   Spectral_candidates m_candidates;
   std::vector<std::size_t> m_marks;

@@ -87,6 +87,7 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
   m_fields.largest_degree_of_others = parameters.largest_degree_of_others;
   m_parameters = parameters;
   m_surface_scale = 0;
+  m_recent_cost = 0;
   m_fields.vanishing.clear();
   m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
   m_shape = Spectral_shape_term();
@@ -147,7 +148,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
   m_total.add(m_fields.E.sum());
-  m_recent_cost = 0;
   m_candidates.clear();
 }
 
@@ -213,15 +213,10 @@ Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, 
                               ? evaluate(u, v, m_pool->workspace().kernel)
                               : evaluate_for_queue(u, v, m_pool->workspace().kernel, minimiser_bound()));
   }
-  if(!any_version)
-    return *found;
-  m_at_another_point = found->collapsible && crosses(u, v, found->point);
-  if(m_at_another_point) {
+  if(any_version && found->collapsible && crosses(u, v, found->point)) {
     ++m_number_of_evaluations;
     const double bound = crossing_factor * (std::max)(found->cost, m_recent_cost);
-    Spectral_candidate apart = evaluate_apart(u, v);
-    apart.collapsible = apart.collapsible && apart.cost <= bound;
-    found = &m_candidates.insert((std::min)(u, v), apart);
+    found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v, found->point, bound));
     m_number_of_crossings += !found->collapsible;
   }
   return *found;
@@ -302,6 +297,9 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   const double shape_cost =
       shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
   const double largest_loss = shape.largest_loss * (m_fields.mass[removed] + m_fields.mass[kept]);
+  const Spectral_candidate* const candidate = m_candidates.find(removed, kept);
+  const bool at_another_point =
+      candidate != nullptr && candidate->at_another_point && candidate->point == point;
   --m_number_of_vertices;
   follow(removed, kept, weight);
   m_total.add(-m_fields.E[removed]);
@@ -315,7 +313,7 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
     m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
   const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
-  m_recent_cost = (std::max)(m_at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);
+  m_recent_cost = (std::max)(at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_around(const Spectral_slot kept)
@@ -330,8 +328,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search Spectral_collapse_core::
   return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(Spectral_slot u,
-                                                                                        Spectral_slot v)
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(
+    Spectral_slot u, Spectral_slot v, const Eigen::Vector3d& crossing, const double bound)
 {
   if(v < u)
     std::swap(u, v);
@@ -340,9 +338,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
   if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
     return result;
-  set_candidate(result, search().best_on_edge(u, v, kernel, [&](const Eigen::Vector3d& point) {
-    return !crosses(u, v, point);
+  set_candidate(result, search().best_on_edge(u, v, kernel, bound, [&](const Eigen::Vector3d& point) {
+    return point != crossing && !crosses(u, v, point);
   }));
+  result.at_another_point = true;
   return result;
 }
 

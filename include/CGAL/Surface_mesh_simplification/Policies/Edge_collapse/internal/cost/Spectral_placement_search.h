@@ -134,10 +134,11 @@ public:
     return sample;
   }
 
-  /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true.
+  /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true, unless it costs more than
+  /// `bound`.
   template <class Allowed>
   Spectral_sample best_on_edge(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                               const Allowed& allowed) const
+                               const double bound, const Allowed& allowed) const
   {
     const Fixed_ends fixed = fixed_ends(u, v);
     Spectral_sample samples[3];
@@ -150,7 +151,9 @@ public:
     evaluate(u, v, kernel, samples, count);
     for(; count > 0; --count) {
       Spectral_sample* const best = cheapest(samples, count);
-      if(std::isfinite(best->cost) && allowed(best->point))
+      if(!std::isfinite(best->cost) || best->cost > bound)
+        break;
+      if(allowed(best->point))
         return *best;
       *best = samples[count - 1];
     }
