@@ -610,6 +610,15 @@ TEST_CASE("What stops a fit of operators leaves the mesh that was made")
     CHECK(result.restriction.rows() == 120);
     CHECK(result.relocation.moved_vertices > 0);
   }
+  SECTION("too few vectors for the pairs that it takes: refused before anything is changed")
+  {
+    options.eigenpairs_options.maximum_vectors = 20 + 32; // enough for 20 pairs
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 120, options),
+                      ContainsSubstring("maximum_vectors must be 0 or at least 56, but is 52"));
+    CHECK(positions(mesh) == input.V);
+    options.fit_operators = false;
+    CHECK(SMS::spectral_edge_collapse(mesh, 120, options).output_vertices == 120);
+  }
   SECTION("signals: refused before anything is changed")
   {
     options.signals = input.V;

@@ -87,9 +87,10 @@ inline Command_line described(Arguments& a)
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep, the constant one included; best N >= 3 K");
-  line.choice("preset", a.preset, {"best", "fast", "paper"},
-              "best keeps the spectrum best; fast is for N below a hundredth of INPUT; paper: P follows the "
-              "collapses, and the mass is diagonal");
+  line.choice(
+      "preset", a.preset, {"best", "fast", "paper"},
+      "best keeps the spectrum best; fast is for N below a two-hundredth of INPUT; paper: P follows the "
+      "collapses, and the mass is diagonal");
 
   line.group("Input");
   line.flag("repair", a.repair, "make INPUT an oriented manifold of triangles and say what was changed");

@@ -44,7 +44,8 @@ struct Relocation_options
   /// do not see: a large weight costs them their gain, with none E may rise to a multiple.
   double plain = 0.03;
 
-  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident edge. Positive.
+  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident edge, or as far as
+  /// it starts, where that is more. Positive.
   double trust_radius = 0.5;
   /// No triangle's smallest angle falls below this part of what it was. In [0, 1].
   double smallest_angle_ratio = 0.5;

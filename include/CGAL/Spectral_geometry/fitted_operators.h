@@ -118,8 +118,8 @@ conjugate gradients: products are formed from signals (O(N K^2)), the Cholesky f
 term preconditions, kept while it does. Time and memory are linear in N but for the fill-in of that factor. Whenever it stops
 the result is inside of the bounds, up to that scaling, and its objective not larger than that of the own entries.
 
-@param coarse operator of the coarse mesh. What is off the diagonal of L gives pattern and start, B likewise; the mass gives D
-  and the total
+@param coarse operator of the coarse mesh. What is off the diagonal of L gives the pattern of both and where L starts, B where
+  the mass does; the mass gives D and the total
 @param P      restriction, coarse x fine
 @param fine   operator of the fine mesh, of which the area is taken
 @param fine_pairs its eigenpairs, orthonormal in its mass. With a fifth more of them than are to be judged the modes beyond, and

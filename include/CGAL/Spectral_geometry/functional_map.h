@@ -186,7 +186,8 @@ struct Spectral_evaluation
 
   double fine_theta = 0; ///< weight of the consistent mass in the operator of the fine mesh
   double theta = 0;      ///< the same for the coarse mesh. Figures of different theta are not comparable
-  std::string mass;      ///< "lumped", "averaged", or "theta = ..." of the coarse mesh; both if they differ
+  std::string
+      mass; ///< "lumped", "averaged", "voronoi", or "theta = ..." of the coarse mesh; both if they differ
 
   Eigen::MatrixXd C;             ///< functional map, `judged_modes` x `judged_modes`, rows are coarse modes
   Eigen::VectorXd fine_values;   ///< all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$

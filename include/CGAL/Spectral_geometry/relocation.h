@@ -22,7 +22,7 @@ namespace Spectral_geometry {
 
 /*!
 moves the vertices of a coarse mesh so that its Laplace-Beltrami operator agrees better with that of a fine one;
-which triangles there are, and the restriction, stay.
+which triangles there are stays; the restriction is a new one where signals are `sampled`.
 
 It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) that the functional map sees,
 see `Relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle

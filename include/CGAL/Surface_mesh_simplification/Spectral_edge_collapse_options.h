@@ -37,7 +37,7 @@ struct Spectral_edge_collapse_options : Spectral_options
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
 
   /// `best()` with `pre_simplify` at 30 times the target, and at least at 10,000 vertices: the eigenpairs are those of the reduced mesh, and
-  /// signals or eigenpairs cannot be given. The larger the mesh the more time that saves: a quarter at 80 times the target, two
+  /// signals or eigenpairs cannot be given. The larger the mesh the more time that saves: a tenth at 80 times the target, two
   /// thirds at 220 times. On eight meshes the norms were 1.05 (|C|_L) and 1.09 (|C|_D) times those of best() in the mean. It takes
   /// neither filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
@@ -95,7 +95,7 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// Moves the vertices that are left so that the spectrum is kept still better, see
   /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges stay. Made for the averaged
-  /// mass. Not with `binary`, unless its signals are `carried`: it takes P anew.
+  /// mass. Not with `binary` where its signals are `sampled`: that takes P anew.
   bool relocate = true;
 
   /// How they are moved; its progress callback is replaced by that of the run.
@@ -105,7 +105,7 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// of the mesh that `pre_simplify` has left:
   /// `Spectral_geometry::fit_operators()`, whose result is in `Spectral_edge_collapse_result::fitted`. The mesh stays as it
   /// is. They are fitted to a fifth more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are
-  /// given. Not with `signals`.
+  /// given. Not with `signals` or the Dirichlet condition.
   bool fit_operators = false;
 
   /// How they are chosen; its progress callback is replaced by that of the run.
@@ -143,6 +143,13 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
       throw std::invalid_argument(
           "Spectral_edge_collapse_options: fit_operators fits to eigenvectors, but signals "
           "are given; leave one of them out.");
+    const Eigen::Index K = options.number_of_eigenvectors + options.number_of_eigenvectors / 5;
+    const Eigen::Index vectors = options.eigenpairs_options.maximum_vectors;
+    if(!options.eigenpairs && vectors != 0 && vectors < K + 32)
+      throw std::invalid_argument(
+          "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
+          "eigenpairs_options.maximum_vectors must be 0 or at least " +
+          std::to_string(K + 32) + ", but is " + std::to_string(vectors) + ".");
   }
   if(options.fit_operators && options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
     throw std::invalid_argument(

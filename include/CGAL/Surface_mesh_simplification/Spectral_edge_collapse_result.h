@@ -73,7 +73,7 @@ struct Spectral_edge_collapse_result
 
   std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
   double E = 0;              ///< Eq. 2 of these signals, for the input scaled to unit area
-  double relative_error = 0; ///< sqrt(E / sum_k lambda_k^2)
+  double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
   /// what `Spectral_edge_collapse_options::flips` did: vertices by their rows of P, E in the scale of the input
   Spectral_geometry::Edge_flip_result flips;

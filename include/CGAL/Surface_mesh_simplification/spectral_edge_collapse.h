@@ -403,7 +403,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
  *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
  *         mesh that the spectral cost refuses (a needle, a vertex without area)
- * @throws Spectral_geometry::Cancelled when the run is cancelled before the first collapse; later a
+ * @throws Spectral_geometry::Cancelled when the run is cancelled while eigenpairs or first costs are computed, before any collapse; later a
  *         cancelled run returns what was done
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>

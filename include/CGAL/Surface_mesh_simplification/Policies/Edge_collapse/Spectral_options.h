@@ -118,7 +118,7 @@ struct Spectral_options
   /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement
   /// found would, the ends and the middle of the edge are tried, at no more than 16 times its cost or that of the collapses of
   /// late, and then the edge stays until a collapse beside it. Beside faces that cross already, as in scans, this holds until
-  /// n / 20 points were refused for it: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
+  /// a twentieth as many points as the input has vertices were refused for it, in each run of the loop: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
   /// Of collapses by quadrics it holds for the mesh that they end with, and an edge whose collapse would waits.
   bool keep_free_of_self_intersections = true;
 
@@ -186,7 +186,7 @@ struct Spectral_options
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
-  /// cancels: until the first collapse `Spectral_geometry::Cancelled` is thrown and the mesh is untouched; afterwards `spectral_edge_collapse()` stops between two collapses and returns a
+  /// cancels: until the first costs are computed `Spectral_geometry::Cancelled` is thrown and the mesh is untouched; afterwards `spectral_edge_collapse()` stops between two collapses and returns a
   /// valid mesh with the P of what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
 

@@ -168,7 +168,7 @@ public:
   /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
   double error() const { return state().error(); }
 
-  /// sqrt(E / sum_k lambda_k^2), which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
+  /// sqrt(E / sum_k w_k lambda_k^2) over the eigenvectors that the metric sees, w being `Spectral_options::weights`, which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
   /// the signals are constant (K = 1 for instance): P carries constants over exactly.
   double relative_error() const { return state().relative_error(); }
 
