@@ -310,6 +310,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   set_restriction(result, first, policies.log(), state.current_slots());
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
+  policies.shared_state()->release();
   run_post_process(mesh, post_process, options, policies, kept, np, first, result);
 }
 

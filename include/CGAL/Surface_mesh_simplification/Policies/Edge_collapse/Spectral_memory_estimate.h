@@ -77,12 +77,15 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2 is there
     loop += 1.5 * 2 * sizeof(Eigen::AlignedBox3d) + 8;
   const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options) : 0;
-  const double collapses = n * (8 * (options.signals.size() != 0 ? 5 : 3) * K + loop);
+  const double given =
+      options.signals.size() != 0 ? 3 : 1; // what is there after the collapses, when F and R are gone
+  const double collapses = n * (8 * (given + 2) * K + loop);
   const double after = options.relocate ? 4 : options.flips != Spectral_geometry::Edge_flips::none ? 2 : 0;
   const double fit = options.fit_operators && !options.eigenpairs
                          ? internal::memory_of_eigenpairs(n, 1.2 * K, options.eigenpairs_options)
                          : 0;
-  const double both = (std::max)(solver, collapses + (std::max)(n * 8 * after * K, fit));
+  const double both =
+      (std::max)({solver, collapses, n * (8 * given * K + loop) + (std::max)(n * 8 * after * K, fit)});
   const double coefficients =
       5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
   return input * internal::bytes_of_mesh + coefficients +

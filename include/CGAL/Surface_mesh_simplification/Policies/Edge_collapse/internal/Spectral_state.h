@@ -366,6 +366,8 @@ public:
   const Geom_traits& geom_traits() const { return m_traits; }
   /// The mathematics: fields, candidates and merges.
   const Spectral_collapse_core& core() const { return m_core; }
+  /// Gives back the memory of what only collapses need: nothing may be collapsed afterwards.
+  void release() { m_core.release(); }
   /// n x 3, the positions of the input.
   const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's.

@@ -323,6 +323,16 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_aroun
       m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
 }
 
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
+{
+  m_fields.F = m_fields.R = Spectral_rows(); // Z tells whether signals have rows of their own
+  m_fields.points = std::vector<Eigen::Vector3d>();
+  m_fields.rings = Spectral_rings();
+  m_shape = Spectral_shape_term();
+  m_crossing = Spectral_crossing_guard();
+  m_candidates = Spectral_candidates();
+}
+
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search Spectral_collapse_core::search() const
 {
   return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
