@@ -48,7 +48,7 @@ struct Spectral_edge_collapse_result
     std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
     std::size_t filter = 0;    ///< the `filter` named parameter
     std::size_t placement = 0; ///< no position without a degenerate triangle, or for the next reason
-    /// of these: no position near the edge's cost without a face through another
+    /// no position near the edge's cost without a face through another; where a placement is wrapped, whatever the wrapper did then
     std::size_t crossing = 0;
   };
 

@@ -111,8 +111,8 @@ std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edg
          ", filter " + to_string(result.refusals.filter) + ", placement " +
          to_string(result.refusals.placement) + " times" +
          (result.refusals.crossing == 0 ? ""
-                                        : ", " + to_string(result.refusals.crossing) +
-                                              " of them so that no face goes through another, as "
+                                        : "; " + to_string(result.refusals.crossing) +
+                                              " times so that no face goes through another, as "
                                               "keep_free_of_self_intersections asks") +
          "; constrained edges are never collapsed): it has " + to_string(components) +
          (components == 1 ? " component" : " components") +
