@@ -5,7 +5,7 @@
 #
 # The demonstration: installs what is missing (Debian), builds two programs, makes a shape of about 25,000
 # vertices, simplifies it to 3 % and prints a table. Settings, all optional: BUILD_DIR, JOBS (2),
-# CMAKE_ARGS, SPECTRAL_NO_INSTALL=1.
+# CXX (Clang for a new folder), CMAKE_ARGS, SPECTRAL_NO_INSTALL=1.
 
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
@@ -13,10 +13,11 @@ build=${BUILD_DIR:-$root/build}
 output=$build/demo
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
+install_packages g++ clang ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev
 
 prefer_ninja "$build"
+prefer_clang "$build"
 # The tests are switched off by not asking for their targets: their settings in an existing folder stay.
 mkdir -p "$output"
 if [ ! -f "$build/CMakeCache.txt" ]; then

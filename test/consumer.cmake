@@ -5,7 +5,13 @@
 # A project outside this tree: configured, built and run against an installed copy and by add_subdirectory.
 
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
-set(consumer_options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+# The platform's own compiler, whichever the library was compiled with.
+find_program(SPECTRAL_CONSUMER_COMPILER NAMES c++)
+mark_as_advanced(SPECTRAL_CONSUMER_COMPILER)
+if(NOT SPECTRAL_CONSUMER_COMPILER OR SPECTRAL_SANITIZE)
+  set(SPECTRAL_CONSUMER_COMPILER "${CMAKE_CXX_COMPILER}")
+endif()
+set(consumer_options -DCMAKE_CXX_COMPILER=${SPECTRAL_CONSUMER_COMPILER}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.

@@ -5,7 +5,8 @@
 #
 # Runs every test: installs what is missing (Debian), configures, builds, tests. Its last line is
 # `N passed, N failed`, its exit status 0 only if nothing failed. Settings, all optional: BUILD_DIR, JOBS
-# (2), CMAKE_ARGS (handed to cmake, such as -DCGAL_DIR=...), SPECTRAL_NO_INSTALL=1.
+# (2), CXX (Clang for a new folder; CXX=g++ asks for GCC), CMAKE_ARGS (handed to cmake, such as
+# -DCGAL_DIR=...), SPECTRAL_NO_INSTALL=1.
 
 set -u
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
@@ -20,12 +21,13 @@ stop()
 }
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
+install_packages g++ clang ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev \
   pybind11-dev python3-dev python3-numpy python3-scipy catch2 ||
   stop "The tests were not run: packages are missing."
 
 prefer_ninja "$build"
+prefer_clang "$build"
 # CMAKE_ARGS is split into words on purpose.
 cmake -S "$root" -B "$build" -DCMAKE_BUILD_TYPE=Release -DSPECTRAL_BUILD_TESTS=ON -DSPECTRAL_BUILD_EXAMPLES=ON \
   -DSPECTRAL_QUICK_BUILD=ON ${CMAKE_ARGS:-} || stop "The tests were not run: cmake did not get through."
