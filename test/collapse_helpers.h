@@ -44,7 +44,7 @@ inline SMS::Spectral_edge_collapse_options options_with(const Eigen::Index K)
   return options;
 }
 
-template <class Mesh, class Policies, class Visitor = SMS::internal::No_visitor>
+template <class Mesh, class Policies, class Visitor = SMS::internal::Dummy_visitor>
 int collapse(Mesh& mesh, const Policies& policies, const std::size_t N, const Visitor& visitor = {})
 {
   return SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, mesh),

@@ -126,7 +126,7 @@ int collapse_without_visitor(Mesh& mesh, const Policies& policies)
 }
 
 // At every collapse: the edges whose costs CGAL has asked for in either direction. After the run: what differed.
-struct Direction_probe : SMS::internal::No_visitor
+struct Direction_probe : SMS::internal::Dummy_visitor
 {
   explicit Direction_probe(const Policies& p)
     : policies(&p)
@@ -158,7 +158,7 @@ struct Direction_probe : SMS::internal::No_visitor
 };
 
 // Checks that an edge with one border vertex is collapsed onto it.
-struct Border_probe : SMS::internal::No_visitor
+struct Border_probe : SMS::internal::Dummy_visitor
 {
   template <class Profile, class Optional_point>
   void OnCollapsing(const Profile& profile, const Optional_point& placement)

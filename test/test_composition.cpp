@@ -115,7 +115,7 @@ struct Recording_placement
   }
 };
 
-struct Selection_visitor : SMS::internal::No_visitor
+struct Selection_visitor : SMS::internal::Dummy_visitor
 {
   Costed_points* log;
 

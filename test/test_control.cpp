@@ -230,7 +230,7 @@ TEST_CASE("A visitor or a filter is refused where the first stage could not call
   Mesh mesh = make_mesh(input);
   Spectral_edge_collapse_options options = options_with(20);
   options.pre_simplify = 300;
-  const auto visitor = CGAL::parameters::visitor(SMS::internal::No_visitor());
+  const auto visitor = CGAL::parameters::visitor(SMS::internal::Dummy_visitor());
   const auto filter = CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>());
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 100, options, visitor),
                     ContainsSubstring("no visitor"));

@@ -33,7 +33,7 @@ using Point = Kernel::Point_3;
 
 namespace {
 
-struct Counting_visitor : SMS::internal::No_visitor
+struct Counting_visitor : SMS::internal::Dummy_visitor
 {
   template <class P, class V>
   void OnCollapsed(const P&, const V&)

@@ -447,7 +447,7 @@ TEST_CASE(
   };
   const auto none = CGAL::parameters::default_values();
   CHECK(quadric_collapses(none) == 1062);
-  CHECK(quadric_collapses(CGAL::parameters::visitor(SMS::internal::No_visitor())) == 0);
+  CHECK(quadric_collapses(CGAL::parameters::visitor(SMS::internal::Dummy_visitor())) == 0);
   CHECK(quadric_collapses(CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>())) == 0);
   using Options = SMS::Spectral_edge_collapse_options;
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(input.V.rows());

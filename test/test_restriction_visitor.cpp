@@ -56,7 +56,7 @@ struct Counts
   int started = 0, finished = 0, collapsing = 0, collapsed = 0, selected = 0, collected = 0, stopped = 0;
 };
 
-struct Counting_visitor : SMS::internal::No_visitor
+struct Counting_visitor : SMS::internal::Dummy_visitor
 {
   Counts* counts = nullptr;
 

@@ -111,7 +111,7 @@ Mesh simplified(const shapes::Matrices& input, const std::size_t N,
 
 // Calls a function with the profile of each edge before the first collapse.
 template <class Function>
-struct At_first_costs : SMS::internal::No_visitor
+struct At_first_costs : SMS::internal::Dummy_visitor
 {
   const Function* function;
 

@@ -34,7 +34,7 @@ using namespace spectral_test;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 
 // Every cost that CGAL's queue sees is a number.
-struct Cost_probe : SMS::internal::No_visitor
+struct Cost_probe : SMS::internal::Dummy_visitor
 {
   explicit Cost_probe(bool& good)
     : good(&good)

@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -100,7 +99,6 @@ inline void check_edge_flip_options(const Edge_flip_options& o)
 
 } // namespace internal
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EDGE_FLIP_OPTIONS_H

@@ -16,8 +16,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -164,7 +163,6 @@ inline void check_relocation_options(const Relocation_options& o)
 
 } // namespace internal
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_RELOCATION_OPTIONS_H

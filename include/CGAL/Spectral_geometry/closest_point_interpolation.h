@@ -11,8 +11,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
 /// @{
@@ -51,8 +50,7 @@ closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& 
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>

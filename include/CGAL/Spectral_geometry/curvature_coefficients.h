@@ -10,8 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -36,8 +35,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>

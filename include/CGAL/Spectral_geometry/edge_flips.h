@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -52,8 +51,7 @@ flip_edges(const Eigen::MatrixXd& V, Eigen::MatrixXi& T, const Eigen::SparseMatr
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/flips/edge_flips_impl.h>

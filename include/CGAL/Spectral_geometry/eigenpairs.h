@@ -15,8 +15,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -143,8 +142,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<do
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>

@@ -13,8 +13,7 @@
 
 #include <functional>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -148,8 +147,7 @@ namespace internal {
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit_options& options);
 
 } // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>

@@ -19,8 +19,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
 /// @{
@@ -263,8 +262,7 @@ prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pa
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/maps/functional_map_impl.h>

@@ -16,8 +16,7 @@ Finding the map between two shapes: functional maps from descriptors, and their 
 vertex_maps.h; these functions need eigenpairs of both meshes **at unit area** (or of two meshes of one area).
 */
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
 /// @{
@@ -127,8 +126,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eige
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/maps/functional_map_estimation_impl.h>

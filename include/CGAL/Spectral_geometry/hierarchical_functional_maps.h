@@ -11,8 +11,7 @@
 
 #include <limits>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
 /// @{
@@ -61,8 +60,7 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/maps/hierarchical_functional_maps_impl.h>

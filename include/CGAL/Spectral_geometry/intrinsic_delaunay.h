@@ -11,8 +11,7 @@
 
 #include <Eigen/Core>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -51,8 +50,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/operators/intrinsic_delaunay_impl.h>

@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -158,8 +157,7 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm, const NamedParameters& np = 
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/operators/mesh_diagnosis_impl.h>

@@ -10,8 +10,7 @@
 
 #include <Eigen/Core>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
@@ -43,8 +42,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/operators/operator_coefficients_impl.h>

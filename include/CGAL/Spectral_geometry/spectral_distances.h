@@ -37,8 +37,7 @@ Common to all functions:
   not known, or when one that is not among them was computed as zero.
 */
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
 /// @{
@@ -402,7 +401,6 @@ inline Eigen::MatrixXd wave_kernel_distance(const Eigenpairs& pairs, const Dista
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H

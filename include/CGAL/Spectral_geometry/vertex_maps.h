@@ -23,8 +23,7 @@ map T that induces one goes the other way: it says for each vertex of Y which ve
 area, or all as they are when the areas agree.
 */
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
 /// @{
@@ -98,8 +97,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 /// @}
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/maps/vertex_maps_impl.h>

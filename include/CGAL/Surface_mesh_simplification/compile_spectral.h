@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_COMPILE_SPECTRAL_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 /*!
 \file
 \brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of all others.

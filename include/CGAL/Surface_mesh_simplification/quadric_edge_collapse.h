@@ -5,14 +5,11 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_QUADRIC_EDGE_COLLAPSE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_QUADRIC_EDGE_COLLAPSE_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -35,17 +32,17 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 namespace internal {
 
 /// Whether there are named parameters of `edge_collapse()` that a call with a cost of its own has no use for.
 template <class NamedParameters>
-constexpr bool overrides_policies = is_given<NamedParameters>(internal_np::get_cost_policy_t()) ||
-                                    is_given<NamedParameters>(internal_np::get_placement_policy_t()) ||
-                                    is_given<NamedParameters>(internal_np::use_relaxed_order_t()) ||
-                                    is_given<NamedParameters>(internal_np::vertex_index_t()) ||
-                                    is_given<NamedParameters>(internal_np::halfedge_index_t());
+constexpr bool overrides_policies =
+    !parameters::is_default_parameter<NamedParameters, internal_np::get_cost_policy_t>::value ||
+    !parameters::is_default_parameter<NamedParameters, internal_np::get_placement_policy_t>::value ||
+    !parameters::is_default_parameter<NamedParameters, internal_np::use_relaxed_order_t>::value ||
+    !parameters::is_default_parameter<NamedParameters, internal_np::vertex_index_t>::value ||
+    !parameters::is_default_parameter<NamedParameters, internal_np::halfedge_index_t>::value;
 
 inline void check_target(const char* const caller, const std::size_t target, const std::size_t n)
 {
@@ -98,26 +95,6 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, const Spectral_geometr
   return result;
 }
 
-/// The vertices that must be left where they are: those to keep and the ends of constrained edges.
-template <class TriangleMesh, class NamedParameters>
-std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector<char>& kept,
-                                     const NamedParameters& np)
-{
-  std::vector<char> fixed = kept;
-  if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
-    const auto constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
-    fixed.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end())), false);
-    std::size_t i = 0;
-    for(const auto v : vertices(mesh)) {
-      for(const auto h : halfedges_around_target(v, mesh))
-        fixed[i] = fixed[i] || get(constrained, edge(h, mesh));
-      ++i;
-    }
-  } else
-    CGAL_USE(mesh);
-  return fixed;
-}
-
 /// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in `vertices(mesh)`, or empty.
 /// `report(left)` may throw before the mesh changes. Writes the slots of the vertices that are left and returns the log.
 template <class TriangleMesh, class Report, class NamedParameters>
@@ -131,14 +108,8 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
     const Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     check_mesh_of_quadrics(mesh, matrices.V);
     if(!kept.empty()) {
-      using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
       const Fine_vertex_slots<TriangleMesh> slots(mesh, "edge collapses");
-      check_kept_vertices_apart(
-          mesh, [&](const vertex_descriptor v) { return kept[std::size_t(slots.slot(v))] != 0; },
-          [&](const vertex_descriptor v) { return slots.slot(v); },
-          [&](const vertex_descriptor v, const vertex_descriptor w) {
-            return matrices.V.row(slots.slot(v)) == matrices.V.row(slots.slot(w));
-          });
+      check_kept_vertices_apart(mesh, slots, kept, matrices.V);
     }
     arrays = triangle_arrays(mesh, matrices);
     using Point = typename boost::property_traits<
@@ -192,8 +163,8 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
                                                    const NamedParameters& np = parameters::default_values())
 {
   static_assert(!internal::overrides_policies<NamedParameters> &&
-                    !internal::is_given<NamedParameters>(internal_np::filter_t()) &&
-                    !internal::is_given<NamedParameters>(internal_np::visitor_t()),
+                    parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
+                    parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
                 "quadric_edge_collapse() takes no get_cost, get_placement, use_relaxed_order, index map, "
                 "filter or visitor");
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
@@ -214,7 +185,6 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_QUADRIC_EDGE_COLLAPSE_H

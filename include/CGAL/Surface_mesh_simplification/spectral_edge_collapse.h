@@ -6,14 +6,12 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_H
 
 #include <CGAL/Real_timer.h>
-#include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_post_process.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -39,8 +37,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
@@ -57,11 +54,13 @@ Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  constexpr bool has_filter = is_given<NamedParameters>(internal_np::filter_t());
-  constexpr bool has_constraints = is_given<NamedParameters>(internal_np::edge_is_constrained_t());
+  constexpr bool has_filter =
+      !parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value;
+  constexpr bool has_constraints =
+      !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
 
   const auto visitor =
-      policies.visitor(choose_parameter(get_parameter(np, internal_np::visitor), No_visitor()));
+      policies.visitor(choose_parameter(get_parameter(np, internal_np::visitor), Dummy_visitor()));
   const auto common = parameters::visitor(visitor)
                           .vertex_point_map(policies.state().vertex_point_map())
                           .geom_traits(policies.state().geom_traits());
@@ -158,11 +157,14 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
 
 /// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
-void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_process,
+void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& fine,
                       const Spectral_edge_collapse_options& options, const Policies& policies,
                       const std::vector<char>& kept, const NamedParameters& np,
                       const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
+  using Reason = Spectral_edge_collapse_result::Stop_reason;
+  if(!has_post_process(options) || result.stop_reason == Reason::cancelled)
+    return;
   // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
   Eigen::SparseMatrix<double> rows_of_kept;
   if(!kept.empty()) {
@@ -174,13 +176,13 @@ void run_post_process(TriangleMesh& mesh, const Spectral_post_process& post_proc
     rows_of_kept.resize(Eigen::Index(result.output_vertices), Eigen::Index(kept.size()));
     rows_of_kept.setFromTriplets(ones.begin(), ones.end());
   }
-  post_process.run(mesh, policies, rows_of_kept, np, result);
+  Spectral_post_process<TriangleMesh, Policies, NamedParameters>(mesh, fine, policies, options, np, result)
+      .run(rows_of_kept);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
   // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
   Eigen::SparseMatrix<double>& own = result.relocation.restriction;
-  if(result.relative_error > options.maximum_error &&
-     result.stop_reason != Spectral_edge_collapse_result::Stop_reason::cancelled)
+  if(result.relative_error > options.maximum_error && result.stop_reason != Reason::cancelled)
     result.warnings.push_back(
         "The collapses kept the error bound, but with what followed them the relative error is " +
         std::to_string(result.relative_error) + "; set relocate to false to keep it.");
@@ -217,9 +219,9 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
 {
   auto& state = *policies.shared_state();
   const std::size_t n = state.number_of_vertices();
-  if(is_given<NamedParameters>(internal_np::filter_t()) ||
-     is_given<NamedParameters>(internal_np::visitor_t()) || !quadrics_come_first(options) ||
-     !(double(n) > options.quadrics_above * double(target)))
+  if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
+     !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value ||
+     !quadrics_come_first(options) || !(double(n) > options.quadrics_above * double(target)))
     return;
   Real_timer timer;
   timer.start();
@@ -257,7 +259,9 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
-  const Spectral_post_process post_process(mesh, options, policies_np);
+  const Spectral_geometry::Mesh_matrices fine = has_post_process(options)
+                                                    ? Spectral_geometry::mesh_matrices(mesh, policies_np)
+                                                    : Spectral_geometry::Mesh_matrices();
   const std::vector<char> kept =
       options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
@@ -311,7 +315,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
   policies.shared_state()->release();
-  run_post_process(mesh, post_process, options, policies, kept, np, first, result);
+  run_post_process(mesh, fine, options, policies, kept, np, first, result);
 }
 
 /// Both stages of a run whose first one has been done. Once the mesh has changed, to cancel is to return what was done.
@@ -434,7 +438,6 @@ Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const s
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_H

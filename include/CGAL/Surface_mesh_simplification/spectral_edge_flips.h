@@ -5,12 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/edge_flips.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>
@@ -25,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -38,7 +34,8 @@ template <class TriangleMesh, class NamedParameters>
 std::vector<std::pair<int, int>> constrained_edges(const TriangleMesh& mesh, const NamedParameters& np)
 {
   std::vector<std::pair<int, int>> result;
-  if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
+  if constexpr(!parameters::is_default_parameter<NamedParameters,
+                                                 internal_np::edge_is_constrained_t>::value) {
     auto index = get(dynamic_vertex_property_t<int>(), mesh);
     int n = 0;
     for(const auto v : vertices(mesh))
@@ -123,7 +120,6 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_FLIPS_H

@@ -5,17 +5,13 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
@@ -23,42 +19,16 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
-#include <iterator>
-#include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
 
 namespace internal {
 
-/// Which vertices may not move: those that are constrained, and both ends of constrained edges.
-template <class TriangleMesh, class NamedParameters>
-std::vector<bool> constrained_vertices(const TriangleMesh& mesh, const NamedParameters& np)
-{
-  using parameters::get_parameter;
-  std::vector<bool> fixed;
-  for(const auto v : vertices(mesh)) {
-    bool constrained = false;
-    if constexpr(is_given<NamedParameters>(internal_np::vertex_is_constrained_t()))
-      constrained = bool(get(get_parameter(np, internal_np::vertex_is_constrained), v));
-    if constexpr(is_given<NamedParameters>(internal_np::edge_is_constrained_t())) {
-      const auto h0 = halfedge(v, mesh);
-      if(h0 != boost::graph_traits<TriangleMesh>::null_halfedge())
-        for(const auto h : halfedges_around_target(h0, mesh))
-          constrained =
-              constrained || bool(get(get_parameter(np, internal_np::edge_is_constrained), edge(h, mesh)));
-    }
-    fixed.push_back(constrained);
-  }
-  (void)np;
-  return fixed;
-}
-
-/// The same for signals: F and Z = B^-1 L F are fine x K. `kept`: further vertices that stay, or empty.
+/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `kept`: further vertices that stay, or empty.
 template <class TriangleMesh, class NamedParameters>
 Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                                                    const Spectral_geometry::Mesh_matrices& fine,
@@ -74,7 +44,9 @@ Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eig
   using Point = typename Geom_traits::Point_3;
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   const Eigen::MatrixXd before = coarse.V;
-  std::vector<bool> fixed = constrained_vertices(mesh, np);
+  const std::vector<char> constrained = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
+  std::vector<bool> fixed(constrained.begin(), constrained.end());
+  fixed.resize(std::size_t(coarse.V.rows()));
   for(std::size_t v = 0; v < kept.size(); ++v)
     fixed[v] = fixed[v] || kept[v];
   Spectral_geometry::Relocation_result result =
@@ -129,7 +101,6 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H

@@ -23,9 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Block Lanczos with shift and invert, thick restart and partial reorthogonalisation.
 ///
@@ -492,8 +490,6 @@ private:
   std::mt19937_64 m_random{1};
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H

@@ -16,10 +16,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
-
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 // Approximate eigenpairs, B-orthonormal, in ascending order.
 struct Ritz_pairs
@@ -159,8 +156,6 @@ inline void fix_signs(Eigen::MatrixXd& vectors)
   }
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGEN_PROBLEM_H

@@ -15,9 +15,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 // Coefficients with respect to several panels: 8 rows for each of them. Of one they are an Eigen::MatrixXd outside of this class: its
 // products and factorisations are compiled for others, too, and a row-major type of eight columns would have its own.
@@ -169,8 +167,6 @@ private:
   int m_threads;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H

@@ -12,9 +12,7 @@
 
 #include <algorithm>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 // A place to count: below the K-th value and the group that it belongs to, in a gap. Copies of values(K-1) itself need not be
 // counted, any K of them are right.
@@ -75,8 +73,6 @@ inline bool may_be_incomplete(const Eigen_problem& problem, const Eigen::VectorX
   return false;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_COMPLETENESS_H

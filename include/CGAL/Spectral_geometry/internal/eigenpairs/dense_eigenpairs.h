@@ -13,9 +13,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
 {
@@ -28,8 +26,6 @@ inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
   return {(s * solver.eigenvalues().head(K)).cwiseMax(0.), std::sqrt(s) * solver.eigenvectors().leftCols(K)};
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_DENSE_EIGENPAIRS_H

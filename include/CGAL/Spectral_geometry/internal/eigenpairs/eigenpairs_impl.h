@@ -11,12 +11,9 @@
 #include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options)
@@ -91,7 +88,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<do
   return eigenpairs(op, K, options);
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGENPAIRS_IMPL_H

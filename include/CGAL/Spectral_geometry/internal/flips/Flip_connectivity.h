@@ -17,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Triangles that know their neighbours, and whose edges keep their number while they are flipped. Slot 3 f + k is the
 /// side of face f that lies opposite to its corner k.
@@ -164,8 +162,6 @@ private:
   std::vector<std::vector<int>> m_faces;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H

@@ -18,9 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// E_w of each vertex, and what four of them become when an edge is flipped. Every row is summed anew from its triangles:
 /// nothing drifts.
@@ -136,8 +134,6 @@ private:
   Eigen::RowVectorXd m_R;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_ENERGY_H

@@ -22,9 +22,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// What a flip may do to the shape. Angles and normals depend on its four vertices; sizes and intersections on the
 /// rest of the mesh as well, and are asked for when its turn has come.
@@ -145,8 +143,6 @@ private:
   Box_tree m_tree; // of the faces; empty: nobody asks
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_GUARDS_H

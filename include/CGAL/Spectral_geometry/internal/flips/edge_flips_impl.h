@@ -13,9 +13,6 @@
 
 #include <CGAL/Real_timer.h>
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,11 +21,8 @@
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <utility>
-#include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
@@ -203,7 +197,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd&
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_EDGE_FLIPS_IMPL_H

@@ -5,15 +5,13 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_H
 
-#include <CGAL/Spectral_geometry/internal/parallel/Aligned_buffer.h>
+#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 using Eigen::Index;
 
@@ -23,7 +21,9 @@ constexpr int panel_width = 8;
 class Panel
 {
 public:
-  explicit Panel(Index n) { m_storage.assign(std::size_t(n) * panel_width); }
+  explicit Panel(Index n)
+    : m_storage(std::size_t(n) * panel_width)
+  {}
   Panel(Panel&&) = default;
   Panel& operator=(Panel&&) = default;
   Panel(const Panel&) = delete; // long ones must not be copied unnoticed
@@ -36,8 +36,6 @@ private:
   Aligned_buffer m_storage;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_H

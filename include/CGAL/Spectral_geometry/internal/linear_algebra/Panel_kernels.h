@@ -15,9 +15,7 @@
 // The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is a cache line and eight
 // vectors share every access to a matrix entry.
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// One row of a panel in registers, as Eigen has it for the flags of the build.
 using Panel_row = Eigen::Array<double, panel_width, 1>;
@@ -334,8 +332,6 @@ inline void backward(const Supernode& s, double* x)
   on_vector_units([&] { backward_body<Wide_panel_row>(s, x); }, [&] { backward_body<Panel_row>(s, x); });
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_KERNELS_H

@@ -23,9 +23,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A set of neighbouring supernodes that no other supernode outside of the set and its ancestors depends on.
 struct Branch
@@ -112,7 +110,8 @@ public:
   /// x = A^-1 b, in the order of the factor.
   void solve(const Panel& b, Panel& x, int threads)
   {
-    m_workspace.at_least(m_slots * panel_width);
+    if(m_workspace.size() < std::size_t(m_slots * panel_width))
+      m_workspace.assign(m_slots * panel_width, 0.);
     const Index entries = Index(m_order.size()) * panel_width;
     std::copy_n(b.row(0), entries, m_workspace.data());
     solve_in_place<Panel_solver>(m_workspace.data(), threads);
@@ -122,7 +121,9 @@ public:
   /// The same for one vector, in the order of A.
   Eigen::VectorXd solve(const Eigen::VectorXd& b, int threads)
   {
-    double* const w = m_workspace.at_least(m_slots);
+    if(m_workspace.size() < std::size_t(m_slots))
+      m_workspace.assign(m_slots, 0.);
+    double* const w = m_workspace.data();
     for(std::size_t i = 0; i < m_order.size(); ++i)
       w[i] = b[m_order[i]];
     solve_in_place<Vector_solver>(w, threads);
@@ -484,8 +485,6 @@ inline Index number_of_negative_eigenvalues(const Sparse_matrix& A, int threads 
   return Supernodal_factor(A, threads, Supernodal_factor::Pivots::of_either_sign).number_of_negative_pivots();
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_SUPERNODAL_FACTOR_H

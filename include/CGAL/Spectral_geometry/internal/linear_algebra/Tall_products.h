@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_TALL_PRODUCTS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_TALL_PRODUCTS_H
 
-#include <CGAL/Spectral_geometry/internal/parallel/Aligned_buffer.h>
+#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Panel.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
 
@@ -14,9 +14,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A tall matrix, panel by panel of eight columns; the last one is filled up with zeros.
 class Tall_matrix
@@ -28,9 +26,8 @@ public:
   Tall_matrix(Index rows, Index columns)
     : m_rows(rows)
     , m_panels((columns + panel_width - 1) / panel_width)
-  {
-    m_storage.assign(std::size_t(m_rows * m_panels * panel_width));
-  }
+    , m_storage(std::size_t(m_rows * m_panels * panel_width))
+  {}
   explicit Tall_matrix(const Eigen::MatrixXd& A)
     : Tall_matrix(A.rows(), A.cols())
   {
@@ -55,9 +52,8 @@ class Panel_blocks
 public:
   explicit Panel_blocks(Index panels)
     : m_panels(panels)
-  {
-    m_storage.assign(std::size_t(panels * panels * panel_width * panel_width));
-  }
+    , m_storage(std::size_t(panels * panels * panel_width * panel_width))
+  {}
   explicit Panel_blocks(const Eigen::MatrixXd& M)
     : Panel_blocks((M.cols() + panel_width - 1) / panel_width)
   {
@@ -128,8 +124,6 @@ inline void sampled_product(const int* start, const int* column, const double* A
       [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, begin, end); });
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_TALL_PRODUCTS_H

@@ -12,9 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 using Sparse_matrix = Eigen::SparseMatrix<double>;
 
@@ -139,8 +137,6 @@ inline std::vector<Column_group> group_columns(const Sparse_matrix& A)
   return groups;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_SUPERNODAL_STRUCTURE_H

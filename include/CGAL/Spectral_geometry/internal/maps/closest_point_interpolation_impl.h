@@ -8,17 +8,13 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 inline void check_interpolation_input(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
@@ -59,7 +55,6 @@ closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& 
   return internal::interpolation(internal::Closest_point_query(surface), surface, points);
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_CLOSEST_POINT_INTERPOLATION_IMPL_H

@@ -10,7 +10,6 @@
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <Eigen/SVD>
 #include <Eigen/SparseCore>
 
@@ -21,8 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
 orientation_operator(const Eigen::MatrixXi& T, const Eigen::MatrixXd& vectors, const Eigen::VectorXd& f)
@@ -189,7 +187,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eige
   return Y.pairs.vectors.leftCols(C.rows()) * (damped * X.pairs.vectors.leftCols(C.cols()).transpose());
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_FUNCTIONAL_MAP_ESTIMATION_IMPL_H

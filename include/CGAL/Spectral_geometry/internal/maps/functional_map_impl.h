@@ -7,13 +7,7 @@
 
 #include <CGAL/Spectral_geometry/functional_map.h>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <string>
-
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
@@ -209,7 +203,6 @@ prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pa
   return scale * (fine_pairs.vectors.leftCols(C.cols()) * (C.transpose() * coefficients));
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_FUNCTIONAL_MAP_IMPL_H

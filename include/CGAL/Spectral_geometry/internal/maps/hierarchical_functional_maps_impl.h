@@ -8,17 +8,14 @@
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
 
-#include <Eigen/Core>
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Lifted_functional_map
 lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::MatrixXd& coarse,
@@ -53,7 +50,6 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_HIERARCHICAL_FUNCTIONAL_MAPS_IMPL_H

@@ -11,17 +11,12 @@
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 inline void check_vertex_map(const std::vector<Eigen::Index>& map, Eigen::Index targets, Eigen::Index sources)
@@ -170,7 +165,6 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_VERTEX_MAPS_IMPL_H

@@ -17,9 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Stiffness and mass of a mesh as functions of its positions, edge by edge, and the way back from derivatives
 /// with respect to their entries to derivatives with respect to positions.
@@ -274,8 +272,6 @@ private:
   std::vector<std::vector<Entry>> m_rows;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_OPERATOR_GEOMETRY_H

@@ -16,9 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A symmetric matrix sum_a x_a d_a d_a^T with bounds on x; d_a is row a of a sparse matrix.
 class Rank_one_terms
@@ -77,9 +75,6 @@ public:
     return y;
   }
 
-  // where the matrix has entries, all zero
-  const Sparse_matrix& pattern() const { return m_pattern; }
-
   // for each entry of the pattern that of the matrix
   Vector entries(const Vector& x) const { return m_map * x; }
 
@@ -100,8 +95,6 @@ private:
   Sparse_matrix m_pattern, m_map;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_RANK_ONE_TERMS_H

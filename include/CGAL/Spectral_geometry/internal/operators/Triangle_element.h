@@ -13,9 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /*!
  * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings of the collapses, flips and
@@ -113,8 +111,6 @@ double lumped_share(const bool voronoi, const Cotangents& cot, const int k)
   return voronoi ? mixed_voronoi_share(cot[k], cot[(k + 1) % 3], cot[(k + 2) % 3]) : 1. / 3;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_TRIANGLE_ELEMENT_H

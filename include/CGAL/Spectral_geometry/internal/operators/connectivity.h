@@ -14,9 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// For each of n vertices the number of its component, from 0 in the order of their first vertices. `for_each_edge` calls its
 /// argument with the ends of each edge.
@@ -75,8 +73,6 @@ inline std::vector<char> border_vertices(const Eigen::MatrixXi& T, const Eigen::
   return result;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CONNECTIVITY_H

@@ -9,14 +9,7 @@
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
 {
@@ -310,7 +303,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_COTANGENT_LAPLACIAN_IMPL_H

@@ -13,7 +13,6 @@
 #include <CGAL/Spectral_geometry/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -23,8 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
@@ -107,7 +105,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
   return anisotropic_coefficients(D);
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CURVATURE_COEFFICIENTS_IMPL_H

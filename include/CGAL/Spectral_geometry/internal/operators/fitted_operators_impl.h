@@ -17,7 +17,6 @@
 #include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <array>
@@ -29,8 +28,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 /// The quadratic program of fit_operators() and its solver, at unit area.
@@ -600,7 +598,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_FITTED_OPERATORS_IMPL_H

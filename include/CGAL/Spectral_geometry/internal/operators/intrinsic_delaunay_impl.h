@@ -5,12 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_INTRINSIC_DELAUNAY_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_INTRINSIC_DELAUNAY_IMPL_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -21,8 +18,7 @@
 #include <tuple>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 /*!
@@ -257,7 +253,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_INTRINSIC_DELAUNAY_IMPL_H

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H
 
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <boost/pending/disjoint_sets.hpp>
@@ -12,16 +13,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
@@ -273,31 +270,28 @@ private:
 
   void collect_components()
   {
-    boost::disjoint_sets_with_storage<> sets(m_n);
-    std::vector<bool> has_face(m_n, false); // by representatives
-    for(std::size_t f = 0; f < m_polygons.size(); ++f)
-      for(std::size_t i = 1; m_sound[f] && i < m_polygons[f].size(); ++i)
-        sets.union_set(m_polygons[f][0], m_polygons[f][i]);
-    for(std::size_t f = 0; f < m_polygons.size(); ++f)
-      if(m_sound[f])
-        has_face[sets.find_set(m_polygons[f][0])] = true;
-    std::vector<std::size_t> component(m_n, std::size_t(-1)); // the same
+    const std::vector<Eigen::Index> component =
+        connected_components(Eigen::Index(m_n), [&](const auto& join) {
+          for(std::size_t f = 0; f < m_polygons.size(); ++f)
+            for(std::size_t i = 1; m_sound[f] && i < m_polygons[f].size(); ++i)
+              join(Eigen::Index(m_polygons[f][0]), Eigen::Index(m_polygons[f][i]));
+        });
+    std::vector<Mesh_component> all;
     for(std::size_t v = 0; v < m_n; ++v) {
-      const std::size_t root = sets.find_set(v);
-      if(!has_face[root]) // isolated
-        continue;
-      if(component[root] == std::size_t(-1)) {
-        component[root] = m_result.components.size();
-        m_result.components.emplace_back();
-        m_result.components.back().first = v;
+      const std::size_t i = std::size_t(component[v]);
+      if(i == all.size()) {
+        all.emplace_back();
+        all.back().first = v;
       }
-      Mesh_component& c = m_result.components[component[root]];
-      ++c.vertices;
-      c.closed = c.closed && !m_border[v];
+      ++all[i].vertices;
+      all[i].closed = all[i].closed && !m_border[v];
     }
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
       if(m_sound[f])
-        ++m_result.components[component[sets.find_set(m_polygons[f][0])]].faces;
+        ++all[std::size_t(component[m_polygons[f][0]])].faces;
+    for(const Mesh_component& c : all)
+      if(c.faces != 0) // else an isolated vertex
+        m_result.components.push_back(c);
   }
 
   static void add_sorted(std::vector<std::pair<std::size_t, std::size_t>>& pairs, Mesh_finding& finding)
@@ -455,7 +449,6 @@ diagnose_polygon_soup(const Eigen::MatrixXd& V, const std::vector<std::vector<st
   return internal::Mesh_examination(V, polygons).run();
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_MESH_DIAGNOSIS_IMPL_H

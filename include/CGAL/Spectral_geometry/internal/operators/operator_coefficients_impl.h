@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
@@ -81,7 +80,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_OPERATOR_COEFFICIENTS_IMPL_H

@@ -22,9 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /*!
  * Runs short loops on several threads, each with a workspace of its own.
@@ -240,8 +238,6 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
                 [&f](const std::size_t i, Nothing&) { f(Eigen::Index(i)); });
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_PARALLEL_THREAD_POOL_H

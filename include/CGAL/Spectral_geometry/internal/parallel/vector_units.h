@@ -19,14 +19,18 @@
 #define CGAL_SPECTRAL_INLINE inline
 #endif
 
-#include <cstddef>
+#include <boost/align/aligned_allocator.hpp>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+#include <cstddef>
+#include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
 
 /// What two threads write lies in lines of its own, and a row of numbers begins with one.
 constexpr std::size_t cache_line = 64;
+
+/// Numbers that begin with a cache line. A vector register that is loaded across the end of one costs two loads.
+using Aligned_buffer = std::vector<double, boost::alignment::aligned_allocator<double, cache_line>>;
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
 /// Four doubles anywhere in memory. Never passed or returned by value: that ABI would depend on -m flags. Nor copied by memcpy: GCC
@@ -64,8 +68,6 @@ void on_vector_units(const Function& f)
   on_vector_units(f, f);
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_PARALLEL_VECTOR_UNITS_H

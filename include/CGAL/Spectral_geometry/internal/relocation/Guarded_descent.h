@@ -12,9 +12,7 @@
 #include <deque>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /*!
 L-BFGS (Nocedal and Wright, algorithm 7.5) over the positions of all vertices, with guards that cut the
@@ -161,8 +159,6 @@ private:
   std::deque<Pair> m_history;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H

@@ -20,9 +20,7 @@
 #include <limits>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A piece of the boundary that a vertex may slide along.
 struct Boundary_segment
@@ -45,31 +43,24 @@ class Relocation_guards
 public:
   using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  struct Limits
-  {
-    double trust = 0.5; // radius of a vertex' ball in mean incident edges
-    double smallest_angle_ratio = 0.5;
-    double largest_turn_cosine = 0.5; // of a triangle's normal against the start
-  };
-
   Relocation_guards(const Positions& V, const Eigen::MatrixXi& T, const Positions& anchors,
-                    const Limits& limits)
+                    const Relocation_options& options)
     : m_T(T)
-    , m_limits(limits)
+    , m_trust_radius(options.trust_radius)
+    , m_smallest_angle_ratio(options.smallest_angle_ratio)
+    // The rounding of what is legal only just must not make the start illegal; nor below.
+    , m_largest_turn_cosine((std::min)(std::cos(options.largest_turn), 1 - 1e-12))
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
     , m_boundary(std::size_t(V.rows()))
     , m_held_by(std::size_t(V.rows()), 0)
   {
-    // The rounding of what is legal only just must not make the start illegal; nor below.
-    m_limits.largest_turn_cosine = (std::min)(m_limits.largest_turn_cosine, 1 - 1e-12);
     measure_vertices(V);
     measure_triangles(V);
   }
 
   void fix(const Eigen::Index v) { m_fixed[std::size_t(v)] = true; }
   bool is_fixed(const Eigen::Index v) const { return m_fixed[std::size_t(v)]; }
-  double radius(const Eigen::Index v) const { return m_radius(v); }
 
   /// Lets a vertex move along the pieces of a boundary only. Far ones are dropped.
   void keep_on(const Eigen::Index v, const std::vector<Boundary_segment>& segments)
@@ -150,7 +141,7 @@ public:
   bool legal(const Eigen::Index f, const Positions& V) const
   {
     const Eigen::Vector3d normal = normal_of(f, V);
-    if(!(normal.dot(m_normal[std::size_t(f)]) >= m_limits.largest_turn_cosine * normal.norm()))
+    if(!(normal.dot(m_normal[std::size_t(f)]) >= m_largest_turn_cosine * normal.norm()))
       return false;
     return smallest_angle(f, V) >= m_smallest_angle(f);
   }
@@ -191,7 +182,7 @@ private:
       }
     m_radius.resize(V.rows());
     for(Eigen::Index v = 0; v < V.rows(); ++v)
-      m_radius(v) = (std::max)(m_limits.trust * length(v) / (std::max)(count(v), 1.),
+      m_radius(v) = (std::max)(m_trust_radius * length(v) / (std::max)(count(v), 1.),
                                (V.row(v) - m_anchors.row(v)).norm());
   }
 
@@ -200,7 +191,7 @@ private:
     m_smallest_angle.resize(m_T.rows());
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
       m_normal.push_back(normal_of(f, V).normalized());
-      m_smallest_angle(f) = (m_limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+      m_smallest_angle(f) = (m_smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
     }
   }
 
@@ -273,7 +264,7 @@ private:
   }
 
   Eigen::MatrixXi m_T;
-  Limits m_limits;
+  double m_trust_radius, m_smallest_angle_ratio, m_largest_turn_cosine;
   Positions m_anchors;
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
@@ -321,8 +312,6 @@ private:
   std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_GUARDS_H

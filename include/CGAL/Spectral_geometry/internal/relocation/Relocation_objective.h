@@ -15,9 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a tolerance: a penalty that begins at
 /// half of it, steep enough to end before its whole.
@@ -173,8 +171,6 @@ private:
   double m_scale = 1;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H

@@ -19,9 +19,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /*!
 Keeps the eigenvalues of a coarse mesh just beyond those that are compared from falling: a penalty on the mean change
@@ -176,8 +174,6 @@ private:
   Row m_reference, m_stiffness, m_norm;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SPECTRUM_GUARD_H

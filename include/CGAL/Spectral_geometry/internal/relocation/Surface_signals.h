@@ -17,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Signals of the fine mesh, read off at the closest points of the coarse vertices.
 class Surface_signals : public Position_dependent_signals
@@ -95,8 +93,6 @@ private:
   std::vector<Closest_point_query::Answer> m_answers;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H

@@ -18,9 +18,6 @@
 
 #include <CGAL/Real_timer.h>
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,10 +27,8 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
+namespace CGAL::Spectral_geometry {
 namespace internal {
 
 inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd& V,
@@ -77,7 +72,7 @@ public:
     , m_start(V)
     , m_T(T)
     , m_fine(fine)
-    , m_guards(m_start, T, Positions(P * fine.V), limits())
+    , m_guards(m_start, T, Positions(P * fine.V), m_options)
     , m_size(T, m_start, fine, options.size_tolerance)
   {
     m_timer.start();
@@ -153,11 +148,6 @@ public:
   }
 
 private:
-  Relocation_guards::Limits limits() const
-  {
-    return {m_options.trust_radius, m_options.smallest_angle_ratio, std::cos(m_options.largest_turn)};
-  }
-
   void set_guards(const std::vector<bool>& fixed)
   {
     for(std::size_t v = 0; v < fixed.size(); ++v)
@@ -347,7 +337,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   return result;
 }
 
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_IMPL_H

@@ -15,9 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// The nearest of many points in a space of many dimensions, exactly (Omohundro 1989), by balls in the leading dimensions alone: what
 /// eigenvectors of low frequency tell apart needs no look at the others. On 28,000 points that 100 eigenvectors embed, queried by those of
@@ -146,8 +144,6 @@ private:
   std::vector<double> m_radii;
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEARCH_BALL_TREE_H

@@ -15,9 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /*!
  * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and which is asked for what is
@@ -134,8 +132,6 @@ private:
   std::vector<std::uint32_t> m_item, m_leaf; // of a leaf, from the first; of an item
 };
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEARCH_BOX_TREE_H

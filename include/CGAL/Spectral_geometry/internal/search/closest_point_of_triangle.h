@@ -9,9 +9,7 @@
 
 #include <algorithm>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A point of a triangle as a convex combination of its three vertices.
 struct Point_of_triangle
@@ -85,8 +83,6 @@ inline Point_of_triangle closest_point_of_triangle_by_distances(const Eigen::Vec
                                 });
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEARCH_CLOSEST_POINT_OF_TRIANGLE_H

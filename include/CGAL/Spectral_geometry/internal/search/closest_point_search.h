@@ -15,9 +15,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// Closest points of one surface, asked for again and again.
 class Closest_point_query
@@ -114,8 +112,6 @@ inline Eigen::SparseMatrix<double> interpolation(const Closest_point_query& clos
   return W;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEARCH_CLOSEST_POINT_SEARCH_H

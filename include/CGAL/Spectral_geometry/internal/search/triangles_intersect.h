@@ -17,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 /// A corner of a triangle: which vertex it is, and where.
 struct Corner
@@ -121,9 +119,7 @@ Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
   return pairs;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect_impl.h>

@@ -10,12 +10,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/intersections.h>
 
-#include <array>
-#include <cstddef>
-
-namespace CGAL {
-namespace Spectral_geometry {
-namespace internal {
+namespace CGAL::Spectral_geometry::internal {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
                                                                const std::size_t common)
@@ -36,8 +31,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s,
   return common == 3 || CGAL::coplanar_orientation(p[0], p[1], p[2], q[2]) != CGAL::NEGATIVE;
 }
 
-} // namespace internal
-} // namespace Spectral_geometry
-} // namespace CGAL
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEARCH_TRIANGLES_INTERSECT_IMPL_H

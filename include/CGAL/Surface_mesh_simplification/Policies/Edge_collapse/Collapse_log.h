@@ -5,10 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/restriction.h>
 
@@ -27,8 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -289,7 +285,8 @@ private:
 
   vertex_descriptor collapse(const halfedge_descriptor h)
   {
-    if constexpr(internal::is_given<NamedParameters>(internal_np::edge_is_constrained_t()))
+    if constexpr(!parameters::is_default_parameter<NamedParameters,
+                                                   internal_np::edge_is_constrained_t>::value)
       return Euler::collapse_edge(edge(h, *m_mesh), *m_mesh,
                                   parameters::get_parameter(m_np, internal_np::edge_is_constrained));
     else
@@ -307,7 +304,6 @@ private:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_COLLAPSE_LOG_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
@@ -24,8 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -139,7 +136,7 @@ private:
  * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part; copied, as
  *         `edge_collapse()` itself copies visitors; a `std::reference_wrapper` is followed
  */
-template <class TriangleMesh, class UserVisitor = internal::No_visitor>
+template <class TriangleMesh, class UserVisitor = internal::Dummy_visitor>
 class Restriction_visitor
   : public internal::Following_visitor<internal::Restriction_tracker<TriangleMesh>, UserVisitor>
 {
@@ -187,7 +184,6 @@ public:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_RESTRICTION_VISITOR_H

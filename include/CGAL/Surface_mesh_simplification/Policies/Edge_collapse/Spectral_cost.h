@@ -5,15 +5,12 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
 
 #include <memory>
 #include <utility>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -56,7 +53,6 @@ private:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_COST_H

@@ -5,29 +5,14 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
+
+#include <CGAL/Surface_mesh_simplification/internal/Common.h>
 
 #include <memory>
 #include <utility>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
-
-/// A filter that lets everything through.
-struct No_filter
-{
-  template <class Profile>
-  Spectral_optional<typename Profile::Point>
-  operator()(const Profile&, const Spectral_optional<typename Profile::Point>& placement) const
-  {
-    return placement;
-  }
-};
-
-} // namespace internal
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -41,7 +26,7 @@ struct No_filter
  * end with a constrained edge, whatever is at the other. `spectral_edge_collapse()` uses this filter by itself; with
  * `edge_collapse()` pass `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
  */
-template <class State, class UserFilter = internal::No_filter>
+template <class State, class UserFilter = internal::Dummy_filter>
 class Spectral_filter
 {
 public:
@@ -69,7 +54,6 @@ private:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_FILTER_H

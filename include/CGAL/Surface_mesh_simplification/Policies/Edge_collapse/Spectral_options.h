@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
@@ -19,8 +17,7 @@
 #include <memory>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -225,7 +222,6 @@ inline bool report_progress(const Spectral_options& options, const Spectral_phas
 
 } // namespace internal
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_OPTIONS_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STOP_PREDICATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STOP_PREDICATE_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_error_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
@@ -17,8 +15,7 @@
 #include <limits>
 #include <memory>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -121,7 +118,6 @@ private:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STOP_PREDICATE_H

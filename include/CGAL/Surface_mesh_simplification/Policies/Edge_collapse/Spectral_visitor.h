@@ -5,49 +5,19 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
+
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <functional>
 #include <memory>
 #include <utility>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
+namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
 namespace internal {
-
-/// The user's visitor where there is none.
-struct No_visitor
-{
-  template <class TM>
-  void OnStarted(TM&) const
-  {}
-  template <class TM>
-  void OnFinished(TM&) const
-  {}
-  template <class P>
-  void OnStopConditionReached(const P&) const
-  {}
-  template <class P, class C>
-  void OnCollected(const P&, const C&) const
-  {}
-  template <class P, class C, class S>
-  void OnSelected(const P&, const C&, S, S) const
-  {}
-  template <class P, class O>
-  void OnCollapsing(const P&, const O&) const
-  {}
-  template <class P, class V>
-  void OnCollapsed(const P&, const V&) const
-  {}
-  template <class P>
-  void OnNonCollapsable(const P&) const
-  {}
-};
 
 template <class Visitor>
 Visitor& unwrap_visitor(Visitor& visitor)
@@ -142,7 +112,7 @@ private:
  * where it may still change the mesh, and after it everywhere else. It is copied, as `edge_collapse()` itself copies
  * visitors; pass `std::ref(my_visitor)` to share it.
  */
-template <class State, class UserVisitor = internal::No_visitor>
+template <class State, class UserVisitor = internal::Dummy_visitor>
 class Spectral_visitor : public internal::Following_visitor<State, UserVisitor>
 {
 public:
@@ -162,7 +132,6 @@ public:
 
 /// @}
 
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_VISITOR_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_FINE_VERTEX_SLOTS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_FINE_VERTEX_SLOTS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh/Surface_mesh_fwd.h>
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
@@ -23,9 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 template <class Point>
 Eigen::Vector3d to_vector(const Point& p)
@@ -234,8 +230,6 @@ private:
   mutable Vertex_slot_map<Triangle_mesh> m_slots; // mutable: where the mesh keeps them is looked up
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_FINE_VERTEX_SLOTS_H

@@ -5,23 +5,18 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_KEPT_VERTICES_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_KEPT_VERTICES_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
-
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/use.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// One flag for each vertex in the order of `vertices(mesh)`, from indices in that order and from the named parameter
 /// `vertex_is_constrained_map`; empty if there is none to keep.
@@ -33,7 +28,8 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
   bool any = !indices.empty();
   for(const auto v : vertices(mesh)) {
     bool kept = false;
-    if constexpr(is_given<NamedParameters>(internal_np::vertex_is_constrained_t()))
+    if constexpr(!parameters::is_default_parameter<NamedParameters,
+                                                   internal_np::vertex_is_constrained_t>::value)
       kept = get(parameters::get_parameter(np, internal_np::vertex_is_constrained), v);
     CGAL_USE(v);
     any = any || kept;
@@ -49,27 +45,52 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
   return any ? flags : std::vector<char>();
 }
 
+/// The vertices that must be left where they are: those to keep and the ends of constrained edges. Empty, or one flag for each.
+template <class TriangleMesh, class NamedParameters>
+std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector<char>& kept,
+                                     const NamedParameters& np)
+{
+  std::vector<char> fixed = kept;
+  if constexpr(!parameters::is_default_parameter<NamedParameters,
+                                                 internal_np::edge_is_constrained_t>::value) {
+    const auto constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
+    fixed.resize(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end())), false);
+    std::size_t i = 0;
+    for(const auto v : vertices(mesh)) {
+      const auto h0 = halfedge(v, mesh);
+      if(h0 != boost::graph_traits<TriangleMesh>::null_halfedge())
+        for(const auto h : halfedges_around_target(h0, mesh))
+          fixed[i] = fixed[i] || get(constrained, edge(h, mesh));
+      ++i;
+    }
+  } else
+    CGAL_USE(mesh);
+  return fixed;
+}
+
 /// Throws where two vertices to be kept are joined by edges without length: `edge_collapse()` merges their ends before
-/// it asks for a cost. `kept(v)` and `index(v)` belong to the vertex v, `same(v, w)` says whether two points coincide.
-template <class TriangleMesh, class Kept, class Index, class Same>
-void check_kept_vertices_apart(const TriangleMesh& mesh, const Kept& kept, const Index& index,
-                               const Same& same)
+/// it asks for a cost. `slots.slot(v)` is the index of the vertex v among the flags and the rows of V.
+template <class TriangleMesh, class Slots, class Points>
+void check_kept_vertices_apart(const TriangleMesh& mesh, const Slots& slots, const std::vector<char>& kept,
+                               const Points& V)
 {
   using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
   std::vector<vertex_descriptor> reached;
   for(const vertex_descriptor start : vertices(mesh)) {
-    if(!kept(start))
+    const std::size_t i_start = std::size_t(slots.slot(start));
+    if(!kept[i_start])
       continue;
     reached.assign(1, start);
     for(std::size_t i = 0; i < reached.size(); ++i) {
       if(halfedge(reached[i], mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
         continue;
       for(const vertex_descriptor w : vertices_around_target(halfedge(reached[i], mesh), mesh)) {
-        if(!same(start, w) || std::find(reached.begin(), reached.end(), w) != reached.end())
+        const std::size_t i_w = std::size_t(slots.slot(w));
+        if(V.row(i_w) != V.row(i_start) || std::find(reached.begin(), reached.end(), w) != reached.end())
           continue;
-        if(kept(w))
-          throw std::invalid_argument("Spectral_options: the vertices " + std::to_string(index(start)) +
-                                      " and " + std::to_string(index(w)) +
+        if(kept[i_w])
+          throw std::invalid_argument("Spectral_options: the vertices " + std::to_string(i_start) + " and " +
+                                      std::to_string(i_w) +
                                       " are both to be kept, but edges without length join them and are "
                                       "collapsed before anything else; keep one of the two.");
         reached.push_back(w);
@@ -78,8 +99,6 @@ void check_kept_vertices_apart(const TriangleMesh& mesh, const Kept& kept, const
   }
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_KEPT_VERTICES_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -16,9 +14,7 @@
 
 #include <memory>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// What the metric preserves, for the input scaled to unit area: F (n x K), and Z = B^-1 L F, either as
 /// `lambda` (Z = F Lambda, where Z is empty) or in rows of its own. Columns carry the square root of
@@ -67,9 +63,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
                                                             const Eigen::MatrixXi& T,
                                                             const Spectral_options& options);
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>

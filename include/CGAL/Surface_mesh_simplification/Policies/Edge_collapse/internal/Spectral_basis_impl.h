@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_IMPL_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_IMPL_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
@@ -19,14 +17,11 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n)
@@ -279,8 +274,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   return basis;
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_IMPL_H

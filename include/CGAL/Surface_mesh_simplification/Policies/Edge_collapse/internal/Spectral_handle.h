@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/version.h>
 
 #if CGAL_VERSION_NR >= 1060000900
@@ -19,9 +17,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// The optional of `GetCost` and `GetPlacement`: Boost's before CGAL 6, that of the standard since.
 #if CGAL_VERSION_NR >= 1060000900
@@ -43,8 +39,6 @@ State& state_of_handle(const std::shared_ptr<State>& state, const char* const ha
   return *state;
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H

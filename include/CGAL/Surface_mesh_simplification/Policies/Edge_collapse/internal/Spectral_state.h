@@ -5,8 +5,8 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H
 
+#include <CGAL/Named_function_parameters.h>
 #include <CGAL/Real_timer.h>
-#include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
@@ -15,7 +15,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -38,9 +37,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
  * What cost, placement and visitor of one `Spectral_policies` share: F and Z, the residual
@@ -94,7 +91,7 @@ public:
                  const Geom_traits& traits, const NamedParameters& np)
     : m_mesh(&mesh)
     , m_vpm(vpm)
-    , m_has_own_points(!is_given<NamedParameters>(internal_np::vertex_point_t()))
+    , m_has_own_points(parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
     , m_traits(traits)
     , m_options(options)
     , m_slots(mesh, "Spectral_policies")
@@ -476,12 +473,7 @@ private:
   {
     std::vector<char> flags = kept_vertex_flags(*m_mesh, m_options.kept_vertices, np);
     if(!flags.empty())
-      check_kept_vertices_apart(
-          *m_mesh, [&](const vertex_descriptor v) { return flags[slot(v)] != 0; },
-          [&](const vertex_descriptor v) { return slot(v); },
-          [&](const vertex_descriptor v, const vertex_descriptor w) {
-            return m_fine_points.row(slot(v)) == m_fine_points.row(slot(w));
-          });
+      check_kept_vertices_apart(*m_mesh, m_slots, flags, m_fine_points);
     return flags;
   }
 
@@ -584,8 +576,6 @@ private:
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_STATE_H

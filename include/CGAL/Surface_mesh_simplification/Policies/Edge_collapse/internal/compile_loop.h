@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COMPILE_LOOP_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COMPILE_LOOP_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 // All definitions of the collapse loop that depend on no mesh type.
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses_impl.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>

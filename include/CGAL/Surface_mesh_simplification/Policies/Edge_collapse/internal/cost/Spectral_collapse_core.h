@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
@@ -28,9 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 class Spectral_collapse_kernel;
 class Spectral_placement_search;
@@ -81,7 +77,6 @@ public:
   bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
 
   const Spectral_fields& fields() const { return m_fields; }
-  const Spectral_cost_parameters& parameters() const { return m_parameters; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
   const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
   const Spectral_shape_term& shape() const { return m_shape; }
@@ -238,9 +233,7 @@ private:
   std::unique_ptr<Pool> m_pool;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core_impl.h>

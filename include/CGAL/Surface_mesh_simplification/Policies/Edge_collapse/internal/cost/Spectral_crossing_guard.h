@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
 #include <CGAL/Spectral_geometry/internal/search/Box_tree.h>
@@ -18,9 +16,7 @@
 #include <limits>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
  * Tells whether a collapse would put a triangle through another one that it was not through before: ears, mouths and hooves are
@@ -226,8 +222,6 @@ private:
   std::size_t m_old_of_u = 0, m_new_of_u = 0;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H

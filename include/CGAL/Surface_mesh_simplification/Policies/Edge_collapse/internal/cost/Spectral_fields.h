@@ -5,13 +5,11 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
-#include <CGAL/Spectral_geometry/internal/parallel/Aligned_buffer.h>
+#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 
 #include <Eigen/Core>
@@ -19,9 +17,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 using Spectral_geometry::internal::Aligned_buffer;
 using Spectral_geometry::internal::cache_line;
@@ -39,7 +35,7 @@ public:
     constexpr Eigen::Index multiple = spectral_padding;
     m_rows = rows;
     m_cols = (length + multiple - 1) / multiple * multiple;
-    m_numbers.assign(std::size_t(m_rows * m_cols));
+    m_numbers.assign(std::size_t(m_rows * m_cols), 0.);
   }
 
   void assign(const Eigen::MatrixXd& matrix)
@@ -138,8 +134,6 @@ struct Spectral_cost_parameters
   std::size_t largest_degree_of_others = Spectral_fields().largest_degree_of_others;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_LANES_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_LANES_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 
 #include <cmath>
@@ -19,9 +17,7 @@
 #endif
 #endif
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
 using Spectral_lanes_in_memory = Spectral_geometry::internal::Four_doubles;
@@ -131,8 +127,6 @@ CGAL_SPECTRAL_INLINE void spectral_inverse_sqrt(Spectral_lanes& result, const Sp
 #endif
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_LANES_H

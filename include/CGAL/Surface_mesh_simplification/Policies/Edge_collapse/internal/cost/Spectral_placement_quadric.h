@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_QUADRIC_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_QUADRIC_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -14,9 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
  * The quadric q(y) = c + b.y + y^T A y through ten samples of cost(e,x), x = m + sum_i y_i a_i (strategy (iii),
@@ -114,8 +110,6 @@ private:
   Eigen::Matrix3d m_axes;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_QUADRIC_H

@@ -5,16 +5,12 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_QUADRIC_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_QUADRIC_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cmath>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// q(x) = x^T A x + 2 b.x + c.
 class Spectral_quadric
@@ -90,8 +86,6 @@ private:
   }
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_QUADRIC_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
@@ -14,9 +12,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// An entry of a row of -L and of B, for up to four ways in which the row may become: those of `Spectral_collapse_kernel`.
 struct Spectral_row_entry
@@ -118,8 +114,6 @@ CGAL_SPECTRAL_INLINE void spectral_combine_rows(const Spectral_fields& fields, c
     square[3] = spectral_sum(s3);
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RINGS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RINGS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/assertions.h>
 
@@ -18,9 +16,7 @@
 #include <limits>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// A vertex of the input mesh, numbered in the order of `vertices(mesh)` when the state was made. A
 /// merged vertex keeps the slot of the vertex that CGAL kept; slots are never used again.
@@ -245,8 +241,6 @@ private:
   std::vector<Spectral_ring> m_rings;
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RINGS_H

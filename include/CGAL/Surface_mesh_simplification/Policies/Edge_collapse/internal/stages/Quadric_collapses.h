@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
@@ -17,9 +15,7 @@
 #include <functional>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// An oriented 2-manifold of triangles, with or without border, in arrays. Corner 3 f + i is the i-th of face f; the halfedge of a corner
 /// leads from its vertex to that of the next corner of its face.
@@ -59,9 +55,7 @@ quadric_collapses(Triangle_arrays mesh, const std::vector<char>& fixed, bool bor
                   bool keep_free_of_self_intersections, std::size_t target,
                   const std::function<void(std::size_t)>& progress);
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses_impl.h>

@@ -5,8 +5,6 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
@@ -17,22 +15,16 @@
 
 #include <boost/heap/d_ary_heap.hpp>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
-#include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// What to take from positions (the rows of V, at least one): a point of the mesh along each axis on which it lies at least eight
 /// times as far from the origin as it is long, where nothing would be left of what quadrics tell apart; 0 on the others. So no
@@ -475,8 +467,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mes
   }
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H

@@ -5,10 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
@@ -25,83 +24,82 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
-/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order. Made
-/// before the first collapse: it needs the mesh of the eigenpairs.
+/// Whether anything follows the collapses. It needs the mesh of the eigenpairs, taken before the first of them.
+inline bool has_post_process(const Spectral_edge_collapse_options& options)
+{
+  return options.relocate || options.flips != Spectral_geometry::Edge_flips::none || options.fit_operators;
+}
+
+/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order.
+template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
+  using Result = Spectral_edge_collapse_result;
+  using SpMat = Eigen::SparseMatrix<double>;
+
 public:
-  template <class TriangleMesh, class NamedParameters>
-  Spectral_post_process(const TriangleMesh& mesh, const Spectral_edge_collapse_options& options,
-                        const NamedParameters& np)
-    : m_options(options)
-  {
-    if(changes_mesh() || m_options.fit_operators)
-      m_fine = Spectral_geometry::mesh_matrices(mesh, np);
-  }
+  /// `fine` is the mesh of the eigenpairs.
+  Spectral_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& fine,
+                        const Policies& policies, const Spectral_edge_collapse_options& options,
+                        const NamedParameters& np, Result& result)
+    : m_mesh(mesh)
+    , m_fine(fine)
+    , m_state(policies.state())
+    , m_options(options)
+    , m_np(np)
+    , m_result(result)
+    , m_P(policies.restriction())
+  {}
 
   /// `kept`: what P has in the rows of vertices that must stay, or empty.
-  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void run(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& kept,
-           const NamedParameters& np, Result& result) const
+  void run(const SpMat& kept)
   {
-    using Reason = typename Result::Stop_reason;
-    if((!changes_mesh() && !m_options.fit_operators) || result.stop_reason == Reason::cancelled)
-      return;
-    const Eigen::SparseMatrix<double> P = policies.restriction();
-    if(changes_mesh())
-      change(mesh, policies, P, kept, np, result);
-    if(m_options.fit_operators && result.stop_reason != Reason::cancelled)
-      fit(mesh, policies, result.relocation.resampled ? result.relocation.restriction : P, np, result);
+    if(m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none)
+      change(kept);
+    if(m_options.fit_operators && m_result.stop_reason != Result::Stop_reason::cancelled)
+      fit(m_result.relocation.resampled ? m_result.relocation.restriction : m_P);
   }
 
 private:
   // Flips and relocation.
-  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void change(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-              const Eigen::SparseMatrix<double>& kept, const NamedParameters& np, Result& result) const
+  void change(const SpMat& kept)
   {
     using namespace Spectral_geometry;
-    const Local_operator coarse_op = coarse_operator(result);
     Eigen::MatrixXd F, Z;
-    signals(result.eigenpairs.get(), policies.state().core().fields().has_z_rows(), F, Z);
+    signals(F, Z);
     const char* where = "as the collapses left them";
     try {
-      if(m_options.flips != Edge_flips::none && allows(mesh, "No edge was flipped: ", false, np, result)) {
-        flip(mesh, policies, P, F, Z, coarse_op, np, result);
+      if(m_options.flips != Edge_flips::none && allows("No edge was flipped: ", false)) {
+        flip(F, Z);
         where = "as collapses and flips left them";
       }
-      if(m_options.relocate && allows(mesh, "The vertices were not relocated: ", true, np, result))
-        relocate(mesh, policies, P, F, Z, coarse_op, kept, np, result);
+      if(m_options.relocate && allows("The vertices were not relocated: ", true))
+        relocate(F, Z, kept);
     } catch(const Cancelled&) {
-      result.stop_reason = Result::Stop_reason::cancelled;
-      result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
-                           " vertices, which are " + where + ".";
+      m_result.stop_reason = Result::Stop_reason::cancelled;
+      m_result.explanation = "The run was cancelled at " + std::to_string(m_result.output_vertices) +
+                             " vertices, which are " + where + ".";
     }
   }
 
   // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
-  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void fit(const TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-           const NamedParameters& np, Result& result) const
+  void fit(const SpMat& P)
   {
     using namespace Spectral_geometry;
     Real_timer timer;
     timer.start();
-    const auto progress = [&](const double fraction) {
-      return policies.state().report(Spectral_phase::operator_fit, fraction);
-    };
+    const auto progress = reporting(Spectral_phase::operator_fit);
     const char* consequence = "The operators were not fitted: ";
     try {
-      if(!allows(mesh, consequence, false, np, result))
+      if(!allows(consequence, false))
         return;
       const Laplace_operator fine = operator_of_basis(m_fine.V, m_fine.T, m_options);
       std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
@@ -109,117 +107,107 @@ private:
         Eigenpairs_options solver = m_options.eigenpairs_options;
         solver.threads = (std::max)(solver.threads, m_options.threads);
         solver.progress = [&](const double fraction) { return progress(fraction / 2); };
-        const Eigen::Index K = result.eigenpairs->size();
+        const Eigen::Index K = m_result.eigenpairs->size();
         pairs = std::make_shared<Eigenpairs>(eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
       }
       Operator_fit_options options = m_options.operator_fit;
       options.threads = (std::max)(options.threads, m_options.threads);
       options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
-      const Mesh_matrices coarse = mesh_matrices(mesh, np);
-      result.fitted = fit_operators(laplace_operator(coarse.V, coarse.T, coarse_operator(result)), P, fine,
-                                    *pairs, options);
+      m_result.fitted = fit_operators(coarse_operator(), P, fine, *pairs, options);
     } catch(const Cancelled&) {
-      result.stop_reason = Result::Stop_reason::cancelled;
-      result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
-                           " vertices, before operators were fitted to them.";
+      m_result.stop_reason = Result::Stop_reason::cancelled;
+      m_result.explanation = "The run was cancelled at " + std::to_string(m_result.output_vertices) +
+                             " vertices, before operators were fitted to them.";
     } catch(const std::runtime_error& error) {
-      result.warnings.push_back(consequence + std::string(error.what()));
+      m_result.warnings.push_back(consequence + std::string(error.what()));
     }
-    result.seconds_operator_fit = timer.time();
+    m_result.seconds_operator_fit = timer.time();
   }
+
+  std::function<bool(double)> reporting(const Spectral_phase phase) const
+  {
+    return [this, phase](const double fraction) { return m_state.report(phase, fraction); };
+  }
+
+  Spectral_geometry::Mesh_matrices coarse() const { return Spectral_geometry::mesh_matrices(m_mesh, m_np); }
 
   // With the coefficients that the collapses have merged.
-  template <class Result>
-  Spectral_geometry::Local_operator coarse_operator(const Result& result) const
+  Spectral_geometry::Local_operator local_operator() const
   {
-    return {m_options.mass, result.coefficients, m_options.boundary};
+    return {m_options.mass, m_result.coefficients, m_options.boundary};
   }
 
-  bool changes_mesh() const
+  // Of the mesh as it is now.
+  Spectral_geometry::Laplace_operator coarse_operator() const
   {
-    return m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none;
+    const Spectral_geometry::Mesh_matrices mesh = coarse();
+    return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
   }
 
   // Whether the mesh that is left has an operator, and each face an area if need be; warns where it has not. The collapses
   // are done: to throw would lose them.
-  template <class TriangleMesh, class NamedParameters, class Result>
-  bool allows(const TriangleMesh& mesh, const char* consequence, const bool needs_areas,
-              const NamedParameters& np, Result& result) const
+  bool allows(const char* consequence, const bool needs_areas)
   {
     using namespace Spectral_geometry;
-    const Mesh_matrices coarse = mesh_matrices(mesh, np);
+    const Mesh_matrices mesh = coarse();
     std::string obstacle;
     try {
-      laplace_operator(coarse.V, coarse.T, coarse_operator(result));
+      laplace_operator(mesh.V, mesh.T, local_operator());
     } catch(const std::invalid_argument& error) {
       obstacle = error.what();
     }
-    for(Eigen::Index f = 0; f < coarse.T.rows() && needs_areas && obstacle.empty(); ++f)
-      if(!(triangle_cotangents(coarse.V.row(coarse.T(f, 0)), coarse.V.row(coarse.T(f, 1)),
-                               coarse.V.row(coarse.T(f, 2)))
+    for(Eigen::Index f = 0; f < mesh.T.rows() && needs_areas && obstacle.empty(); ++f)
+      if(!(triangle_cotangents(mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)), mesh.V.row(mesh.T(f, 2)))
                .area > 0))
         obstacle =
             Spectral_geometry::internal::face_name(f) + " of the simplified mesh has no area; remove it.";
     if(!obstacle.empty())
-      result.warnings.push_back(consequence + obstacle);
+      m_result.warnings.push_back(consequence + obstacle);
     return obstacle.empty();
   }
 
-  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void flip(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-            const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
-            const NamedParameters& np, Result& result) const
+  void flip(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
   {
     Spectral_geometry::Edge_flip_options flipping = m_options.flipping;
     flipping.criterion = m_options.flips;
-    flipping.progress = [&](const double fraction) {
-      return policies.state().report(Spectral_phase::flips, fraction);
-    };
-    const Eigen::Index seen = policies.state().core().number_of_signals();
-    result.flips = spectral_edge_flips(mesh, P, F.leftCols(seen), Z.leftCols(seen), op, flipping, np);
-    set_error(mesh, policies.state().area(), P, F.leftCols(seen), Z.leftCols(seen), np, result);
+    flipping.progress = reporting(Spectral_phase::flips);
+    const Eigen::Index seen = m_state.core().number_of_signals();
+    m_result.flips = spectral_edge_flips(m_mesh, m_P, F.leftCols(seen), Z.leftCols(seen), local_operator(),
+                                         flipping, m_np);
+    set_error(m_P, F, Z);
   }
 
-  template <class TriangleMesh, class Policies, class NamedParameters, class Result>
-  void relocate(TriangleMesh& mesh, const Policies& policies, const Eigen::SparseMatrix<double>& P,
-                const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                const Spectral_geometry::Local_operator& op, const Eigen::SparseMatrix<double>& kept,
-                const NamedParameters& np, Result& result) const
+  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const SpMat& kept)
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
-      result.warnings.push_back(
+      m_result.warnings.push_back(
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.progress = [&](const double fraction) {
-      return policies.state().report(Spectral_phase::relocation, fraction);
-    };
+    relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
     if(kept.rows() != 0) {
       const Eigen::VectorXd ones = kept * Eigen::VectorXd::Ones(kept.cols());
       stays.assign(ones.data(), ones.data() + ones.size());
     }
-    result.relocation = relocate_mesh(mesh, P, m_fine, F, Z, op, relocation, stays, np);
-    Eigen::SparseMatrix<double>& own = result.relocation.restriction;
-    if(result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
+    m_result.relocation = relocate_mesh(m_mesh, m_P, m_fine, F, Z, local_operator(), relocation, stays, m_np);
+    SpMat& own = m_result.relocation.restriction;
+    if(m_result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
       own += kept;
     }
-    if(result.relocation.resampled && op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-      keep_border_rows(mesh, P, np, own);
-    const Eigen::Index seen = policies.state().core().number_of_signals();
-    set_error(mesh, policies.state().area(), own, F.leftCols(seen), Z.leftCols(seen), np, result);
+    if(m_result.relocation.resampled &&
+       m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+      keep_border_rows(own);
+    set_error(own, F, Z);
   }
 
   // A vertex of the border whose closest point is an inner one goes on having 0.
-  template <class TriangleMesh, class NamedParameters>
-  static void keep_border_rows(const TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
-                               const NamedParameters& np, Eigen::SparseMatrix<double>& own)
+  void keep_border_rows(SpMat& own) const
   {
-    const std::vector<char> border =
-        Spectral_geometry::internal::border_vertices(Spectral_geometry::mesh_matrices(mesh, np).T, P.rows());
-    Eigen::SparseMatrix<double> carried = P;
+    const std::vector<char> border = Spectral_geometry::internal::border_vertices(coarse().T, m_P.rows());
+    SpMat carried = m_P;
     carried.prune(
         [&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] != 0; });
     own.prune([&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] == 0; });
@@ -227,12 +215,12 @@ private:
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
-  void signals(const Spectral_geometry::Eigenpairs* pairs, const bool own_rows, Eigen::MatrixXd& F,
-               Eigen::MatrixXd& Z) const
+  void signals(Eigen::MatrixXd& F, Eigen::MatrixXd& Z) const
   {
+    const Spectral_geometry::Eigenpairs* const pairs = m_result.eigenpairs.get();
     const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
     F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
-    if(own_rows)
+    if(m_state.core().fields().has_z_rows())
       Z = spectral_z(operator_of_basis(m_fine.V, m_fine.T, m_options), F);
     else
       Z = F * pairs->values.asDiagonal();
@@ -240,28 +228,29 @@ private:
 
   // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's
   // signals are as they were given, and Z is multiplied by the area.
-  template <class TriangleMesh, class NamedParameters, class Result>
-  void set_error(const TriangleMesh& mesh, const double area, const Eigen::SparseMatrix<double>& P,
-                 const Eigen::Ref<const Eigen::MatrixXd>& F, const Eigen::Ref<const Eigen::MatrixXd>& Z,
-                 const NamedParameters& np, Result& result) const
+  void set_error(const SpMat& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
   {
-    using namespace Spectral_geometry;
-    const Mesh_matrices coarse = mesh_matrices(mesh, np);
+    const Eigen::Index seen = m_state.core().number_of_signals();
+    const double area = m_state.area();
     const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
-    const double before = result.E;
+    const double before = m_result.E;
     // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.
-    const Laplace_operator op = laplace_operator(coarse.V, coarse.T, coarse_operator(result));
-    result.E = area * scale * scale * restriction_energy(op, P, F, Z);
+    m_result.E =
+        area * scale * scale *
+        Spectral_geometry::restriction_energy(coarse_operator(), P, F.leftCols(seen), Z.leftCols(seen));
     if(before > 0)
-      result.relative_error *= std::sqrt(result.E / before);
+      m_result.relative_error *= std::sqrt(m_result.E / before);
   }
 
+  TriangleMesh& m_mesh;
+  const Spectral_geometry::Mesh_matrices& m_fine;
+  const typename Policies::State& m_state;
   const Spectral_edge_collapse_options& m_options;
-  Spectral_geometry::Mesh_matrices m_fine;
+  const NamedParameters& m_np;
+  Result& m_result;
+  SpMat m_P; // from the mesh of the eigenpairs to that of the collapses
 };
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H

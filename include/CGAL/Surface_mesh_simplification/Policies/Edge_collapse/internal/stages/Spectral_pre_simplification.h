@@ -5,12 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
 
-#include <CGAL/license/Surface_mesh_simplification.h>
-
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/is_given.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/quadric_edge_collapse.h>
 
@@ -25,9 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace CGAL {
-namespace Surface_mesh_simplification {
-namespace internal {
+namespace CGAL::Surface_mesh_simplification::internal {
 
 /// What the first stage has done; nothing where it was skipped.
 struct Pre_simplification
@@ -87,8 +82,8 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   Pre_simplification result;
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
-  if(is_given<NamedParameters>(internal_np::filter_t()) ||
-     is_given<NamedParameters>(internal_np::visitor_t()))
+  if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
+     !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value)
     throw std::invalid_argument("Spectral_edge_collapse_options: pre_simplify calls no filter and no "
                                 "visitor, but one is given; leave "
                                 "one of the two out, or simplify by edge_collapse() with a cheap cost and a "
@@ -103,8 +98,6 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   return result;
 }
 
-} // namespace internal
-} // namespace Surface_mesh_simplification
-} // namespace CGAL
+} // namespace CGAL::Surface_mesh_simplification::internal
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
