@@ -2,12 +2,12 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Sourced by the two set-up scripts. install_packages PACKAGE... installs those of the Debian packages that are
+# Sourced by the scripts that build. install_packages PACKAGE... installs those of the Debian packages that are
 # missing, as root or through sudo, and stops with a sentence when it cannot. Elsewhere than on Debian and its
 # relatives nothing is installed: CMake says what is missing. SPECTRAL_NO_INSTALL=1 asks for the same on Debian.
 # prefer_ninja FOLDER has a new build folder made for Ninja where it is installed: it keeps all cores busy, make waits for
-# one target after the other. prefer_clang FOLDER has a new one made for Clang where that is installed and CXX names no other:
-# it compiles these templates in three quarters of the time that GCC takes, to programs that are as fast.
+# one target after the other. prefer_clang FOLDER has a new one made for Clang, installed where that can be, unless CXX names another
+# compiler: it takes three quarters of GCC's time to compile these templates, to programs that are as fast. Without it GCC compiles.
 
 install_packages()
 {
@@ -57,7 +57,10 @@ prefer_ninja()
 
 prefer_clang()
 {
-  if [ ! -f "$1/CMakeCache.txt" ] && command -v clang++ >/dev/null 2>&1; then
-    export CXX="${CXX:-clang++}"
+  [ ! -f "$1/CMakeCache.txt" ] && [ -z "${CXX:-}" ] || return 0
+  command -v clang++ >/dev/null 2>&1 || install_packages clang || echo "GCC compiles instead."
+  # It may be there without a standard library.
+  if echo '#include <vector>' | clang++ -std=c++17 -fsyntax-only -x c++ - >/dev/null 2>&1; then
+    export CXX=clang++
   fi
 }

@@ -13,7 +13,7 @@ build=${BUILD_DIR:-$root/build}
 output=$build/demo
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ clang ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
+install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev
 
 prefer_ninja "$build"

@@ -5,13 +5,18 @@
 # A project outside this tree: configured, built and run against an installed copy and by add_subdirectory.
 
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
-# The platform's own compiler, whichever the library was compiled with.
-find_program(SPECTRAL_CONSUMER_COMPILER NAMES c++)
-mark_as_advanced(SPECTRAL_CONSUMER_COMPILER)
-if(NOT SPECTRAL_CONSUMER_COMPILER OR SPECTRAL_SANITIZE)
-  set(SPECTRAL_CONSUMER_COMPILER "${CMAKE_CXX_COMPILER}")
+# Where the library is Clang's on Linux, consumers are GCC's: both have one ABI and one standard library there.
+set(consumer_compiler "${CMAKE_CXX_COMPILER}")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CROSSCOMPILING
+   AND NOT SPECTRAL_SANITIZE AND NOT CMAKE_CXX_FLAGS MATCHES "-stdlib")
+  find_program(SPECTRAL_GCC NAMES g++)
+  mark_as_advanced(SPECTRAL_GCC)
+  if(SPECTRAL_GCC)
+    set(consumer_compiler "${SPECTRAL_GCC}")
+  endif()
 endif()
-set(consumer_options -DCMAKE_CXX_COMPILER=${SPECTRAL_CONSUMER_COMPILER}
+get_filename_component(consumer_compiler_name "${consumer_compiler}" NAME)
+set(consumer_options -DCMAKE_CXX_COMPILER=${consumer_compiler}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
@@ -19,7 +24,7 @@ set(consumer_options -DCMAKE_CXX_COMPILER=${SPECTRAL_CONSUMER_COMPILER}
 function(spectral_add_consumer_test name source options program)
   add_test(NAME "${name}"
            COMMAND ${CMAKE_CTEST_COMMAND}
-                   --build-and-test "${source}" "${CMAKE_CURRENT_BINARY_DIR}/${name}"
+                   --build-and-test "${source}" "${CMAKE_CURRENT_BINARY_DIR}/${name}-${consumer_compiler_name}"
                    --build-generator ${CMAKE_GENERATOR} --build-noclean --build-target ${program}
                    --build-options ${consumer_options} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${options}
                    --test-command ${program} ${ARGN})

@@ -112,7 +112,7 @@ grep -q "<script\|<link\|src='http" report.html && fail "the page needs more tha
 cmp -s 1.txt many.txt || fail "one thread and all of the machine find different maps"
 [ "$(wc -l <complained)" -eq 1 ] && grep -q "this machine runs .*--threads 100000" complained ||
   fail "100000 threads: $(cat complained)"
-"$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 100000 --output small.txt --json small.json --quiet || fail "a large N0"
+"$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 100000 --output small.txt --quiet || fail "a large N0"
 cmp -s small.txt 1.txt || fail "a reduction that is not needed changes the map"
 
 # An isolated vertex in front of each mesh: the map numbers those of the files.

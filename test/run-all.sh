@@ -21,7 +21,7 @@ stop()
 }
 
 . "$root/cmake/debian_packages.sh"
-install_packages g++ clang ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
+install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev \
   pybind11-dev python3-dev python3-numpy python3-scipy catch2 ||
   stop "The tests were not run: packages are missing."

@@ -30,6 +30,19 @@ using SMS::Spectral_edge_collapse_options;
 using SMS::Spectral_phase;
 using SMS::Spectral_progress;
 
+TEST_CASE("What only the collapses need is given back, to the last number")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(3));
+  const Policies policies(mesh, options_with(20));
+  collapse(mesh, policies, 300);
+  const auto& fields = policies.state().core().fields();
+  REQUIRE((fields.F.data() != nullptr && fields.R.data() != nullptr));
+  policies.shared_state()->release();
+  CHECK(fields.F.data() == nullptr);
+  CHECK(fields.R.data() == nullptr);
+  CHECK(fields.points.capacity() == 0);
+}
+
 TEST_CASE("A bound of the error stops before the collapse that would exceed it")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);

@@ -288,13 +288,9 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
           shaped.norm_L, best.norm_L, paper.crossings);
   CHECK(shaped.furthest < 0.75 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
-  double low = 0, paper_low = 0; // of a single number of vertices they say little
-  for(const std::size_t vertices : {82, 86, 90, 94, 98}) {
-    low += found(policies, vertices).low;
-    paper_low += found(Spectral_edge_collapse_options::paper(), vertices).low;
-  }
-  CAPTURE(low, paper_low);
-  CHECK(low < 0.6 * paper_low);
+  // Of the paper's metric they say little: rounding decides how the limb is lost, at all of these sizes alike.
+  for(const std::size_t vertices : {82, 86, 90, 94, 98})
+    CHECK(found(policies, vertices).low < 0.16);
   CHECK(best.norm_L < 0.95 * shaped.norm_L);
   CHECK(shaped.crossings == 0);
   CHECK(best.crossings == 0);

@@ -18,7 +18,6 @@
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/use.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
