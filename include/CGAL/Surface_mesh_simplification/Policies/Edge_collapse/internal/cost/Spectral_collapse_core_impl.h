@@ -313,7 +313,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_aroun
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 {
   m_fields.R = Spectral_rows();
-  m_fields.F = Spectral_rows(); // a chained assignment would copy, and keep the memory; Z tells whether signals have rows of their own
+  m_fields.F = Spectral_rows(); // not in one assignment, which would copy to F and keep its memory
+  // Z stays: it tells whether signals have rows of their own.
   m_fields.points = std::vector<Eigen::Vector3d>();
   m_fields.rings = Spectral_rings();
   m_shape = Spectral_shape_term();
