@@ -322,6 +322,16 @@ printf "ply\nformat ascii 1.0\ncomment x\nelement vertex 4\nproperty short x\npr
   printf 'element face 2\r\nproperty list ushort short vertex_indices\r\nend_header\r\n'
   printf '\0\0\0\0\1\0\0\0\1\0\1\0\0\0\1\0\0\3\0\0\0\1\0\2\0\3\0\0\0\2\0\3'
 } | spelt big.ply
+# Lines that end in a carriage return, a byte order mark, a tab behind "solid".
+printf 'OFF # a square\r4 2\r0 0 0\r1 0 0\r1 1 0\r0 1 0\r3 0 1 2\r3 0 2 3\r' | spelt return.off
+printf '# a square\rv 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3\rf 1 3 4' | spelt return.obj
+tr '\n' '\r' <integers.ply | spelt return.ply
+{ printf '\357\273\277' && cat integers.ply; } | spelt mark.ply
+facet() { printf 'facet normal 0 0 1\nouter loop\nvertex %s 0\nvertex %s 0\nvertex %s 0\nendloop\nendfacet\n' "$@"; }
+facets="$(facet '0 0' '1 0' '1 1' && facet '0 0' '1 1' '0 1')"
+for solid in 'solid square' 'solid\tsquare' '\357\273\277solid\nsquare' '\357\273\277solid\tsquare'; do
+  printf "$solid\n%s\nendsolid\n" "$facets" | spelt "solid.stl"
+done
 
 # --- the command line itself ------------------------------------------------------------------------------------------
 
@@ -424,6 +434,7 @@ printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n999999999 0 1 2\n' | bad billion.off "e
 printf 'OFF\n3 1 0\n0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n' | bad word.off "line 4 holds 'zero' where a number is expected"
 printf 'OFF BINARY\n\0\0\0\3' | bad binary.off "binary"
 printf '\037\213\010' | bad packed.off "compressed, unpack it first"
+printf '\377\376O\0F\0F\0' | bad wide.off "is in UTF-16, save it as UTF-8"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n' | bad zero.obj "line 4 has the index 0"
 printf 'v 0 0 0\nv 1 0 0\nv 0,5 1 0\nf 1 2 3\n' | bad comma.obj "line 3 holds '0,5'"
 printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\n%s\nend_header\n0\n2000000000 0 1 2\n' \

@@ -7,6 +7,7 @@
 #include "matrix_io.h"
 #include "ply_reader.h"
 #include "silence.h"
+#include "text_lines.h"
 #include "text_mesh_readers.h"
 
 #include <CGAL/IO/Color.h>
@@ -22,7 +23,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <istream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -41,11 +44,24 @@ std::string mesh_format(const std::string& path)
 
 namespace {
 
+// CGAL's reader takes a text for binary where a byte order mark comes before its first word, "solid", or a tab behind it, and keeps what it
+// has misread beside the faces.
 Polygon_soup read_stl(const std::string& path)
 {
+  std::ifstream file(path, std::ios::binary);
+  std::string start(9, '\0');
+  file.read(&start[0], 9);
+  const std::size_t mark = has_byte_order_mark(start) ? 3 : 0;
+  const bool respelt = start.compare(mark, 5, "solid") == 0 && (mark != 0 || start[5] == '\t');
+  file.clear();
+  file.seekg(respelt ? std::streamoff(mark + 6) : 0);
+  std::stringstream text;
+  if(respelt)
+    text << "solid " << file.rdbuf();
   Polygon_soup soup;
   const Silence silence;
-  if(!CGAL::IO::read_STL(path, soup.points, soup.polygons) || soup.points.empty())
+  if(!CGAL::IO::read_STL(respelt ? text : static_cast<std::istream&>(file), soup.points, soup.polygons) ||
+     soup.points.empty())
     throw std::runtime_error("it is damaged or cut off");
   return soup;
 }
@@ -64,8 +80,11 @@ Polygon_soup read_polygon_soup(const std::string& path)
   std::ifstream file(path, std::ios::binary);
   if(!file)
     throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno) + ".");
-  if(file.get() == 0x1F && file.get() == 0x8B)
+  const int first = file.get(), second = file.get();
+  if(first == 0x1F && second == 0x8B)
     throw std::runtime_error("cannot read '" + path + "': it is compressed, unpack it first.");
+  if(format != ".stl" && ((first == 0xFF && second == 0xFE) || (first == 0xFE && second == 0xFF)))
+    throw std::runtime_error("cannot read '" + path + "': it is in UTF-16, save it as UTF-8.");
 
   Polygon_soup soup;
   try {

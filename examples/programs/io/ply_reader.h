@@ -68,18 +68,19 @@ private:
   explicit Ply_reader(const std::string& path)
   {
     std::ifstream stream(path, std::ios::binary);
+    m_line_end = line_end(stream);
     m_bytes.resize(std::filesystem::file_size(path));
     stream.read(m_bytes.data(), static_cast<std::streamsize>(m_bytes.size()));
     m_bytes.resize(static_cast<std::size_t>(stream.gcount()));
-    m_at = m_bytes.data();
-    m_end = m_at + m_bytes.size();
+    m_end = m_bytes.data() + m_bytes.size();
+    m_at = m_bytes.data() + (has_byte_order_mark(m_bytes) ? 3 : 0);
   }
 
   bool next_line(std::string& line)
   {
     if(m_at == m_end)
       return false;
-    const char* const end = std::find(m_at, m_end, '\n');
+    const char* const end = std::find(m_at, m_end, m_line_end);
     line.assign(m_at, end);
     m_at = end == m_end ? end : end + 1;
     return true;
@@ -293,6 +294,7 @@ private:
 
   std::string m_bytes; // of the file
   const char *m_at = nullptr, *m_end = nullptr;
+  char m_line_end = '\n';
   bool m_text = false, m_big_endian = false;
   std::vector<Element> m_elements;
   std::vector<std::size_t> m_list;

@@ -34,6 +34,25 @@ inline std::string quoted(std::string word)
   return "'" + word + "'";
 }
 
+// What ends the lines of a text: the carriage return of the first Macintoshes where no line feed follows the first. The stream is left at its
+// beginning.
+inline char line_end(std::istream& text)
+{
+  std::string start(std::size_t(1) << 16, '\0');
+  text.read(&start[0], static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(text.gcount()));
+  text.clear();
+  text.seekg(0);
+  const std::size_t end = start.find_first_of("\r\n");
+  return end != std::string::npos && start.compare(end, 2, "\r\n") != 0 ? start[end] : '\n';
+}
+
+// Written at the beginning of a text by editors under Windows.
+inline bool has_byte_order_mark(const std::string& text)
+{
+  return text.compare(0, 3, "\xEF\xBB\xBF") == 0;
+}
+
 // The lines of a text and the words in them. Comments after # are left out, a line that ends in a backslash goes on in the
 // next, and any white space separates, a carriage return as well.
 class Text_lines
@@ -41,6 +60,7 @@ class Text_lines
 public:
   explicit Text_lines(const std::string& path)
     : m_stream(path, std::ios::binary)
+    , m_line_end(line_end(m_stream))
   {}
 
   // Goes to the next line with a word in it; false at the end of the file.
@@ -132,9 +152,9 @@ private:
     m_line.clear();
     m_at = m_line.data();
     std::string part;
-    while(std::getline(m_stream, part)) {
+    while(std::getline(m_stream, part, m_line_end)) {
       ++m_number;
-      if(m_number == 1 && part.compare(0, 3, "\xEF\xBB\xBF") == 0) // written by editors under Windows
+      if(m_number == 1 && has_byte_order_mark(part))
         part.erase(0, 3);
       while(!part.empty() && std::isspace(static_cast<unsigned char>(part.back())))
         part.pop_back();
@@ -164,6 +184,7 @@ private:
   }
 
   std::ifstream m_stream;
+  char m_line_end;
   std::string m_line;
   char* m_at = m_line.data();
   std::size_t m_number = 0;
