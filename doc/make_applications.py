@@ -295,7 +295,7 @@ def pairs(build, folder, rivals, others):
 # --- pictures out of the reports -------------------------------------------------------------------------------------
 
 
-# Images as the reports hold them: 8 bits, red, green and blue, no filters.
+# Images as the reports hold them: 8 bits, red, green and blue, lines as they are or as differences to the pixel on the left.
 def read_png(data):
     width, height = struct.unpack(">2I", data[16:24])
     compressed, at = b"", 8
@@ -306,7 +306,14 @@ def read_png(data):
         at += 12 + length
     raw, row = zlib.decompress(compressed), 3 * width + 1
     image = Image(width, height)
-    image.pixels = bytearray(b"".join(raw[y * row + 1:(y + 1) * row] for y in range(height)))
+    image.pixels = bytearray()
+    for y in range(height):
+        line = bytearray(raw[y * row + 1:(y + 1) * row])
+        if raw[y * row] > 1:
+            sys.exit(f"a line of an image in a report has the filter {raw[y * row]}, which read_png() does not know")
+        for k in range(3, len(line) if raw[y * row] == 1 else 0):
+            line[k] = (line[k] + line[k - 3]) % 256
+        image.pixels += line
     return image
 
 

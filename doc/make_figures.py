@@ -527,7 +527,7 @@ def scaling(output):
     collapse = curves("us_per_collapse") + [Curve("Garland-Heckbert", [(n, sum(v) / len(v)) for n, v in sorted(rival.items())], 4)]
     vertices = Axis("vertices", 10000, 1000000, log=True)
     threads = f"{rows[0]['threads']:g}"
-    body = panel(70, 36, 320, 240, f"microseconds per collapse, {threads} threads", vertices, Axis("", 5, 100, log=True, ticks=[5, 10, 20, 50, 100]),
+    body = panel(70, 36, 320, 240, f"microseconds per collapse, {threads} threads", vertices, Axis("", 5, 200, log=True, ticks=[5, 10, 20, 50, 100, 200]),
                  collapse)
     body += panel(480, 36, 320, 240, "seconds in all, eigenpairs included", vertices, Axis("", 0.2, 500, log=True, ticks=[1, 10, 100]),
                   curves("seconds_total"))
