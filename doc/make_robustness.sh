@@ -256,7 +256,9 @@ printf 'OFF\n5 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n7 7 7\n3 0 1 2\n3 0 2 3\n' | sma
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n3 0 2 3\n' | small "a coordinate that is no number" "refused: no face is left"
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | small "points on a line" "refused"
 printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 3 4 5\n' |
-  small "a seam" "kept open; stitched by the repair"
+  small "a seam" "kept open, with a warning; stitched by the repair"
+printf 'OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n1.00001 0 0\n1 1 0\n0 1 -0.00001\n3 0 1 2\n3 3 4 5\n' |
+  small "a crack" "kept open, with a warning; closed by the repair"
 printf 'OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n2 0 1\n3 0 2 3\n' | small "a face of two vertices" "refused; repaired"
 printf 'OFF\n5 1 0\n1 0 0\n-0.8 0.6 0\n0.3 -0.9 0\n0.3 0.9 0\n-0.8 -0.6 0\n5 0 1 2 3 4\n' |
   small "a pentagram" "refused; repaired"

@@ -186,6 +186,23 @@ TEST_CASE("The full repair numbers the vertices of the file")
   CHECK(P.col(1).sum() == 2); // both sheets have its value
 }
 
+TEST_CASE("The full repair closes cracks")
+{
+  // A square whose halves were written with coordinates of six digits.
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1.00001 0 0\nv 0 1 -0.00001\nv 1 1 0\nf 1 2 3\nf 4 6 5\n";
+  const Input_mesh as_it_is = read(text, Mending::plain);
+  CHECK(as_it_is.mesh.number_of_vertices() == 6);
+  CHECK(as_it_is.diagnosis.cracks.size() == 2);
+  const Input_mesh input = read(text, Mending::full);
+  CHECK(input.mesh.number_of_vertices() == 4);
+  CHECK(input.diagnosis.components.size() == 1);
+  CHECK(input.diagnosis.cracks.empty());
+  CHECK(mesh_vertices(input.numbering) == Indices{0, 1, 2, 1, 2, 3});
+  CHECK(input.mesh.point(Mesh::Vertex_index(1)) == Kernel::Point_3(1, 0, 0));
+  CHECK_THAT(input.changes_of("square"), ContainsSubstring("2 vertices of cracks moved onto others"));
+}
+
 TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copies that arise are removed")
 {
   // Two quadrangles with the same diagonal to each side of it, one of them with the triangle of the other.

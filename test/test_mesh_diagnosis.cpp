@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace test_mesh_diagnosis {
@@ -206,12 +207,10 @@ TEST_CASE("What is handled is remarked upon, not refused")
     CHECK(d.usable());
     CHECK(d.remarks().size() == 2);
   }
-  SECTION("a seam")
-  {
-    // The right half gets a middle column of its own.
-    const Eigen::Index rows[] = {1, 4, 7};
-    for(const Eigen::Index r : rows)
-      append(soup, soup.V(r, 0), soup.V(r, 1), soup.V(r, 2));
+  // The right half gets a middle column of its own, that far away.
+  const auto cut = [](Soup soup, const double distance) {
+    for(const Eigen::Index r : {1, 4, 7})
+      append(soup, soup.V(r, 0) + distance, soup.V(r, 1), soup.V(r, 2));
     for(std::vector<std::size_t>& p : soup.polygons) {
       bool right = false;
       for(const std::size_t v : p)
@@ -219,14 +218,38 @@ TEST_CASE("What is handled is remarked upon, not refused")
       for(std::size_t& v : p)
         v = right && (v == 1 || v == 4 || v == 7) ? 9 + v / 3 : v;
     }
-    const SG::Mesh_diagnosis d = soup.diagnosis();
+    return soup.diagnosis();
+  };
+  const std::vector<std::pair<std::size_t, std::size_t>> cracks = {{9, 1}, {10, 4}, {11, 7}};
+  SECTION("a seam")
+  {
+    const SG::Mesh_diagnosis d = cut(soup, 0);
     CHECK(d.usable());
     CHECK(is(d.coincident_vertices, 3, 9, 1));
+    CHECK(d.cracks == cracks);
     CHECK(d.components.size() == 2);
     CHECK(d.least_vertices() == 6);
     REQUIRE(d.remarks().size() == 2);
     CHECK_THAT(d.remarks()[0], ContainsSubstring("stitched"));
     CHECK_THAT(d.remarks()[1], ContainsSubstring("2 components, the smallest of 6 vertices around vertex 0"));
+    REQUIRE(d.warnings(3, 9).size() == 1);
+    CHECK_THAT(d.warnings(3, 9)[0],
+               ContainsSubstring("3 border vertices that lie on another, the first is vertex 9 "
+                                 "(counted from 0) on vertex 1"));
+  }
+  SECTION("a crack")
+  {
+    const double size = (soup.V.row(8) - soup.V.row(0)).norm(); // of the box
+    for(const double distance : {0.9e-5, -0.9e-5}) {
+      CHECK(cut(soup, distance * size).cracks == cracks);
+      CHECK(cut(soup, distance * size).coincident_vertices.count == 0);
+    }
+    CHECK(cut(soup, 1.1e-5 * size).cracks.empty());
+    CHECK(soup.diagnosis().cracks.empty());
+    // Not wider than half of the edges there.
+    soup.V.row(1) = soup.V.row(0) + 1e-5 * size * Eigen::RowVector3d::UnitX();
+    CHECK(cut(soup, 0.6e-5 * size).cracks.size() == 2);
+    CHECK(cut(soup, 0.4e-5 * size).cracks == cracks);
   }
 }
 

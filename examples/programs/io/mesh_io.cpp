@@ -60,8 +60,7 @@ Polygon_soup read_stl(const std::string& path)
     text << "solid " << file.rdbuf();
   Polygon_soup soup;
   const Silence silence;
-  if(!CGAL::IO::read_STL(respelt ? text : static_cast<std::istream&>(file), soup.points, soup.polygons) ||
-     soup.points.empty())
+  if(!CGAL::IO::read_STL(respelt ? text : static_cast<std::istream&>(file), soup.points, soup.polygons))
     throw std::runtime_error("it is damaged or cut off");
   return soup;
 }

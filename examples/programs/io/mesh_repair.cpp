@@ -85,6 +85,19 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
   return result;
 }
 
+// Border vertices that all but lie on others get their places, where a surface was cut or coordinates were rounded.
+Polygon_soup with_cracks_closed(const Polygon_soup& soup, Repair_log& log)
+{
+  Polygon_soup closed = soup;
+  std::size_t moved = 0;
+  for(const auto& [v, w] : diagnose(soup).cracks) { // w before v, and where it stays
+    closed.points[v] = closed.points[w];
+    moved += closed.points[v] != soup.points[v];
+  }
+  log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others", moved);
+  return closed;
+}
+
 // Takes repetitions out of polygons, and what is no polygon then; true if no vertex is left twice in any of them.
 bool without_repetitions(Exact_soup& soup, Repair_log& log)
 {
@@ -351,8 +364,8 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
-// The result in the order of `input`, and how the vertices of both belong together: by their positions, as repair moves
-// no vertex, and leaves one where several had been.
+// The result in the order of `input`, and how the vertices of both belong together: by their positions, as what follows the closing of
+// cracks moves no vertex, and leaves one where several had been.
 Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input, const std::vector<bool>& used,
                       std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin)
 {
@@ -388,10 +401,11 @@ Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input, const
 
 } // namespace
 
-Polygon_soup repaired_soup(const Polygon_soup& input, Repair_log& log, std::vector<std::size_t>& vertex,
+Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log, std::vector<std::size_t>& vertex,
                            std::vector<std::size_t>& origin)
 {
   const Silence silence; // what CGAL warns of, the diagnosis says better
+  const Polygon_soup input = with_cracks_closed(file, log);
   Exact_soup soup = usable_part(input, log);
   std::vector<bool> used(input.points.size(), false);
   for(const auto& polygon : soup.polygons)

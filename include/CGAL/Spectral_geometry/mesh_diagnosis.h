@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -82,6 +83,10 @@ struct Mesh_diagnosis
       coincident_vertices; ///< vertices at the position of another, `second`, that they share no edge with
   /// @}
 
+  /// pairs of border vertices that lie together within 1e-5 of the box's diagonal and half of every edge at them, and share no edge: each
+  /// with the first such vertex before it. The surface is cut there, or its coordinates were rounded.
+  std::vector<std::pair<std::size_t, std::size_t>> cracks;
+
   std::vector<Mesh_component>
       components; ///< in the order of their first vertices; isolated vertices are none
 
@@ -99,7 +104,7 @@ struct Mesh_diagnosis
   std::vector<std::string> remarks() const;
 
   /// \brief what to expect of `K` eigenvectors and a target of `N` vertices on this mesh: one sentence for each reason
-  /// for which less is preserved than was asked for.
+  /// for which less is preserved than was asked for, or something else than was meant.
   std::vector<std::string> warnings(std::size_t K, std::size_t N) const;
 
   /// \brief a lower bound of the number of vertices that collapses lead to: 4 for each closed component, 3 for each

@@ -10,10 +10,13 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -48,6 +51,7 @@ public:
     examine_fans();
     examine_areas();
     find_coincident_vertices();
+    find_cracks();
     collect_components();
     return m_result;
   }
@@ -69,6 +73,12 @@ private:
   bool same_position(const std::size_t v, const std::size_t w) const
   {
     return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
+  }
+
+  bool joined(const std::size_t low, const std::size_t high) const
+  {
+    const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{low, high, 0, 0, false});
+    return side != m_sides.end() && side->low == low && side->high == high;
   }
 
   void examine_vertices()
@@ -255,10 +265,6 @@ private:
       if(finite(v))
         order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
     std::sort(order.begin(), order.end());
-    const auto joined = [&](const std::size_t v, const std::size_t w) {
-      const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{v, w, 0, 0, false});
-      return side != m_sides.end() && side->low == v && side->high == w;
-    };
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for(std::size_t i = 1, first = 0; i < order.size(); ++i)
       if(order[i].first != order[first].first)
@@ -266,6 +272,53 @@ private:
       else if(!joined(order[first].second, order[i].second) && !joined(order[i - 1].second, order[i].second))
         pairs.emplace_back(order[i].second, order[first].second);
     add_sorted(pairs, m_result.coincident_vertices);
+  }
+
+  // By cells as wide as the largest distance: what is near lies in one of 27.
+  void find_cracks()
+  {
+    std::vector<std::size_t> border;
+    for(std::size_t v = 0; v < m_n; ++v)
+      if(m_border[v] && finite(v))
+        border.push_back(v);
+    if(border.empty())
+      return;
+    Eigen::AlignedBox3d box;
+    for(const std::size_t v : border)
+      box.extend(m_V.row(Eigen::Index(v)).transpose().head<3>());
+    const double largest = 1e-5 * box.diagonal().norm(), width = largest > 0 ? largest : 1.;
+    if(!std::isfinite(largest))
+      return;
+    std::vector<double> reach(m_n, largest);
+    for(const Side& side : m_sides)
+      if(finite(side.low) && finite(side.high)) {
+        const double half = (m_V.row(Eigen::Index(side.low)) - m_V.row(Eigen::Index(side.high))).norm() / 2;
+        for(const std::size_t v : {side.low, side.high})
+          reach[v] = (std::min)(reach[v], half);
+      }
+    using Cell = std::array<std::int64_t, 3>;
+    std::map<Cell, std::vector<std::size_t>> cells;
+    for(const std::size_t v : border) {
+      Cell cell;
+      for(int c = 0; c < 3; ++c)
+        cell[std::size_t(c)] = std::int64_t(std::floor((m_V(Eigen::Index(v), c) - box.min()[c]) / width));
+      std::size_t first = v;
+      for(int k = 0; k < 27; ++k) {
+        const auto found = cells.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
+        if(found == cells.end())
+          continue;
+        for(const std::size_t w : found->second) {
+          const double distance = (m_V.row(Eigen::Index(v)) - m_V.row(Eigen::Index(w))).norm();
+          if(w < first && distance <= (std::min)(reach[v], reach[w]) && !joined(w, v)) {
+            first = w;
+            break; // those that follow are later ones
+          }
+        }
+      }
+      cells[cell].push_back(v);
+      if(first != v)
+        m_result.cracks.emplace_back(v, first);
+    }
   }
 
   void collect_components()
@@ -440,6 +493,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(
                        " vertices and as many modes, not more than the " + std::to_string(K) +
                        " eigenvectors asked for, which belong to the larger components mostly.");
   }
+  if(!cracks.empty())
+    result.push_back(
+        "The surface is cut at " +
+        internal::counted(cracks.size(), "border vertex that lies", "border vertices that lie") +
+        " on another, the first is vertex " + std::to_string(cracks.front().first) +
+        " (counted from 0) on vertex " + std::to_string(cracks.front().second) +
+        ": functions may jump there. Where that is not meant merge them, as --repair of the programs does.");
   return result;
 }
 
