@@ -7,11 +7,11 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
+
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -86,15 +86,8 @@ namespace internal {
 
 inline void check_edge_flip_options(const Edge_flip_options& o)
 {
-  const auto require = [](const bool fine_so_far, const std::string& sentence) {
-    if(!fine_so_far)
-      throw std::invalid_argument("edge flips: " + sentence);
-  };
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
-          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
-  require(o.size_tolerance > 0, "size_tolerance must be positive.");
+  require_shape_limits("edge flips: ", o);
+  require(o.size_tolerance > 0, "edge flips: size_tolerance must be positive.");
 }
 
 } // namespace internal

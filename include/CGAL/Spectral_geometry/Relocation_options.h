@@ -7,14 +7,14 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
+
 #include <Eigen/SparseCore>
 
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry {
 
@@ -144,21 +144,14 @@ namespace internal {
 
 inline void check_relocation_options(const Relocation_options& o)
 {
-  const auto require = [](const bool fine_so_far, const std::string& sentence) {
-    if(!fine_so_far)
-      throw std::invalid_argument("relocation: " + sentence);
-  };
   require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
-          "smoothing and plain must be numbers from 0.");
-  require(o.beyond >= 0 && o.beyond <= 10,
-          "beyond must lie in [0, 10], but is " + std::to_string(o.beyond) + ".");
-  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
-          "trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "smallest_angle_ratio must lie in [0, 1], but is " + std::to_string(o.smallest_angle_ratio) + ".");
-  require(o.threads >= 1, "threads must be a number from 1, but is " + std::to_string(o.threads) + ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
-          "largest_turn must lie in ]0, pi/2], but is " + std::to_string(o.largest_turn) + ".");
+          "relocation: smoothing and plain must be numbers from 0.");
+  require(o.beyond >= 0 && o.beyond <= 10, "relocation: beyond must lie in [0, 10], but is ", o.beyond, ".");
+  require(
+      o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
+      "relocation: trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
+  require_shape_limits("relocation: ", o);
+  require(o.threads >= 1, "relocation: threads must be a number from 1, but is ", o.threads, ".");
 }
 
 } // namespace internal

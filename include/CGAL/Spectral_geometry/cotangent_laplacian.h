@@ -11,6 +11,7 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
@@ -19,8 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -98,16 +97,6 @@ inline double extent_of(const Eigen::MatrixXd& V)
 inline bool extent_is_usable(const double extent)
 {
   return extent == 0. || (extent >= smallest_extent && extent <= largest_extent);
-}
-
-inline std::string face_name(Eigen::Index f)
-{
-  return "face " + std::to_string(f) + " (counted from 0)";
-}
-
-inline std::string vertex_name(Eigen::Index v)
-{
-  return "vertex " + std::to_string(v) + " (counted from 0)";
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V);
@@ -194,10 +183,9 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = 
   std::vector<int> corners;
   Eigen::Index m = 0;
   for(const auto f : faces(tm)) {
-    if(!is_triangle(halfedge(f, tm), tm))
-      throw std::invalid_argument("Mesh: " + internal::face_name(m) +
-                                  " is not a triangle; triangulate the faces first "
-                                  "(CGAL::Polygon_mesh_processing::triangulate_faces).");
+    internal::require(is_triangle(halfedge(f, tm), tm), "Mesh: ", internal::face_name(m),
+                      " is not a triangle; triangulate the faces first "
+                      "(CGAL::Polygon_mesh_processing::triangulate_faces).");
     for(const auto v : vertices_around_face(halfedge(f, tm), tm))
       corners.push_back(get(index, v));
     ++m;

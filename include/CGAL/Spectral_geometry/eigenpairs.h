@@ -7,12 +7,12 @@
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
 #include <Eigen/Core>
 
 #include <functional>
-#include <stdexcept>
 #include <string>
 
 namespace CGAL::Spectral_geometry {
@@ -80,16 +80,13 @@ namespace internal {
 
 inline void check_eigenpairs_options(const Eigenpairs_options& options, const Eigen::Index K)
 {
-  if(!(options.tolerance > 0. && options.tolerance < 1.))
-    throw std::invalid_argument("Eigenpairs: the tolerance must lie between 0 and 1.");
-  if(options.maximum_iterations < 1)
-    throw std::invalid_argument("Eigenpairs: the number of iterations must be positive.");
-  if(options.threads < 1)
-    throw std::invalid_argument("Eigenpairs: the number of threads must be positive.");
-  if(options.maximum_vectors != 0 && options.maximum_vectors < K + 32)
-    throw std::invalid_argument(
-        "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = " + std::to_string(K + 32) + ", but is " +
-        std::to_string(options.maximum_vectors) + ".");
+  require(options.tolerance > 0. && options.tolerance < 1.,
+          "Eigenpairs: the tolerance must lie between 0 and 1.");
+  require(options.maximum_iterations >= 1, "Eigenpairs: the number of iterations must be positive.");
+  require(options.threads >= 1, "Eigenpairs: the number of threads must be positive.");
+  require(options.maximum_vectors == 0 || options.maximum_vectors >= K + 32,
+          "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = ", K + 32, ", but is ",
+          options.maximum_vectors, ".");
 }
 
 // Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space must fit into n dimensions, with

@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -16,8 +17,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -95,13 +94,11 @@ public:
     , m_mu(mu)
     , m_moving(moving)
   {
-    if(Z.rows() != F.rows() || Z.cols() != F.cols())
-      throw std::invalid_argument("relocation: F is " + std::to_string(F.rows()) + " x " +
-                                  std::to_string(F.cols()) + " and Z " + std::to_string(Z.rows()) + " x " +
-                                  std::to_string(Z.cols()) + "; pass two matrices of one size.");
-    if(!(tau >= 0 && mu >= 0))
-      throw std::invalid_argument("relocation: tau and mu must not be negative, but they are " +
-                                  std::to_string(tau) + " and " + std::to_string(mu) + ".");
+    internal::require(Z.rows() == F.rows() && Z.cols() == F.cols(), "relocation: F is ",
+                      internal::size_name(F), " and Z ", internal::size_name(Z),
+                      "; pass two matrices of one size.");
+    internal::require(tau >= 0 && mu >= 0, "relocation: tau and mu must not be negative, but they are ", tau,
+                      " and ", mu, ".");
     for(Index first = 0; first < F.cols(); first += width)
       m_given.push_back({panel(F, first), panel(Z, first)});
   }

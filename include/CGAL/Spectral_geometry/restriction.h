@@ -5,11 +5,11 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
 #define CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
 
+#include <CGAL/Spectral_geometry/internal/require.h>
+
 #include <Eigen/SparseCore>
 
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -58,9 +58,8 @@ public:
   /// `n` slots and no merge: `P` is the identity. Throws `std::invalid_argument` if `n` is negative.
   explicit Merge_forest(Index n)
   {
-    if(n < 0)
-      throw std::invalid_argument("Merge_forest: the number of slots is " + std::to_string(n) +
-                                  ", pass the number of vertices of the fine mesh.");
+    internal::require(n >= 0, "Merge_forest: the number of slots is ", n,
+                      ", pass the number of vertices of the fine mesh.");
     m_alive.assign(static_cast<std::size_t>(n), true);
   }
 
@@ -74,12 +73,10 @@ public:
   {
     check_alive(removed);
     check_alive(kept);
-    if(removed == kept)
-      throw std::invalid_argument("Merge_forest: slot " + std::to_string(kept) +
-                                  " is merged into itself, pass two different slots.");
-    if(!(alpha >= 0 && alpha <= 1)) // false for NaN as well
-      throw std::invalid_argument("Merge_forest: the weight of slot " + std::to_string(removed) + " is " +
-                                  std::to_string(alpha) + ", clamp it to [0, 1].");
+    internal::require(removed != kept, "Merge_forest: slot ", kept,
+                      " is merged into itself, pass two different slots.");
+    internal::require(alpha >= 0 && alpha <= 1, "Merge_forest: the weight of slot ", removed, " is ", alpha,
+                      ", clamp it to [0, 1].");
     m_merges.push_back({removed, kept, alpha});
     m_alive[static_cast<std::size_t>(removed)] = false;
   }
@@ -175,21 +172,18 @@ private:
 
   void check_alive(Index slot) const
   {
-    if(slot < 0 || slot >= number_of_slots())
-      throw std::invalid_argument("Merge_forest: slot " + std::to_string(slot) + " is not one of the " +
-                                  std::to_string(number_of_slots()) +
-                                  " vertices of the fine mesh, pass an index in [0, n).");
-    if(!m_alive[static_cast<std::size_t>(slot)])
-      throw std::invalid_argument("Merge_forest: slot " + std::to_string(slot) +
-                                  " has been removed by an earlier merge, pass the slot that was kept.");
+    internal::require(slot >= 0 && slot < number_of_slots(), "Merge_forest: slot ", slot,
+                      " is not one of the ", number_of_slots(),
+                      " vertices of the fine mesh, pass an index in [0, n).");
+    internal::require(m_alive[static_cast<std::size_t>(slot)], "Merge_forest: slot ", slot,
+                      " has been removed by an earlier merge, pass the slot that was kept.");
   }
 
   void check_number_of_merges(Index number_of_merges) const
   {
-    if(number_of_merges < 0 || number_of_merges > this->number_of_merges())
-      throw std::invalid_argument("Merge_forest: " + std::to_string(number_of_merges) +
-                                  " merges are asked for, pass a number in [0, " +
-                                  std::to_string(this->number_of_merges()) + "], those that were recorded.");
+    internal::require(number_of_merges >= 0 && number_of_merges <= this->number_of_merges(),
+                      "Merge_forest: ", number_of_merges, " merges are asked for, pass a number in [0, ",
+                      this->number_of_merges(), "], those that were recorded.");
   }
 
   std::vector<bool> alive_after(Index number_of_merges) const
@@ -207,19 +201,16 @@ private:
     Expansion e{std::vector<Index>(alive.size(), -1), std::vector<double>(alive.size(), 0.)};
     for(std::size_t i = 0; i < slots.size(); ++i) {
       const Index slot = slots[i];
-      const bool in_range = slot >= 0 && slot < number_of_slots();
-      const std::size_t s = in_range ? static_cast<std::size_t>(slot) : 0;
-      if(!in_range || !alive[s] || e.row[s] != -1)
-        throw std::invalid_argument(
-            "Merge_forest: slot " + std::to_string(slot) + " of row " + std::to_string(i) +
-            " is out of range, removed or listed twice, list each slot that is left once.");
+      const std::size_t s = static_cast<std::size_t>(slot); // large where it is negative
+      internal::require(s < alive.size() && alive[s] && e.row[s] == -1, "Merge_forest: slot ", slot,
+                        " of row ", i,
+                        " is out of range, removed or listed twice, list each slot that is left once.");
       e.row[s] = static_cast<Index>(i);
       e.weight[s] = 1;
     }
     for(std::size_t s = 0; s < alive.size(); ++s)
-      if(alive[s] && e.row[s] == -1)
-        throw std::invalid_argument("Merge_forest: slot " + std::to_string(s) +
-                                    " is left but has no row, list each slot that is left once.");
+      internal::require(!alive[s] || e.row[s] != -1, "Merge_forest: slot ", s,
+                        " is left but has no row, list each slot that is left once.");
     return e;
   }
 

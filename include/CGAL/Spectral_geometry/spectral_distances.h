@@ -6,14 +6,13 @@
 #define CGAL_SPECTRAL_GEOMETRY_SPECTRAL_DISTANCES_H
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <cmath>
 #include <initializer_list>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -87,25 +86,20 @@ public:
   {
     const Eigen::Index n = functions.rows();
     if(m_are_points) {
-      if(m_points.cols() != n)
-        throw std::invalid_argument("spectral distances: the sources are points of a mesh of " +
-                                    std::to_string(m_points.cols()) + " vertices, but there are " +
-                                    std::to_string(n) + ", pass an interpolation on this mesh.");
+      internal::require(m_points.cols() == n, "spectral distances: the sources are points of a mesh of ",
+                        m_points.cols(), " vertices, but there are ", n,
+                        ", pass an interpolation on this mesh.");
       const Eigen::VectorXd sums = m_points * Eigen::VectorXd::Ones(n);
       for(Eigen::Index s = 0; s < size(); ++s)
-        if(!(std::abs(sums(s) - 1) <= 1e-6))
-          throw std::invalid_argument("spectral distances: the weights of source " + std::to_string(s) +
-                                      " sum to " + std::to_string(sums(s)) +
-                                      ", pass an interpolation, whose rows sum to 1.");
+        internal::require(std::abs(sums(s) - 1) <= 1e-6, "spectral distances: the weights of source ", s,
+                          " sum to ", sums(s), ", pass an interpolation, whose rows sum to 1.");
       return m_points * functions;
     }
     Eigen::MatrixXd result(size(), functions.cols());
     for(Eigen::Index s = 0; s < size(); ++s) {
       const Eigen::Index v = m_vertices[s];
-      if(v < 0 || v >= n)
-        throw std::invalid_argument("spectral distances: source " + std::to_string(v) +
-                                    " is not one of the " + std::to_string(n) +
-                                    " vertices, pass an index in [0, n).");
+      internal::require(v >= 0 && v < n, "spectral distances: source ", v, " is not one of the ", n,
+                        " vertices, pass an index in [0, n).");
       result.row(s) = functions.row(v);
     }
     return result;
@@ -121,33 +115,26 @@ namespace internal {
 
 inline void check_time(double t)
 {
-  if(!(t >= 0 && std::isfinite(t)))
-    throw std::invalid_argument("spectral distances: the time " + std::to_string(t) +
-                                " is negative or not finite, pass a time of heat of at least 0.");
+  require(t >= 0 && std::isfinite(t), "spectral distances: the time ", t,
+          " is negative or not finite, pass a time of heat of at least 0.");
 }
 
 inline void check_steps(Eigen::Index steps, Eigen::Index least)
 {
-  if(steps < least)
-    throw std::invalid_argument("spectral distances: " + std::to_string(steps) +
-                                " steps are asked for, take at least " + std::to_string(least) + ".");
+  require(steps >= least, "spectral distances: ", steps, " steps are asked for, take at least ", least, ".");
 }
 
 // The pairs without the kernel.
 inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
 {
-  if(pairs.zeros < 0)
-    throw std::invalid_argument(
-        "spectral distances: the eigenpairs do not say how many eigenvalues are zero; set Eigenpairs::zeros "
-        "to the number of connected components.");
+  require(pairs.zeros >= 0, "spectral distances: the eigenpairs do not say how many eigenvalues are zero; "
+                            "set Eigenpairs::zeros to the number of connected components.");
   const Eigen::Index first = pairs.zeros;
-  if(first >= pairs.size())
-    throw std::invalid_argument("spectral distances: all of the " + std::to_string(pairs.size()) +
-                                " eigenvalues are zero, compute more of them than the mesh has components.");
-  if(!(pairs.values(first) > 0))
-    throw std::invalid_argument("spectral distances: eigenvalue " + std::to_string(first) +
-                                " was computed as zero, but only " + std::to_string(first) +
-                                " are; the component has a neck that is too narrow for doubles.");
+  require(first < pairs.size(), "spectral distances: all of the ", pairs.size(),
+          " eigenvalues are zero, compute more of them than the mesh has components.");
+  require(pairs.values(first) > 0, "spectral distances: eigenvalue ", first,
+          " was computed as zero, but only ", first,
+          " are; the component has a neck that is too narrow for doubles.");
   return first;
 }
 
@@ -319,10 +306,8 @@ inline Wave_kernel_energies wave_kernel_energies(const Eigenpairs& pairs, Eigen:
   const double first = std::log(pairs.values(internal::first_nonzero(pairs)));
   const double last = std::log(pairs.values(pairs.size() - 1));
   const double sigma = 0.07 * (last - first);
-  if(!(sigma > 0))
-    throw std::invalid_argument(
-        "spectral distances: all nonzero eigenvalues are equal, the wave kernel has no "
-        "range of energies, compute more eigenpairs.");
+  internal::require(sigma > 0, "spectral distances: all nonzero eigenvalues are equal, the wave kernel has "
+                               "no range of energies, compute more eigenpairs.");
   return {first + 2 * sigma, last - 2 * sigma, sigma, steps};
 }
 
@@ -340,12 +325,11 @@ the signature of the nearest eigenvalue and not 0/0.
 inline Eigen::MatrixXd wave_kernel_signature(const Eigenpairs& pairs, const Wave_kernel_energies& energies)
 {
   internal::check_steps(energies.steps, 1);
-  if(!(energies.sigma > 0 && std::isfinite(energies.sigma) && energies.t_min <= energies.t_max &&
-       std::isfinite(energies.t_min) && std::isfinite(energies.t_max)))
-    throw std::invalid_argument("spectral distances: the energies of the wave kernel are [" +
-                                std::to_string(energies.t_min) + ", " + std::to_string(energies.t_max) +
-                                "] with sigma " + std::to_string(energies.sigma) +
-                                ", pass a finite ascending interval and a positive sigma.");
+  internal::require(energies.sigma > 0 && std::isfinite(energies.sigma) && energies.t_min <= energies.t_max &&
+                        std::isfinite(energies.t_min) && std::isfinite(energies.t_max),
+                    "spectral distances: the energies of the wave kernel are [", energies.t_min, ", ",
+                    energies.t_max, "] with sigma ", energies.sigma,
+                    ", pass a finite ascending interval and a positive sigma.");
   const Eigen::Index first = internal::first_nonzero(pairs), modes = pairs.size() - first;
   const Eigen::ArrayXd log_values = pairs.values.tail(modes).array().log();
   Eigen::MatrixXd weights(modes, energies.steps);

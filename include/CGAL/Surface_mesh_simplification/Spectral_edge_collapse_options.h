@@ -10,12 +10,11 @@
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Surface_mesh_simplification {
 
@@ -126,39 +125,33 @@ inline bool quadrics_come_first(const Spectral_edge_collapse_options& options)
 /// Throws for what would otherwise be found out after the mesh has changed.
 inline void check_edge_collapse_options(const Spectral_edge_collapse_options& options)
 {
-  if(!(options.quadrics_above >= 1))
-    throw std::invalid_argument("Spectral_edge_collapse_options: quadrics_above is " +
-                                std::to_string(options.quadrics_above) + ", use a number from 1.");
-  if(!(options.maximum_error >= 0))
-    throw std::invalid_argument("Spectral_edge_collapse_options: maximum_error is " +
-                                std::to_string(options.maximum_error) + ", use a number from 0.");
+  require(options.quadrics_above >= 1, "Spectral_edge_collapse_options: quadrics_above is ",
+          options.quadrics_above, ", use a number from 1.");
+  require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
+          options.maximum_error, ", use a number from 0.");
   if(options.flips != Spectral_geometry::Edge_flips::none)
     Spectral_geometry::internal::check_edge_flip_options(options.flipping);
   if(options.fit_operators) {
     Spectral_geometry::internal::check_operator_fit_options(options.operator_fit);
-    if(options.signals.size() != 0)
-      throw std::invalid_argument(
-          "Spectral_edge_collapse_options: fit_operators fits to eigenvectors, but signals "
-          "are given; leave one of them out.");
+    require(options.signals.size() == 0, "Spectral_edge_collapse_options: fit_operators fits to "
+                                         "eigenvectors, but signals are given; leave one of them out.");
     const Eigen::Index K = options.number_of_eigenvectors + options.number_of_eigenvectors / 5;
     const Eigen::Index vectors = options.eigenpairs_options.maximum_vectors;
-    if(!options.eigenpairs && vectors != 0 && vectors < K + 32)
-      throw std::invalid_argument(
-          "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
-          "eigenpairs_options.maximum_vectors must be 0 or at least " +
-          std::to_string(K + 32) + ", but is " + std::to_string(vectors) + ".");
+    require(options.eigenpairs || vectors == 0 || vectors >= K + 32,
+            "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
+            "eigenpairs_options.maximum_vectors must be 0 or at least ",
+            K + 32, ", but is ", vectors, ".");
+    require(options.boundary != Spectral_geometry::Boundary_condition::dirichlet,
+            "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, which "
+            "those of the Dirichlet condition do not; leave one of them out.");
   }
-  if(options.fit_operators && options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-    throw std::invalid_argument(
-        "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, "
-        "which those of the Dirichlet condition do not; leave one of them out.");
   if(!options.relocate)
     return;
   Spectral_geometry::internal::check_relocation_options(options.relocation);
-  if(options.binary && options.relocation.signals == Spectral_geometry::Relocation_options::Signals::sampled)
-    throw std::invalid_argument(
-        "Spectral_edge_collapse_options: relocate takes a restriction anew that is not binary; set "
-        "relocate to false, or relocation.signals to carried.");
+  require(!options.binary ||
+              options.relocation.signals != Spectral_geometry::Relocation_options::Signals::sampled,
+          "Spectral_edge_collapse_options: relocate takes a restriction anew that is not binary; set "
+          "relocate to false, or relocation.signals to carried.");
 }
 
 } // namespace internal

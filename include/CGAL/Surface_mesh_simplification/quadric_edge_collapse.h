@@ -13,6 +13,7 @@
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
@@ -26,8 +27,6 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -45,10 +44,8 @@ constexpr bool overrides_policies =
 
 inline void check_target(const char* const caller, const std::size_t target, const std::size_t n)
 {
-  if(target < 1 || target > n)
-    throw std::invalid_argument(std::string(caller) + ": the target is " + std::to_string(target) +
-                                " vertices, but the mesh has " + std::to_string(n) +
-                                "; use a number from 1 to " + std::to_string(n) + ".");
+  require(target >= 1 && target <= n, caller, ": the target is ", target, " vertices, but the mesh has ", n,
+          "; use a number from 1 to ", n, ".");
 }
 
 /// Throws for what is wrong with the mesh and stays so. Needles and faces without area need not.
@@ -58,9 +55,8 @@ void check_mesh_of_quadrics(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
   check_extent(V);
   Eigen::Index i = 0;
   for(const auto v : vertices(mesh)) {
-    if(halfedge(v, mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
-      throw std::invalid_argument("edge collapses: " + Spectral_geometry::internal::vertex_name(i) +
-                                  " is isolated, no face uses it; remove it.");
+    require(halfedge(v, mesh) != boost::graph_traits<TriangleMesh>::null_halfedge(),
+            "edge collapses: ", vertex_name(i), " is isolated, no face uses it; remove it.");
     ++i;
   }
 }

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGEN_PROBLEM_H
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -13,8 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -61,19 +60,16 @@ public:
   void check(const Eigen::Index K, const bool masses_are_row_sums) const
   {
     const Eigen::Index n = size();
-    if(m_L.cols() != n || m_B.rows() != n || m_B.cols() != n || m_mass.size() != n)
-      throw std::invalid_argument(
-          "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
-    if(!(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift)))
-      throw std::invalid_argument("Eigenpairs: every mass must be positive and finite.");
-    if(masses_are_row_sums &&
-       !((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all())
-      throw std::invalid_argument("Eigenpairs: the mass vector must hold the row sums of B.");
-    if(K < 1 || K > n)
-      throw std::invalid_argument(
-          "Eigenpairs: the number of eigenvectors must lie between 1 and the number of "
-          "vertices " +
-          std::to_string(n) + ", but is " + std::to_string(K) + ".");
+    require(m_L.cols() == n && m_B.rows() == n && m_B.cols() == n && m_mass.size() == n,
+            "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
+    require(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift),
+            "Eigenpairs: every mass must be positive and finite.");
+    require(!masses_are_row_sums ||
+                ((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all(),
+            "Eigenpairs: the mass vector must hold the row sums of B.");
+    require(K >= 1 && K <= n,
+            "Eigenpairs: the number of eigenvectors must lie between 1 and the number of vertices ", n,
+            ", but is ", K, ".");
   }
 
   Eigen::Index size() const { return m_L.rows(); }

@@ -9,6 +9,7 @@
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <cmath>
 #include <utility>
@@ -20,11 +21,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
 {
   const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
   problem.check(K, op.boundary == Boundary_condition::neumann);
-  if(K > problem.size() - op.vanishing)
-    throw std::invalid_argument("Eigenpairs: " + std::to_string(K) +
-                                " eigenvectors are asked for, but only " +
-                                std::to_string(problem.size() - op.vanishing) +
-                                " vertices are off the border, where functions vanish; ask for fewer.");
+  internal::require(K <= problem.size() - op.vanishing, "Eigenpairs: ", K,
+                    " eigenvectors are asked for, but only ", problem.size() - op.vanishing,
+                    " vertices are off the border, where functions vanish; ask for fewer.");
   internal::check_eigenpairs_options(options, K);
 
   const Eigen::Index zeros = number_of_zero_eigenvalues(op);
@@ -55,17 +54,14 @@ namespace internal {
 
 inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
 {
-  if(matrix.rows() != matrix.cols() || matrix.rows() == 0)
-    throw std::invalid_argument("Eigenpairs: " + std::string(name) + " is " + std::to_string(matrix.rows()) +
-                                " x " + std::to_string(matrix.cols()) + "; pass a square matrix.");
+  require(matrix.rows() == matrix.cols() && matrix.rows() != 0, "Eigenpairs: ", name, " is ",
+          size_name(matrix), "; pass a square matrix.");
   const Eigen::SparseMatrix<double> transposed = matrix.transpose();
   const Eigen::SparseMatrix<double> difference = matrix - transposed;
   for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
     const double size = matrix.col(j).norm();
-    if(!std::isfinite(size) || !(difference.col(j).norm() <= 1e-10 * size))
-      throw std::invalid_argument("Eigenpairs: " + std::string(name) +
-                                  " is not symmetric and finite in row " + std::to_string(j) +
-                                  " (counted from 0); correct it.");
+    require(std::isfinite(size) && difference.col(j).norm() <= 1e-10 * size, "Eigenpairs: ", name,
+            " is not symmetric and finite in row ", j, " (counted from 0); correct it.");
   }
 }
 
@@ -82,9 +78,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<do
   op.B = B;
   op.mass = B * Eigen::VectorXd::Ones(B.cols());
   for(Eigen::Index v = 0; v < op.mass.size(); ++v)
-    if(!(op.mass[v] > 0.))
-      throw std::invalid_argument("Eigenpairs: the sum of row " + std::to_string(v) +
-                                  " (counted from 0) of B is not positive; pass a mass matrix.");
+    internal::require(op.mass[v] > 0., "Eigenpairs: the sum of row ", v,
+                      " (counted from 0) of B is not positive; pass a mass matrix.");
   return eigenpairs(op, K, options);
 }
 

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
 
@@ -13,7 +14,6 @@
 #include <array>
 #include <cstddef>
 #include <map>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -40,9 +40,9 @@ public:
     check_triangles(T, n);
     std::map<std::pair<int, int>, int> slot_of; // by directed edge
     for(int s = 0; s < 3 * int(T.rows()); ++s) {
-      if(!slot_of.emplace(std::make_pair(corner(s, 1), corner(s, 2)), s).second)
-        throw std::invalid_argument("edge flips: " + face_name(s / 3) +
-                                    " does not continue an oriented 2-manifold; repair the mesh.");
+      require(slot_of.emplace(std::make_pair(corner(s, 1), corner(s, 2)), s).second,
+              "edge flips: ", face_name(s / 3),
+              " does not continue an oriented 2-manifold; repair the mesh.");
       m_faces[std::size_t(corner(s, 0))].push_back(s / 3);
     }
     for(const auto& [ends, s] : slot_of) {

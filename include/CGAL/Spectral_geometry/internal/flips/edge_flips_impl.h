@@ -10,6 +10,7 @@
 #include <CGAL/Spectral_geometry/internal/flips/Flip_connectivity.h>
 #include <CGAL/Spectral_geometry/internal/flips/Flip_energy.h>
 #include <CGAL/Spectral_geometry/internal/flips/Flip_guards.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/Real_timer.h>
 
@@ -19,8 +20,6 @@
 #include <cstddef>
 #include <queue>
 #include <set>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
@@ -29,21 +28,11 @@ inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& 
                              const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
                              const Eigen::MatrixXd& Z, const Local_operator& op)
 {
-  const auto require = [](const bool fine_so_far, const std::string& sentence) {
-    if(!fine_so_far)
-      throw std::invalid_argument("edge flips: " + sentence);
-  };
-  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
-    return std::to_string(rows) + " x " + std::to_string(columns);
-  };
   check_positions(V);
   check_triangles(T, V.rows());
-  require(P.rows() == V.rows(), "P is " + size(P.rows(), P.cols()) + " and the mesh has " +
-                                    std::to_string(V.rows()) + " vertices; pass a P of coarse x fine.");
-  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
-          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
-              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
-              " fine vertices and one column for each signal.");
+  require(P.rows() == V.rows(), "edge flips: P is ", size_name(P), " and the mesh has ", V.rows(),
+          " vertices; pass a P of coarse x fine.");
+  require_signals("edge flips: ", F, Z, P.cols());
   check_local_operator(op, V.rows());
   check_edge_flip_options(o);
 }
@@ -82,9 +71,8 @@ public:
   Eigen::MatrixXi run(Edge_flip_result& result)
   {
     result.E_before = m_energy.value();
-    if(!std::isfinite(result.E_before))
-      throw std::invalid_argument("edge flips: a vertex of the coarse mesh has no mass because no face of "
-                                  "positive area uses it; remove it.");
+    require(std::isfinite(result.E_before), "edge flips: a vertex of the coarse mesh has no mass because no "
+                                            "face of positive area uses it; remove it.");
     for(int e = 0; e < m_mesh.number_of_edges(); ++e)
       push(e);
     const std::size_t budget =

@@ -6,12 +6,11 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_CLOSEST_POINT_INTERPOLATION_IMPL_H
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -19,30 +18,22 @@ namespace internal {
 
 inline void check_interpolation_input(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
 {
-  const std::string who = "closest_point_interpolation: ";
-  if(points.rows() > 0 && points.cols() != 3)
-    throw std::invalid_argument(who + "the points have " + std::to_string(points.cols()) +
-                                " columns, pass a matrix of 3 columns.");
+  const char* const who = "closest_point_interpolation: ";
+  require(points.rows() == 0 || points.cols() == 3, who, "the points have ", points.cols(),
+          " columns, pass a matrix of 3 columns.");
   for(Eigen::Index i = 0; i < points.rows(); ++i)
-    if(!points.row(i).allFinite())
-      throw std::invalid_argument(who + "point " + std::to_string(i) +
-                                  " has a coordinate that is not finite, remove or repair it.");
-  if(surface.T.rows() == 0)
-    throw std::invalid_argument(who + "the surface has no face, pass one with at least one triangle.");
-  if(surface.T.cols() != 3 || surface.V.cols() != 3)
-    throw std::invalid_argument(who + "the matrices of the surface have " + std::to_string(surface.V.cols()) +
-                                " and " + std::to_string(surface.T.cols()) +
-                                " columns, pass n x 3 coordinates and m x 3 indices.");
+    require(points.row(i).allFinite(), who, "point ", i,
+            " has a coordinate that is not finite, remove or repair it.");
+  require(surface.T.rows() != 0, who, "the surface has no face, pass one with at least one triangle.");
+  require(surface.T.cols() == 3 && surface.V.cols() == 3, who, "the matrices of the surface have ",
+          surface.V.cols(), " and ", surface.T.cols(), " columns, pass n x 3 coordinates and m x 3 indices.");
   for(Eigen::Index f = 0; f < surface.T.rows(); ++f)
     for(int c = 0; c < 3; ++c) {
       const int v = surface.T(f, c);
-      if(v < 0 || v >= surface.V.rows())
-        throw std::invalid_argument(who + "face " + std::to_string(f) + " of the surface refers to vertex " +
-                                    std::to_string(v) + ", which does not exist, repair the face.");
-      if(!surface.V.row(v).allFinite())
-        throw std::invalid_argument(
-            who + "vertex " + std::to_string(v) +
-            " of the surface has a coordinate that is not finite, remove or repair it.");
+      require(v >= 0 && v < surface.V.rows(), who, "face ", f, " of the surface refers to vertex ", v,
+              ", which does not exist, repair the face.");
+      require(surface.V.row(v).allFinite(), who, "vertex ", v,
+              " of the surface has a coordinate that is not finite, remove or repair it.");
     }
 }
 

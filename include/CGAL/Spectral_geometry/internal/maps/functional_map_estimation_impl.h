@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 
 #include <Eigen/Cholesky>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -82,10 +82,8 @@ private:
 
 inline void check_modes(const Spectral_shape& shape, Eigen::Index modes, const char* which)
 {
-  if(modes < 2 || modes > shape.pairs.size())
-    throw std::invalid_argument(std::string("functional map: ") + std::to_string(modes) + " modes of the " +
-                                which + " are asked for, there are " + std::to_string(shape.pairs.size()) +
-                                ", take at least 2 of them.");
+  require(modes >= 2 && modes <= shape.pairs.size(), "functional map: ", modes, " modes of the ", which,
+          " are asked for, there are ", shape.pairs.size(), ", take at least 2 of them.");
   check_dimension("the number of rows of the eigenvectors", shape.pairs.vectors.rows(), shape.op.B.rows());
 }
 
@@ -157,11 +155,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const 
 {
   internal::check_modes(X, last, "source");
   internal::check_modes(Y, last, "target");
-  if(C.rows() > last || C.cols() > last || step < 1)
-    throw std::invalid_argument("zoom_out: the map is " + std::to_string(C.rows()) + " x " +
-                                std::to_string(C.cols()) + " and the step " + std::to_string(step) +
-                                ", start from at most " + std::to_string(last) +
-                                " modes with a positive step.");
+  internal::require(C.rows() <= last && C.cols() <= last && step >= 1, "zoom_out: the map is ",
+                    internal::size_name(C), " and the step ", step, ", start from at most ", last,
+                    " modes with a positive step.");
   Eigen::Index k = (std::max)(C.rows(), C.cols());
   do {
     const Eigen::SparseMatrix<double> points =
@@ -176,9 +172,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eige
                                                                       const Spectral_shape& X,
                                                                       const Spectral_shape& Y, double time)
 {
-  if(!(time >= 0 && std::isfinite(time)))
-    throw std::invalid_argument("product manifold filter: the time " + std::to_string(time) +
-                                " is negative or not finite, pass a time of heat of at least 0.");
+  internal::require(time >= 0 && std::isfinite(time), "product manifold filter: the time ", time,
+                    " is negative or not finite, pass a time of heat of at least 0.");
   internal::check_modes(X, C.cols(), "source");
   internal::check_modes(Y, C.rows(), "target");
   const Eigen::VectorXd left = (-time * Y.pairs.values.head(C.rows()).array()).exp();

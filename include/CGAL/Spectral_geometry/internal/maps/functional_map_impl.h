@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_FUNCTIONAL_MAP_IMPL_H
 
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 namespace CGAL::Spectral_geometry {
 
@@ -13,10 +14,8 @@ namespace internal {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted)
 {
-  if(found != wanted)
-    throw std::invalid_argument(std::string("functional map: ") + what + " is " + std::to_string(found) +
-                                " where " + std::to_string(wanted) +
-                                " is needed, pass matrices that belong together.");
+  require(found == wanted, "functional map: ", what, " is ", found, " where ", wanted,
+          " is needed, pass matrices that belong together.");
 }
 
 inline std::string name_of_mass(const Laplace_operator& op)
@@ -32,18 +31,14 @@ inline std::string name_of_mass(const Laplace_operator& op)
 inline void check_pairs(const char* which, const Laplace_operator& op, const Eigenpairs& pairs,
                         Eigen::Index wanted)
 {
-  const std::string who = std::string("spectral evaluation: the ") + which;
-  if(pairs.vectors.rows() != op.B.rows() || pairs.vectors.cols() != pairs.values.size() ||
-     op.mass.size() != op.B.rows())
-    throw std::invalid_argument(who + " eigenvectors are " + std::to_string(pairs.vectors.rows()) + " x " +
-                                std::to_string(pairs.vectors.cols()) + " for " + std::to_string(op.B.rows()) +
-                                " vertices and " + std::to_string(pairs.values.size()) +
-                                " eigenvalues, pass the operator and the eigenpairs of one mesh.");
-  if(pairs.size() < wanted)
-    throw std::invalid_argument(who + " mesh has " + std::to_string(pairs.size()) +
-                                " eigenpairs, compute at least " + std::to_string(wanted) + " of them.");
-  if(!(op.mass.sum() > 0))
-    throw std::invalid_argument(who + " mesh has no area, check its masses.");
+  require(pairs.vectors.rows() == op.B.rows() && pairs.vectors.cols() == pairs.values.size() &&
+              op.mass.size() == op.B.rows(),
+          "spectral evaluation: the ", which, " eigenvectors are ", size_name(pairs.vectors), " for ",
+          op.B.rows(), " vertices and ", pairs.values.size(),
+          " eigenvalues, pass the operator and the eigenpairs of one mesh.");
+  require(pairs.size() >= wanted, "spectral evaluation: the ", which, " mesh has ", pairs.size(),
+          " eigenpairs, compute at least ", wanted, " of them.");
+  require(op.mass.sum() > 0, "spectral evaluation: the ", which, " mesh has no area, check its masses.");
 }
 
 } // namespace internal
@@ -65,8 +60,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd functional_map(const Eigen::Matrix
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C,
                                                                        double fine_area, double coarse_area)
 {
-  if(!(fine_area > 0 && coarse_area > 0))
-    throw std::invalid_argument("functional map: an area is not positive, pass the sums of the masses.");
+  internal::require(fine_area > 0 && coarse_area > 0,
+                    "functional map: an area is not positive, pass the sums of the masses.");
   return std::sqrt(fine_area / coarse_area) * C;
 }
 
@@ -77,9 +72,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double laplacian_commutativity_norm(const Eigen::M
   internal::check_dimension("the number of fine eigenvalues", fine_values.size(), C.cols());
   internal::check_dimension("the number of coarse eigenvalues", coarse_values.size(), C.rows());
   const double norm = C.norm();
-  if(!(norm > 0 && std::isfinite(norm)))
-    throw std::invalid_argument(
-        "functional map: C is zero or not finite, its commutativity is undefined, check P.");
+  internal::require(norm > 0 && std::isfinite(norm),
+                    "functional map: C is zero or not finite, its commutativity is undefined, check P.");
   return (C * fine_values.asDiagonal() - coarse_values.asDiagonal() * C).norm() / norm;
 }
 
@@ -140,9 +134,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation
 evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
                   const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K)
 {
-  if(K < 1)
-    throw std::invalid_argument("spectral evaluation: K is " + std::to_string(K) +
-                                ", judge at least one mode.");
+  internal::require(K >= 1, "spectral evaluation: K is ", K, ", judge at least one mode.");
   const Eigen::Index N = coarse.B.rows() - coarse.vanishing, judged = (std::min)(K, N);
   internal::check_pairs("fine", fine, fine_pairs, judged);
   internal::check_pairs("coarse", coarse, coarse_pairs, judged);

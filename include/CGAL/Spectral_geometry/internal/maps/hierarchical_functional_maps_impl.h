@@ -7,13 +7,12 @@
 
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry {
 
@@ -24,13 +23,12 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
   internal::check_dimension("the number of columns of the coarse map", coarse.cols(),
                             source_restriction.rows());
   internal::check_dimension("the number of rows of the coarse map", coarse.rows(), target_restriction.rows());
-  if(!(tolerance >= 0 && tolerance < 1))
-    throw std::invalid_argument("functional map: the tolerance is " + std::to_string(tolerance) +
-                                ", it must lie in [0, 1[.");
+  internal::require(tolerance >= 0 && tolerance < 1, "functional map: the tolerance is ", tolerance,
+                    ", it must lie in [0, 1[.");
   for(const Eigen::MatrixXd* map : {&source_restriction, &coarse, &target_restriction})
-    if(map->size() == 0 || !map->allFinite())
-      throw std::invalid_argument("functional map: a map is empty or has an entry that is not finite, check "
-                                  "the eigenvectors and restrictions.");
+    internal::require(map->size() != 0 && map->allFinite(),
+                      "functional map: a map is empty or has an entry that is not finite, check the "
+                      "eigenvectors and restrictions.");
 
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& sigma = svd.singularValues();

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_VERTEX_MAPS_IMPL_H
 
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/Ball_tree.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_of_triangle.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
@@ -13,8 +14,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
@@ -23,10 +22,8 @@ inline void check_vertex_map(const std::vector<Eigen::Index>& map, Eigen::Index 
 {
   check_dimension("the number of entries of the vertex map", static_cast<Eigen::Index>(map.size()), targets);
   for(std::size_t i = 0; i < map.size(); ++i)
-    if(map[i] < 0 || map[i] >= sources)
-      throw std::invalid_argument("vertex map: entry " + std::to_string(i) + " is " + std::to_string(map[i]) +
-                                  ", it must be a vertex of the source, in [0, " + std::to_string(sources) +
-                                  ").");
+    require(map[i] >= 0 && map[i] < sources, "vertex map: entry ", i, " is ", map[i],
+            ", it must be a vertex of the source, in [0, ", sources, ").");
 }
 
 } // namespace internal
@@ -34,18 +31,14 @@ inline void check_vertex_map(const std::vector<Eigen::Index>& map, Eigen::Index 
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
 nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads)
 {
-  if(points.rows() == 0 || points.cols() == 0)
-    throw std::invalid_argument("nearest rows: there is no point to search for, pass at least one.");
+  internal::require(points.size() != 0, "nearest rows: there is no point to search for, pass at least one.");
   internal::check_dimension("the number of columns of the queries", queries.cols(), points.cols());
-  if(threads < 1)
-    throw std::invalid_argument("nearest rows: the number of threads is " + std::to_string(threads) +
-                                ", pass at least 1.");
+  internal::require(threads >= 1, "nearest rows: the number of threads is ", threads, ", pass at least 1.");
   for(const Eigen::MatrixXd* matrix : {&points, &queries})
     for(Eigen::Index i = 0; i < matrix->rows(); ++i)
-      if(!matrix->row(i).allFinite())
-        throw std::invalid_argument("nearest rows: row " + std::to_string(i) + " of the " +
-                                    (matrix == &points ? "points" : "queries") +
-                                    " has an entry that is not finite, check the maps and eigenvectors.");
+      internal::require(matrix->row(i).allFinite(), "nearest rows: row ", i, " of the ",
+                        matrix == &points ? "points" : "queries",
+                        " has an entry that is not finite, check the maps and eigenvectors.");
 
   const internal::Ball_tree tree(points.transpose());
   const Eigen::MatrixXd query_columns = queries.transpose();
@@ -79,11 +72,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
 target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
                      const Eigen::MatrixXd& target_vectors, int threads)
 {
-  if(source_vectors.cols() < C.cols() || target_vectors.cols() < C.rows())
-    throw std::invalid_argument(
-        "vertex map: C is " + std::to_string(C.rows()) + " x " + std::to_string(C.cols()) +
-        ", but there are " + std::to_string(target_vectors.cols()) + " target and " +
-        std::to_string(source_vectors.cols()) + " source eigenvectors, pass as many.");
+  internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
+                    "vertex map: C is ", internal::size_name(C), ", but there are ", target_vectors.cols(),
+                    " target and ", source_vectors.cols(), " source eigenvectors, pass as many.");
   return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(), target_vectors.leftCols(C.rows()),
                       threads);
 }

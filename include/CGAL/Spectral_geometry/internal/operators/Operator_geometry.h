@@ -8,13 +8,12 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
@@ -122,17 +121,12 @@ private:
 
   void check(const Eigen::MatrixXi& T, const Index n) const
   {
-    const std::string who = "relocation: ";
     check_local_operator(m_op, n);
-    if(T.cols() != 3)
-      throw std::invalid_argument(who + "T has " + std::to_string(T.cols()) +
-                                  " columns; pass a matrix of three.");
+    require(T.cols() == 3, "relocation: T has ", T.cols(), " columns; pass a matrix of three.");
     for(Index f = 0; f < T.rows(); ++f)
       for(int k = 0; k < 3; ++k)
-        if(T(f, k) < 0 || T(f, k) >= n || T(f, k) == T(f, (k + 1) % 3))
-          throw std::invalid_argument(who + "triangle " + std::to_string(f) + " refers to vertex " +
-                                      std::to_string(T(f, k)) +
-                                      ", which does not exist or occurs twice; repair the indices.");
+        require(T(f, k) >= 0 && T(f, k) < n && T(f, k) != T(f, (k + 1) % 3), "relocation: triangle ", f,
+                " refers to vertex ", T(f, k), ", which does not exist or occurs twice; repair the indices.");
   }
 
   int edge_of(const int i, const int j)

@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 namespace CGAL::Spectral_geometry {
 
@@ -76,56 +77,47 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
 {
-  if(V.cols() != 3)
-    throw std::invalid_argument("Laplace operator: V must have 3 columns, one row per vertex, but has " +
-                                std::to_string(V.cols()) + " columns.");
+  require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ", V.cols(),
+          " columns.");
   for(Eigen::Index v = 0; v < V.rows(); ++v)
-    if(!V.row(v).allFinite())
-      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                  " has a coordinate that is not a finite number; repair or remove it.");
+    require(V.row(v).allFinite(), "Laplace operator: ", vertex_name(v),
+            " has a coordinate that is not a finite number; repair or remove it.");
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
 {
-  if(T.cols() != 3 || T.rows() == 0)
-    throw std::invalid_argument("Laplace operator: T must have 3 columns and at least one row, but is " +
-                                std::to_string(T.rows()) + " x " + std::to_string(T.cols()) + ".");
+  require(T.cols() == 3 && T.rows() != 0,
+          "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T), ".");
   for(Eigen::Index f = 0; f < T.rows(); ++f) {
     const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
-    if((std::min)({i, j, k}) < 0 || (std::max)({i, j, k}) >= n)
-      throw std::invalid_argument("Laplace operator: " + face_name(f) + " refers to a vertex outside 0.." +
-                                  std::to_string(n - 1) + "; repair the indices.");
-    if(i == j || j == k || k == i)
-      throw std::invalid_argument("Laplace operator: " + face_name(f) +
-                                  " uses one vertex twice; remove the face.");
+    require((std::min)({i, j, k}) >= 0 && (std::max)({i, j, k}) < n, "Laplace operator: ", face_name(f),
+            " refers to a vertex outside 0..", n - 1, "; repair the indices.");
+    require(i != j && j != k && k != i, "Laplace operator: ", face_name(f),
+            " uses one vertex twice; remove the face.");
   }
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, const Eigen::Index n)
 {
-  const std::string who = "Local operator: ";
-  if(!(op.theta >= 0. && op.theta <= 1.))
-    throw std::invalid_argument(who + "theta must lie in [0, 1], but is " + std::to_string(op.theta) + ".");
-  if(op.voronoi && op.theta != 0.)
-    throw std::invalid_argument(who + "Voronoi shares are those of a lumped mass, but theta is " +
-                                std::to_string(op.theta) + "; set one of the two to 0.");
+  require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ", op.theta,
+          ".");
+  require(!op.voronoi || op.theta == 0.,
+          "Local operator: Voronoi shares are those of a lumped mass, but theta is ", op.theta,
+          "; set one of the two to 0.");
   const Operator_coefficients& c = op.coefficients;
-  if(c.rows() != 0 && c.rows() != n)
-    throw std::invalid_argument(who + "there are coefficients for " + std::to_string(c.rows()) +
-                                " vertices, but the mesh has " + std::to_string(n) +
-                                "; give one row for each.");
+  require(c.rows() == 0 || c.rows() == n, "Local operator: there are coefficients for ", c.rows(),
+          " vertices, but the mesh has ", n, "; give one row for each.");
   for(Eigen::Index v = 0; v < c.rows(); ++v) {
-    if(!(c(v, 0) > 0. && std::isfinite(c(v, 0))))
-      throw std::invalid_argument(who + "the density of " + vertex_name(v) + " is " +
-                                  std::to_string(c(v, 0)) + "; use positive numbers.");
+    require(c(v, 0) > 0. && std::isfinite(c(v, 0)), "Local operator: the density of ", vertex_name(v), " is ",
+            c(v, 0), "; use positive numbers.");
     Eigen::Matrix3d D = conductivity(c.row(v).transpose());
     D /= D.trace(); // of any unit
     // Sylvester's criterion, each minor beside what it is a difference of.
     const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
-    if(!(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
-         xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz && D.determinant() > 0.))
-      throw std::invalid_argument(who + "the conductivity of " + vertex_name(v) +
-                                  " is not positive definite; correct it.");
+    require(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
+                xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz &&
+                D.determinant() > 0.,
+            "Local operator: the conductivity of ", vertex_name(v), " is not positive definite; correct it.");
   }
 }
 
@@ -136,27 +128,21 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
   const Triangle_cotangents t = local_cotangents(V, corners, c);
   const Eigen::Vector3d own = // of the triangle itself, whatever conducts
       c.rows() == 0 ? t.cot : local_cotangents(V, corners, {}).cot;
-  if(!(own.cwiseAbs().maxCoeff() <= largest_cotangent) || !t.cot.allFinite() || !std::isfinite(t.area))
-    throw std::invalid_argument(
-        "Laplace operator: " + face_name(f) +
-        " is a needle or too large, its cotangents or its area overflow the matrix; collapse "
-        "its shortest edge, remesh it or rescale the mesh.");
+  require(own.cwiseAbs().maxCoeff() <= largest_cotangent && t.cot.allFinite() && std::isfinite(t.area),
+          "Laplace operator: ", face_name(f),
+          " is a needle or too large, its cotangents or its area overflow the matrix; collapse its shortest "
+          "edge, remesh it or rescale the mesh.");
   return t;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
 {
   for(Eigen::Index v = 0; v < mass.size(); ++v) {
-    if(mass(v) > 0. && std::isfinite(mass(v)))
-      continue;
-    if(!(mass(v) <= 0.))
-      throw std::invalid_argument("Laplace operator: the mass of " + vertex_name(v) +
-                                  " is not a finite number; rescale the mesh.");
-    if((T.array() == static_cast<int>(v)).any())
-      throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                  " has no mass because all its faces have zero area; remove these faces.");
-    throw std::invalid_argument("Laplace operator: " + vertex_name(v) +
-                                " is isolated, no face uses it; remove it.");
+    require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ", vertex_name(v),
+            " is not a finite number; rescale the mesh.");
+    require(mass(v) > 0. || (T.array() != static_cast<int>(v)).all(), "Laplace operator: ", vertex_name(v),
+            " has no mass because all its faces have zero area; remove these faces.");
+    require(mass(v) > 0., "Laplace operator: ", vertex_name(v), " is isolated, no face uses it; remove it.");
   }
 }
 
@@ -279,8 +265,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
   internal::check_local_operator(theta, V.rows());
-  if(corner_masses.rows() != T.rows() || corner_masses.cols() != 3)
-    throw std::invalid_argument("Laplace operator: the corner masses must be a matrix of the size of T.");
+  internal::require(corner_masses.rows() == T.rows() && corner_masses.cols() == 3,
+                    "Laplace operator: the corner masses must be a matrix of the size of T.");
   return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
     return internal::Face_element(internal::checked_cotangents(V, T, f), corner_masses.row(f));
   });

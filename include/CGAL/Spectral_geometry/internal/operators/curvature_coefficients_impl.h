@@ -11,6 +11,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/curvature_coefficients.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <Eigen/Geometry>
@@ -18,8 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -71,9 +70,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
   using Point = Kernel::Point_3;
   using Fitting = CGAL::Monge_via_jet_fitting<Kernel, Kernel, CGAL::Eigen_svd>;
   constexpr std::size_t wanted = 16, needed = 6;
-  if(!(alpha >= 0 && alpha <= 1e6))
-    throw std::invalid_argument("Local operator: the anisotropy is " + std::to_string(alpha) +
-                                "; use a number from 0 to 1e6.");
+  internal::require(alpha >= 0 && alpha <= 1e6, "Local operator: the anisotropy is ", alpha,
+                    "; use a number from 0 to 1e6.");
   const double area = 3 * barycentric_corner_masses(V, T).col(0).sum();
   const double radius = std::sqrt(area / (4 * std::acos(-1.)));
   const std::vector<std::vector<int>> neighbors = internal::vertex_neighbors(T, V.rows());

@@ -13,6 +13,7 @@
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Tall_products.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -24,7 +25,6 @@
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -507,65 +507,51 @@ inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::Vec
     }
 }
 
-inline void require_of_operator_fit(bool condition, const std::string& sentence)
-{
-  if(!condition)
-    throw std::invalid_argument("operator fit: " + sentence);
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit_options& o)
 {
-  const auto require = require_of_operator_fit;
-  require(o.rings == 1 || o.rings == 2, "rings must be 1 or 2, but is " + std::to_string(o.rings) + ".");
+  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings, ".");
   require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
-          "orthonormality and plain must be numbers from 0.");
-  require(o.low_modes >= 0. && o.low_modes <= 20., "low_modes must be a number from 0 to 20.");
-  require(o.tie > 0. && std::isfinite(o.tie), "tie must be a positive number.");
+          "operator fit: orthonormality and plain must be numbers from 0.");
+  require(o.low_modes >= 0. && o.low_modes <= 20., "operator fit: low_modes must be a number from 0 to 20.");
+  require(o.tie > 0. && std::isfinite(o.tie), "operator fit: tie must be a positive number.");
   require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
-          "smallest_weight and smallest_mass must lie in ]0, 1].");
-  require(o.tolerance > 0. && o.tolerance < 1., "tolerance must lie between 0 and 1.");
-  require(o.maximum_iterations >= 0, "maximum_iterations must not be negative.");
-  require(o.threads >= 1, "threads must be at least 1.");
+          "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
+  require(o.tolerance > 0. && o.tolerance < 1., "operator fit: tolerance must lie between 0 and 1.");
+  require(o.maximum_iterations >= 0, "operator fit: maximum_iterations must not be negative.");
+  require(o.threads >= 1, "operator fit: threads must be at least 1.");
 }
 
 inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
                                const Laplace_operator& fine, const Eigenpairs& pairs)
 {
-  const auto require = require_of_operator_fit;
-  const auto size = [](Eigen::Index rows, Eigen::Index columns) {
-    return std::to_string(rows) + " x " + std::to_string(columns);
-  };
   const Eigen::Index N = P.rows(), n = P.cols(), K = pairs.size();
   require(N > 0 && coarse.L.rows() == N && coarse.L.cols() == N && coarse.B.rows() == N &&
               coarse.B.cols() == N && coarse.mass.size() == N,
-          "P is " + size(N, n) + " but the coarse operator has L " + size(coarse.L.rows(), coarse.L.cols()) +
-              ", B " + size(coarse.B.rows(), coarse.B.cols()) + " and " + std::to_string(coarse.mass.size()) +
-              " masses, pass matrices of one coarse mesh.");
+          "operator fit: P is ", size_name(P), " but the coarse operator has L ", size_name(coarse.L), ", B ",
+          size_name(coarse.B), " and ", coarse.mass.size(), " masses, pass matrices of one coarse mesh.");
   require(fine.mass.size() == n && pairs.vectors.rows() == n && pairs.vectors.cols() == K && K > 0,
-          "P is " + size(N, n) + " but there are " + std::to_string(fine.mass.size()) + " fine masses, " +
-              std::to_string(K) + " eigenvalues and eigenvectors of " +
-              size(pairs.vectors.rows(), pairs.vectors.cols()) +
-              ", pass the operator and at least one eigenpair of the fine mesh.");
+          "operator fit: P is ", size_name(P), " but there are ", fine.mass.size(), " fine masses, ", K,
+          " eigenvalues and eigenvectors of ", size_name(pairs.vectors),
+          ", pass the operator and at least one eigenpair of the fine mesh.");
   require(coarse.boundary == Boundary_condition::neumann && fine.boundary == Boundary_condition::neumann,
-          "the rows of a fitted Laplacian sum to zero, which those of the Dirichlet condition do not; pass "
-          "operators "
-          "without it.");
+          "operator fit: the rows of a fitted Laplacian sum to zero, which those of the Dirichlet condition "
+          "do not; pass operators without it.");
   for(Eigen::Index v = 0; v < N; ++v)
-    if(!(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v))))
-      require(false, "the mass of " + vertex_name(v) + " of the coarse mesh is not a positive number.");
+    require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)), "operator fit: the mass of ",
+            vertex_name(v), " of the coarse mesh is not a positive number.");
   const double area = fine.mass.sum();
-  require(area > 0. && std::isfinite(area), "the area of the fine mesh is not a positive number.");
+  require(area > 0. && std::isfinite(area),
+          "operator fit: the area of the fine mesh is not a positive number.");
   const double rounding = 1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
   for(Eigen::Index k = 0; k < K; ++k)
-    if(!(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) && pairs.vectors.col(k).allFinite()))
-      require(false, "eigenpair " + std::to_string(k) +
-                         " (counted from 0) has a number that is negative or not finite.");
+    require(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) &&
+                pairs.vectors.col(k).allFinite(),
+            "operator fit: eigenpair ", k, " (counted from 0) has a number that is negative or not finite.");
   const auto check_entries = [&](const Eigen::SparseMatrix<double>& A, const char* name) {
     for(Eigen::Index j = 0; j < A.outerSize(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
-        if(!std::isfinite(it.value()))
-          require(false, std::string("entry ") + std::to_string(it.row()) + ", " + std::to_string(it.col()) +
-                             " (counted from 0) of " + name + " is not a finite number.");
+        require(std::isfinite(it.value()), "operator fit: entry ", it.row(), ", ", it.col(),
+                " (counted from 0) of ", name, " is not a finite number.");
   };
   check_entries(P, "P");
   check_entries(coarse.L, "the coarse L");

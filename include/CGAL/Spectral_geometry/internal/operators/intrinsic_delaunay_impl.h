@@ -7,14 +7,13 @@
 
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -228,13 +227,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
 
   Laplace_operator result = internal::assemble(corners, V.rows(), theta, [&](const Eigen::Index f) {
     const Triangle_cotangents t = mesh.cotangents(f);
-    if(!(t.cot.cwiseAbs().maxCoeff() <= internal::largest_cotangent) || !std::isfinite(t.area))
-      throw std::invalid_argument("Laplace operator: the intrinsic triangle of the vertices " +
-                                  std::to_string(corners(f, 0)) + ", " + std::to_string(corners(f, 1)) +
-                                  " and " + std::to_string(corners(f, 2)) +
-                                  " (counted from 0) is a needle or too large, its cotangents or its area "
-                                  "overflow the matrix; collapse "
-                                  "its shortest edge, remesh there or rescale the mesh.");
+    internal::require(t.cot.cwiseAbs().maxCoeff() <= internal::largest_cotangent && std::isfinite(t.area),
+                      "Laplace operator: the intrinsic triangle of the vertices ", corners(f, 0), ", ",
+                      corners(f, 1), " and ", corners(f, 2),
+                      " (counted from 0) is a needle or too large, its cotangents or its area overflow the "
+                      "matrix; collapse its shortest edge, remesh there or rescale the mesh.");
     internal::Face_element element(t, mass == Mass::voronoi);
     for(int k = 0; k < 3; ++k)
       if(is_loop(f, k)) // its difference of values is 0

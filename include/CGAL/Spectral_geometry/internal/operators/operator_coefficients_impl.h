@@ -6,11 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_OPERATOR_COEFFICIENTS_IMPL_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry {
 
@@ -18,10 +17,8 @@ namespace internal {
 
 inline void check_length(const char* what, const Eigen::Index found, const Eigen::Index wanted)
 {
-  if(found != wanted)
-    throw std::invalid_argument("Local operator: " + std::string(what) + " has " + std::to_string(found) +
-                                " entries where " + std::to_string(wanted) +
-                                " are needed; give one for each vertex.");
+  require(found == 0 || found == wanted, "Local operator: ", what, " has ", found, " entries where ", wanted,
+          " are needed; give one for each vertex.");
 }
 
 } // namespace internal
@@ -30,12 +27,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients weighted_coefficients(const 
                                                                           const Eigen::VectorXd& conductivity)
 {
   const Eigen::Index n = density.size() != 0 ? density.size() : conductivity.size();
-  if(conductivity.size() != 0)
-    internal::check_length("the conductivity", conductivity.size(), n);
+  internal::check_length("the conductivity", conductivity.size(), n);
   for(Eigen::Index v = 0; v < conductivity.size(); ++v)
-    if(!(conductivity(v) > 0. && std::isfinite(conductivity(v))))
-      throw std::invalid_argument("Local operator: the conductivity of " + internal::vertex_name(v) + " is " +
-                                  std::to_string(conductivity(v)) + "; use positive numbers.");
+    internal::require(conductivity(v) > 0. && std::isfinite(conductivity(v)),
+                      "Local operator: the conductivity of ", internal::vertex_name(v), " is ",
+                      conductivity(v), "; use positive numbers.");
   Eigen::MatrixXd D = Eigen::MatrixXd::Zero(n, 6);
   for(const int diagonal : {0, 3, 5})
     D.col(diagonal) = conductivity.size() != 0 ? conductivity : Eigen::VectorXd::Ones(n);
@@ -46,12 +42,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
 anisotropic_coefficients(const Eigen::MatrixXd& conductivity, const Eigen::VectorXd& density)
 {
   const Eigen::Index n = conductivity.rows();
-  if(conductivity.cols() != 6)
-    throw std::invalid_argument("Local operator: the conductivity has " +
-                                std::to_string(conductivity.cols()) +
-                                " columns; give six, xx, xy, xz, yy, yz, zz.");
-  if(density.size() != 0)
-    internal::check_length("the density", density.size(), n);
+  internal::require(conductivity.cols() == 6, "Local operator: the conductivity has ", conductivity.cols(),
+                    " columns; give six, xx, xy, xz, yy, yz, zz.");
+  internal::check_length("the density", density.size(), n);
   Operator_coefficients result(n, 7);
   result.col(0) = density.size() != 0 ? density : Eigen::VectorXd::Ones(n);
   result.rightCols<6>() = conductivity;
@@ -62,10 +55,8 @@ anisotropic_coefficients(const Eigen::MatrixXd& conductivity, const Eigen::Vecto
 CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
     const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Operator_coefficients& of_faces)
 {
-  if(of_faces.rows() != T.rows())
-    throw std::invalid_argument("Local operator: there are coefficients for " +
-                                std::to_string(of_faces.rows()) + " faces, but the mesh has " +
-                                std::to_string(T.rows()) + "; give one row for each.");
+  internal::require(of_faces.rows() == T.rows(), "Local operator: there are coefficients for ",
+                    of_faces.rows(), " faces, but the mesh has ", T.rows(), "; give one row for each.");
   const Eigen::VectorXd area = barycentric_corner_masses(V, T).col(0);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(V.rows());
   Operator_coefficients result = Operator_coefficients::Zero(V.rows(), 7);

@@ -12,6 +12,7 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 #include <CGAL/Spectral_geometry/relocation.h>
@@ -24,8 +25,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 namespace CGAL::Spectral_geometry {
@@ -36,26 +35,15 @@ inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd&
                              const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                              const std::vector<bool>& fixed)
 {
-  const auto require = [](const bool fine_so_far, const std::string& sentence) {
-    if(!fine_so_far)
-      throw std::invalid_argument("relocation: " + sentence);
-  };
-  const auto size = [](const Eigen::Index rows, const Eigen::Index columns) {
-    return std::to_string(rows) + " x " + std::to_string(columns);
-  };
-  require(P.rows() == V.rows() && P.cols() == fine.V.rows(),
-          "P is " + size(P.rows(), P.cols()) + " where " + size(V.rows(), fine.V.rows()) +
-              " is needed, coarse x fine; pass matrices that belong together.");
-  require(F.rows() == P.cols() && Z.rows() == F.rows() && Z.cols() == F.cols() && F.cols() > 0,
-          "F is " + size(F.rows(), F.cols()) + " and Z " + size(Z.rows(), Z.cols()) +
-              "; pass two matrices with one row for each of the " + std::to_string(P.cols()) +
-              " fine vertices and one column for each signal.");
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ", size_name(P), " where ",
+          V.rows(), " x ", fine.V.rows(), " is needed, coarse x fine; pass matrices that belong together.");
+  require_signals("relocation: ", F, Z, P.cols());
   for(Eigen::Index v = 0; v < V.rows(); ++v)
-    require(V.row(v).allFinite(),
-            vertex_name(v) + " has a coordinate that is not a finite number; repair it.");
+    require(V.row(v).allFinite(), "relocation: ", vertex_name(v),
+            " has a coordinate that is not a finite number; repair it.");
   require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
-          "the list of fixed vertices has " + std::to_string(fixed.size()) + " entries for " +
-              std::to_string(V.rows()) + " vertices; pass one for each, or none.");
+          "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
+          " vertices; pass one for each, or none.");
   check_relocation_options(o);
 }
 
@@ -95,10 +83,10 @@ public:
   Positions run(Relocation_result& result)
   {
     for(Eigen::Index f = 0; f < m_T.rows(); ++f)
-      if(!(triangle_cotangents(m_start.row(m_T(f, 0)), m_start.row(m_T(f, 1)), m_start.row(m_T(f, 2))).area >
-           0))
-        throw std::invalid_argument("relocation: " + face_name(f) +
-                                    " of the coarse mesh has no area; remove it.");
+      require(
+          triangle_cotangents(m_start.row(m_T(f, 0)), m_start.row(m_T(f, 1)), m_start.row(m_T(f, 2))).area >
+              0,
+          "relocation: ", face_name(f), " of the coarse mesh has no area; remove it.");
     Guarded_descent<Relocation_objective, Relocation_guards> descent(
         *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
     result.E_before = m_objective->E(m_start);

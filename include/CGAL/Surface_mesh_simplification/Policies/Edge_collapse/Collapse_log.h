@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -19,8 +20,6 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -73,10 +72,9 @@ public:
     : m_forest(std::move(forest))
     , m_points(std::move(points))
   {
-    if(m_forest.merges().size() != m_points.size())
-      throw std::invalid_argument("Collapse_log: there are " + std::to_string(m_points.size()) +
-                                  " points for " + std::to_string(m_forest.merges().size()) +
-                                  " merges; give one for each.");
+    internal::require(m_forest.merges().size() == m_points.size(), "Collapse_log: there are ",
+                      m_points.size(), " points for ", m_forest.merges().size(),
+                      " merges; give one for each.");
   }
 
   /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha F_removed. What
@@ -96,11 +94,11 @@ public:
   /// this one that the second calls i. Throws `std::invalid_argument` if they do not fit.
   void append(const Collapse_log& second, const std::vector<Index>& slots)
   {
-    if(Index(slots.size()) != second.m_forest.number_of_slots() || slots.size() != number_of_vertices_left())
-      throw std::invalid_argument("Collapse_log: the log to append starts at " +
-                                  std::to_string(second.m_forest.number_of_slots()) + " vertices, but " +
-                                  std::to_string(number_of_vertices_left()) + " are left here, and " +
-                                  std::to_string(slots.size()) + " slots are given; let all three agree.");
+    internal::require(Index(slots.size()) == second.m_forest.number_of_slots() &&
+                          slots.size() == number_of_vertices_left(),
+                      "Collapse_log: the log to append starts at ", second.m_forest.number_of_slots(),
+                      " vertices, but ", number_of_vertices_left(), " are left here, and ", slots.size(),
+                      " slots are given; let all three agree.");
     for(std::size_t i = 0; i < second.m_points.size(); ++i) {
       const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
       merge(slots[std::size_t(m.removed)], slots[std::size_t(m.kept)], m.alpha, second.m_points[i]);
@@ -142,11 +140,9 @@ public:
   /// How many merges lead to the level of N vertices. Throws as restriction() does.
   Index number_of_merges(const std::size_t N) const
   {
-    if(N < number_of_vertices_left() || N > number_of_vertices())
-      throw std::invalid_argument("Collapse_log: a level of " + std::to_string(N) +
-                                  " vertices is asked for; use a number from " +
-                                  std::to_string(number_of_vertices_left()) + " to " +
-                                  std::to_string(number_of_vertices()) + ", those of this log.");
+    internal::require(N >= number_of_vertices_left() && N <= number_of_vertices(),
+                      "Collapse_log: a level of ", N, " vertices is asked for; use a number from ",
+                      number_of_vertices_left(), " to ", number_of_vertices(), ", those of this log.");
     return Index(number_of_vertices() - N);
   }
 
@@ -198,11 +194,9 @@ public:
                                          get_property_map(vertex_point, mesh)))
     , m_slots(mesh, "Collapse_replay")
   {
-    if(std::size_t(m_slots.size()) != m_log.number_of_vertices())
-      throw std::invalid_argument("Collapse_replay: the mesh has " + std::to_string(m_slots.size()) +
-                                  " vertices, but the log starts at " +
-                                  std::to_string(m_log.number_of_vertices()) +
-                                  "; pass a copy of the input as it was before the run.");
+    internal::require(std::size_t(m_slots.size()) == m_log.number_of_vertices(),
+                      "Collapse_replay: the mesh has ", m_slots.size(), " vertices, but the log starts at ",
+                      m_log.number_of_vertices(), "; pass a copy of the input as it was before the run.");
   }
 
   /*!
@@ -216,11 +210,9 @@ public:
   void collapse_to(const std::size_t N)
   {
     const Index end = m_log.number_of_merges(N);
-    if(end < m_done)
-      throw std::invalid_argument("Collapse_replay: a level of " + std::to_string(N) +
-                                  " vertices is asked for, but the mesh has only " +
-                                  std::to_string(number_of_vertices()) +
-                                  " left; go from fine to coarse, or begin again with another copy.");
+    internal::require(end >= m_done, "Collapse_replay: a level of ", N,
+                      " vertices is asked for, but the mesh has only ", number_of_vertices(),
+                      " left; go from fine to coarse, or begin again with another copy.");
     m_slots.check();
     // Afresh: garbage may have been collected meanwhile.
     m_vertices.resize(m_log.number_of_vertices());
@@ -267,11 +259,10 @@ private:
     const vertex_descriptor removed = m_vertices[std::size_t(m.removed)],
                             kept = m_vertices[std::size_t(m.kept)];
     const halfedge_descriptor h = halfedge_between(removed, kept);
-    if(h == boost::graph_traits<Triangle_mesh>::null_halfedge())
-      throw std::invalid_argument("Collapse_replay: the vertices " + std::to_string(m.removed) + " and " +
-                                  std::to_string(m.kept) +
-                                  " are not joined by an edge where the log merges them; pass a copy of the "
-                                  "input as it was before the run.");
+    internal::require(h != boost::graph_traits<Triangle_mesh>::null_halfedge(),
+                      "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
+                      " are not joined by an edge where the log merges them; pass a copy of the input as it "
+                      "was before the run.");
     const Point point = at == internal::to_vector(get(m_vpm, kept)) ? Point(get(m_vpm, kept))
                         : at == internal::to_vector(get(m_vpm, removed))
                             ? Point(get(m_vpm, removed))

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <CGAL/assertions.h>
@@ -18,7 +19,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -44,10 +44,8 @@ public:
 
   void check_mesh(const TriangleMesh& mesh)
   {
-    if(&mesh != m_mesh)
-      throw std::invalid_argument(
-          "Restriction_visitor: edge_collapse() was called with another mesh than the "
-          "one that the visitor was made for; make a visitor for that mesh.");
+    require(&mesh == m_mesh, "Restriction_visitor: edge_collapse() was called with another mesh than the one "
+                             "that the visitor was made for; make a visitor for that mesh.");
     m_slots.check();
     m_open = false; // left so by an exception during a collapse
   }

@@ -5,10 +5,10 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_ERROR_STOP_PREDICATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_ERROR_STOP_PREDICATE_H
 
+#include <CGAL/Spectral_geometry/internal/require.h>
+
 #include <cstddef>
 #include <memory>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Surface_mesh_simplification {
 
@@ -69,9 +69,8 @@ public:
     , m_placement(placement)
     , m_bound(maximum_error)
   {
-    if(!(maximum_error >= 0))
-      throw std::invalid_argument("Spectral_error_stop_predicate: the bound is " +
-                                  std::to_string(maximum_error) + ", use a number from 0.");
+    internal::require(maximum_error >= 0, "Spectral_error_stop_predicate: the bound is ", maximum_error,
+                      ", use a number from 0.");
   }
 
   /// whether to stop before the collapse of the selected candidate

@@ -9,11 +9,11 @@
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/use.h>
 
+#include <CGAL/Spectral_geometry/internal/require.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -36,10 +36,8 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
     flags.push_back(kept);
   }
   for(const std::size_t i : indices) {
-    if(i >= flags.size())
-      throw std::invalid_argument("Spectral_options: vertex " + std::to_string(i) +
-                                  " is to be kept, but the mesh has " + std::to_string(flags.size()) +
-                                  " vertices; use indices from 0.");
+    require(i < flags.size(), "Spectral_options: vertex ", i, " is to be kept, but the mesh has ",
+            flags.size(), " vertices; use indices from 0.");
     flags[i] = true;
   }
   return any ? flags : std::vector<char>();
@@ -88,11 +86,9 @@ void check_kept_vertices_apart(const TriangleMesh& mesh, const Slots& slots, con
         const std::size_t i_w = std::size_t(slots.slot(w));
         if(V.row(i_w) != V.row(i_start) || std::find(reached.begin(), reached.end(), w) != reached.end())
           continue;
-        if(kept[i_w])
-          throw std::invalid_argument("Spectral_options: the vertices " + std::to_string(i_start) + " and " +
-                                      std::to_string(i_w) +
-                                      " are both to be kept, but edges without length join them and are "
-                                      "collapsed before anything else; keep one of the two.");
+        require(!kept[i_w], "Spectral_options: the vertices ", i_start, " and ", i_w,
+                " are both to be kept, but edges without length join them and are collapsed before anything "
+                "else; keep one of the two.");
         reached.push_back(w);
       }
     }

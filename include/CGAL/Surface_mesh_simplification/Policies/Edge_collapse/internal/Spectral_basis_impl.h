@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 
@@ -26,53 +27,41 @@ namespace CGAL::Surface_mesh_simplification::internal {
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n)
 {
-  using std::to_string;
-  if(options.threads < 1)
-    throw std::invalid_argument("Spectral_options: threads is " + to_string(options.threads) +
-                                ", use a number from 1.");
-  if(!(options.shape >= 0) || !std::isfinite(options.shape))
-    throw std::invalid_argument("Spectral_options: shape is " + to_string(options.shape) +
-                                ", use a number from 0.");
-  if(!(options.largest_loss > 0))
-    throw std::invalid_argument("Spectral_options: largest_loss is " + to_string(options.largest_loss) +
-                                ", use a number above 0.");
-  if(options.signals.size() != 0 && options.eigenpairs)
-    throw std::invalid_argument("Spectral_options: both signals and eigenpairs are given, use one of them.");
-  if(options.signals.size() != 0 && options.metric_eigenvectors != 0)
-    throw std::invalid_argument("Spectral_options: metric_eigenvectors chooses among eigenvectors, but "
-                                "signals are given; pass the signals "
-                                "that the metric is to see.");
-  if(options.signals.size() != 0 && options.signals.rows() != n)
-    throw std::invalid_argument("Spectral_options: signals has " + to_string(options.signals.rows()) +
-                                " rows, but the mesh has " + to_string(n) +
-                                " vertices; give one row for each.");
-  if(options.signals.size() != 0 && !options.signals.allFinite())
-    throw std::invalid_argument("Spectral_options: signals has an entry that is not finite; correct it.");
-  if(options.eigenpairs && options.eigenpairs->vectors.rows() != n)
-    throw std::invalid_argument("Spectral_options: the eigenvectors have " +
-                                to_string(options.eigenpairs->vectors.rows()) + " rows, but the mesh has " +
-                                to_string(n) + " vertices; give the eigenpairs of this mesh.");
-  if(options.eigenpairs && options.eigenpairs->values.size() != options.eigenpairs->vectors.cols())
-    throw std::invalid_argument(
-        "Spectral_options: there are " + to_string(options.eigenpairs->values.size()) + " eigenvalues for " +
-        to_string(options.eigenpairs->vectors.cols()) + " eigenvectors; give one for each.");
-  if(options.eigenpairs && options.eigenpairs->values.size() == 0)
-    throw std::invalid_argument(
-        "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
-  if(options.metric_eigenvectors < 0)
-    throw std::invalid_argument("Spectral_options: metric_eigenvectors is " +
-                                to_string(options.metric_eigenvectors) + ", use a number from 0.");
+  require(options.threads >= 1, "Spectral_options: threads is ", options.threads, ", use a number from 1.");
+  require(options.shape >= 0 && std::isfinite(options.shape), "Spectral_options: shape is ", options.shape,
+          ", use a number from 0.");
+  require(options.largest_loss > 0, "Spectral_options: largest_loss is ", options.largest_loss,
+          ", use a number above 0.");
+  if(options.signals.size() != 0) {
+    require(!options.eigenpairs, "Spectral_options: both signals and eigenpairs are given, use one of them.");
+    require(options.metric_eigenvectors == 0,
+            "Spectral_options: metric_eigenvectors chooses among eigenvectors, but signals are given; pass "
+            "the signals that the metric is to see.");
+    require(options.signals.rows() == n, "Spectral_options: signals has ", options.signals.rows(),
+            " rows, but the mesh has ", n, " vertices; give one row for each.");
+    require(options.signals.allFinite(),
+            "Spectral_options: signals has an entry that is not finite; correct it.");
+  }
+  if(options.eigenpairs) {
+    const Spectral_geometry::Eigenpairs& pairs = *options.eigenpairs;
+    require(pairs.vectors.rows() == n, "Spectral_options: the eigenvectors have ", pairs.vectors.rows(),
+            " rows, but the mesh has ", n, " vertices; give the eigenpairs of this mesh.");
+    require(pairs.values.size() == pairs.vectors.cols(), "Spectral_options: there are ", pairs.values.size(),
+            " eigenvalues for ", pairs.vectors.cols(), " eigenvectors; give one for each.");
+    require(pairs.values.size() != 0,
+            "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
+  }
+  require(options.metric_eigenvectors >= 0, "Spectral_options: metric_eigenvectors is ",
+          options.metric_eigenvectors, ", use a number from 0.");
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
-  if(options.intrinsic_delaunay && (options.coefficients.rows() != 0 || options.signals.size() != 0 ||
-                                    options.boundary != Spectral_geometry::Boundary_condition::neumann))
-    throw std::invalid_argument(
-        "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami operator, "
-        "but coefficients, signals or a boundary condition are given; leave one of the two out.");
+  require(!options.intrinsic_delaunay || (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
+                                          options.boundary == Spectral_geometry::Boundary_condition::neumann),
+          "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami operator, but "
+          "coefficients, signals or a boundary condition are given; leave one of the two out.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
-  if(!given && (options.number_of_eigenvectors < 1 || options.number_of_eigenvectors >= n))
-    throw std::invalid_argument("Spectral_options: number_of_eigenvectors is " +
-                                to_string(options.number_of_eigenvectors) + ", but the mesh has " +
-                                to_string(n) + " vertices; use a number from 1 to " + to_string(n - 1) + ".");
+  require(given || (options.number_of_eigenvectors >= 1 && options.number_of_eigenvectors < n),
+          "Spectral_options: number_of_eigenvectors is ", options.number_of_eigenvectors,
+          ", but the mesh has ", n, " vertices; use a number from 1 to ", n - 1, ".");
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
@@ -90,10 +79,9 @@ operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Spec
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
 {
-  if(!Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)))
-    throw std::invalid_argument(
-        "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
-        "magnitude; rescale the mesh.");
+  require(Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)),
+          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in magnitude; rescale "
+          "the mesh.");
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,
@@ -101,13 +89,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_op
 {
   if(options.weights.size() == 0)
     return Eigen::VectorXd::Ones(K);
-  if(options.weights.size() != K)
-    throw std::invalid_argument("Spectral_options: there are " + std::to_string(options.weights.size()) +
-                                " weights for " + std::to_string(K) + " signals; give one for each.");
+  require(options.weights.size() == K, "Spectral_options: there are ", options.weights.size(),
+          " weights for ", K, " signals; give one for each.");
   for(Eigen::Index k = 0; k < K; ++k)
-    if(!(options.weights[k] >= 0) || !std::isfinite(options.weights[k]))
-      throw std::invalid_argument("Spectral_options: weight " + std::to_string(k) +
-                                  " is negative or not finite; use numbers from 0.");
+    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]), "Spectral_options: weight ", k,
+            " is negative or not finite; use numbers from 0.");
   return options.weights;
 }
 
@@ -167,12 +153,10 @@ inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pa
   const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
-    if(!(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - r) < 1e-3 * r)))
-      throw std::invalid_argument("Spectral_options: eigenpair " + std::to_string(k) +
-                                  " is not one of this mesh and operator in the " +
-                                  Spectral_geometry::mass_name(mass) + " mass (relative residual " +
-                                  std::to_string(r) +
-                                  "); compute it with eigenpairs(), or pass the vectors as signals.");
+    require(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - r) < 1e-3 * r),
+            "Spectral_options: eigenpair ", k, " is not one of this mesh and operator in the ",
+            Spectral_geometry::mass_name(mass), " mass (relative residual ", r,
+            "); compute it with eigenpairs(), or pass the vectors as signals.");
   }
   return residuals;
 }
@@ -184,10 +168,9 @@ inline void check_signals_on_border(const Spectral_options& options, const Eigen
   const double largest = options.signals.cwiseAbs().maxCoeff();
   for(const auto& [i, j] : Spectral_geometry::internal::boundary_edges(T))
     for(const int v : {i, j})
-      if(options.signals.row(v).cwiseAbs().maxCoeff() > 1e-9 * largest)
-        throw std::invalid_argument("Spectral_options: the signals do not vanish at " +
-                                    Spectral_geometry::internal::vertex_name(v) +
-                                    " of the border, as the Dirichlet condition wants; set them to 0 there.");
+      require(!(options.signals.row(v).cwiseAbs().maxCoeff() > 1e-9 * largest),
+              "Spectral_options: the signals do not vanish at ", vertex_name(v),
+              " of the border, as the Dirichlet condition wants; set them to 0 there.");
 }
 
 inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,

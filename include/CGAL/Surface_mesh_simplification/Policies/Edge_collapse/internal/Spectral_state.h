@@ -18,6 +18,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/iterator.h>
@@ -32,7 +33,6 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -150,9 +150,8 @@ public:
   /// exception that leaves the loop ends the run as well.
   std::shared_ptr<void> on_started(Triangle_mesh& mesh)
   {
-    if(&mesh != m_mesh)
-      throw std::invalid_argument("Spectral_policies: edge_collapse() was called with another mesh than the "
-                                  "one that the policies were made for; make policies for that mesh.");
+    require(&mesh == m_mesh, "Spectral_policies: edge_collapse() was called with another mesh than the one "
+                             "that the policies were made for; make policies for that mesh.");
     Real_timer timer;
     timer.start();
     m_run.reset();

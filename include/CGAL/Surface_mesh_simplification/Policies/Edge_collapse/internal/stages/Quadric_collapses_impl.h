@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 
 #include <boost/heap/d_ary_heap.hpp>
@@ -20,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -205,10 +205,9 @@ private:
     for(int v = 0; v < int(m_points.size()); ++v) {
       int degree = 0;
       for_neighbours(v, [&](int) { ++degree; });
-      if(degree != m_degree[at(v)])
-        throw std::invalid_argument("edge collapses: " + Spectral_geometry::internal::vertex_name(v) +
-                                    " joins several fans of faces; duplicate it "
-                                    "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
+      require(degree == m_degree[at(v)], "edge collapses: ", vertex_name(v),
+              " joins several fans of faces; duplicate it "
+              "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
     }
   }
 

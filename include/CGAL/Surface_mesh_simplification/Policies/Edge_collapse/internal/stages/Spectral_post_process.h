@@ -160,7 +160,7 @@ private:
       if(!(triangle_cotangents(mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)), mesh.V.row(mesh.T(f, 2)))
                .area > 0))
         obstacle =
-            Spectral_geometry::internal::face_name(f) + " of the simplified mesh has no area; remove it.";
+            Spectral_geometry::internal::face_name(f)() + " of the simplified mesh has no area; remove it.";
     if(!obstacle.empty())
       m_result.warnings.push_back(consequence + obstacle);
     return obstacle.empty();

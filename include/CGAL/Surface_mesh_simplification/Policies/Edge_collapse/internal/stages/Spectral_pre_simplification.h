@@ -12,14 +12,13 @@
 #include <CGAL/Surface_mesh_simplification/quadric_edge_collapse.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/Named_function_parameters.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -37,19 +36,16 @@ struct Pre_simplification
 inline void check_pre_simplification(const Spectral_edge_collapse_options& options, const std::size_t n,
                                      const std::size_t target)
 {
-  using std::to_string;
-  const std::string size =
-      "Spectral_edge_collapse_options: pre_simplify is " + to_string(options.pre_simplify);
-  if(options.pre_simplify < target)
-    throw std::invalid_argument(size + ", less than the target of " + to_string(target) +
-                                " vertices; use a number between the target and the size of the mesh.");
-  if(options.signals.size() != 0 || options.eigenpairs)
-    throw std::invalid_argument(
-        "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that are "
-        "given belong to the mesh before it; use one of the two.");
-  if(options.number_of_eigenvectors >= Eigen::Index(options.pre_simplify))
-    throw std::invalid_argument(size + ", but " + to_string(options.number_of_eigenvectors) +
-                                " eigenvectors are asked for; use a number of vertices above that.");
+  require(options.pre_simplify >= target, "Spectral_edge_collapse_options: pre_simplify is ",
+          options.pre_simplify, ", less than the target of ", target,
+          " vertices; use a number between the target and the size of the mesh.");
+  require(options.signals.size() == 0 && !options.eigenpairs,
+          "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that are given "
+          "belong to the mesh before it; use one of the two.");
+  require(options.number_of_eigenvectors < Eigen::Index(options.pre_simplify),
+          "Spectral_edge_collapse_options: pre_simplify is ", options.pre_simplify, ", but ",
+          options.number_of_eigenvectors,
+          " eigenvectors are asked for; use a number of vertices above that.");
   check_spectral_options(options, Eigen::Index(n));
   spectral_weights(options, options.number_of_eigenvectors);
   Spectral_geometry::internal::check_eigenpairs_options(options.eigenpairs_options,
@@ -82,12 +78,11 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   Pre_simplification result;
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
-  if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
-     !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value)
-    throw std::invalid_argument("Spectral_edge_collapse_options: pre_simplify calls no filter and no "
-                                "visitor, but one is given; leave "
-                                "one of the two out, or simplify by edge_collapse() with a cheap cost and a "
-                                "Restriction_visitor first.");
+  require(parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
+              parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
+          "Spectral_edge_collapse_options: pre_simplify calls no filter and no visitor, but one is given; "
+          "leave one of the two out, or simplify by edge_collapse() with a cheap cost and a "
+          "Restriction_visitor first.");
   check_pre_simplification(options, n, target);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
   result.log = collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np, result.slots);

@@ -1,0 +1,87 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_REQUIRE_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_REQUIRE_H
+
+#include <CGAL/number_type_config.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace CGAL::Spectral_geometry::internal {
+
+template <class Part>
+std::string in_words(const Part& part)
+{
+  if constexpr(std::is_arithmetic<Part>::value)
+    return std::to_string(part);
+  else if constexpr(std::is_convertible<Part, std::string>::value)
+    return part;
+  else
+    return part();
+}
+
+/// Throws `std::invalid_argument` with the sentence that the parts make: strings, numbers as `std::to_string()` writes them, and names
+/// as below, which nobody makes before they are needed.
+template <class... Part>
+[[noreturn]] void refuse(const Part... parts)
+{
+  throw std::invalid_argument((in_words(parts) + ...));
+}
+
+/// Refuses unless `holds`.
+template <class... Part>
+void require(const bool holds, const Part... parts)
+{
+  if(!holds)
+    refuse(parts...);
+}
+
+inline auto vertex_name(const std::ptrdiff_t v)
+{
+  return [v] { return "vertex " + std::to_string(v) + " (counted from 0)"; };
+}
+
+inline auto face_name(const std::ptrdiff_t f)
+{
+  return [f] { return "face " + std::to_string(f) + " (counted from 0)"; };
+}
+
+/// `"n x K"`.
+template <class Matrix>
+auto size_name(const Matrix& M)
+{
+  return [&M] { return std::to_string(M.rows()) + " x " + std::to_string(M.cols()); };
+}
+
+/// Signals on a fine mesh of n vertices and their Laplacians. `who` begins the sentence.
+template <class Matrix>
+void require_signals(const char* const who, const Matrix& F, const Matrix& Z, const std::ptrdiff_t n)
+{
+  require(F.rows() == n && Z.rows() == n && Z.cols() == F.cols() && F.cols() > 0, who, "F is ", size_name(F),
+          " and Z ", size_name(Z), "; pass two matrices with one row for each of the ", n,
+          " fine vertices and one column for each signal.");
+}
+
+/// What flips and relocation must not do to the shape of a mesh.
+template <class Options>
+void require_shape_limits(const char* const who, const Options& o)
+{
+  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1, who,
+          "smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio, ".");
+  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2, who,
+          "largest_turn must lie in ]0, pi/2], but is ", o.largest_turn, ".");
+}
+
+} // namespace CGAL::Spectral_geometry::internal
+
+namespace CGAL::Surface_mesh_simplification::internal {
+using Spectral_geometry::internal::require;
+using Spectral_geometry::internal::vertex_name;
+} // namespace CGAL::Surface_mesh_simplification::internal
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_REQUIRE_H
