@@ -329,7 +329,8 @@ tr '\n' '\r' <integers.ply | spelt return.ply
 { printf '\357\273\277' && cat integers.ply; } | spelt mark.ply
 facet() { printf 'facet normal 0 0 1\nouter loop\nvertex %s 0\nvertex %s 0\nvertex %s 0\nendloop\nendfacet\n' "$@"; }
 facets="$(facet '0 0' '1 0' '1 1' && facet '0 0' '1 1' '0 1')"
-for solid in 'solid square' 'solid\tsquare' '\357\273\277solid\nsquare' '\357\273\277solid\tsquare'; do
+printf '# by X\r# on Monday\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' | spelt feed.obj
+for solid in 'solid square' 'solid\tsquare' '\n solid\tsquare' '\357\273\277solid\nsquare' '\357\273\277solid\tsquare'; do
   printf "$solid\n%s\nendsolid\n" "$facets" | spelt "solid.stl"
 done
 

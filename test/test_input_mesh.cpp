@@ -10,9 +10,12 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace test_input_mesh {
@@ -201,6 +204,27 @@ TEST_CASE("The full repair closes cracks")
   CHECK(mesh_vertices(input.numbering) == Indices{0, 1, 2, 1, 2, 3});
   CHECK(input.mesh.point(Mesh::Vertex_index(1)) == Kernel::Point_3(1, 0, 0));
   CHECK_THAT(input.changes_of("square"), ContainsSubstring("2 vertices of cracks moved onto others"));
+}
+
+TEST_CASE("The full repair finds no cracks in a thin tube whose faces have vertices of their own")
+{
+  const int n = 12, rings = 4;
+  std::string text;
+  for(int r = 0; r + 1 < rings; ++r)
+    for(int k = 0; k < n; ++k)
+      for(const auto& [dr, dk] : {std::pair{0, 0}, {0, 1}, {1, 1}, {0, 0}, {1, 1}, {1, 0}}) {
+        const double angle = 2 * CGAL_PI * ((k + dk) % n) / n;
+        std::ostringstream line;
+        line.precision(17);
+        line << "v " << 1.5e-5 * std::cos(angle) << ' ' << 1.5e-5 * std::sin(angle) << ' ' << (r + dr) / 3.
+             << "\n";
+        text += line.str();
+      }
+  for(int v = 1; v < 6 * n * (rings - 1); v += 3)
+    text += "f " + std::to_string(v) + ' ' + std::to_string(v + 1) + ' ' + std::to_string(v + 2) + '\n';
+  const Input_mesh input = read(text, Mending::full);
+  CHECK(input.mesh.number_of_vertices() == n * rings);
+  CHECK(input.mesh.number_of_faces() == 2 * n * (rings - 1));
 }
 
 TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copies that arise are removed")

@@ -250,6 +250,17 @@ TEST_CASE("What is handled is remarked upon, not refused")
     soup.V.row(1) = soup.V.row(0) + 1e-5 * size * Eigen::RowVector3d::UnitX();
     CHECK(cut(soup, 0.6e-5 * size).cracks.size() == 2);
     CHECK(cut(soup, 0.4e-5 * size).cracks == cracks);
+    // No vertex goes further by way of another: tips of loose triangles.
+    Soup loose;
+    for(const double x : {0., 0.9e-5, 1.8e-5, 2.7e-5}) {
+      const std::size_t n = std::size_t(loose.V.rows());
+      append(loose, x, 0, 0);
+      append(loose, x, 0.6, 0.3);
+      append(loose, 1 - x, 0.6, 0.6 + 1000 * x);
+      loose.polygons.push_back({n, n + 1, n + 2});
+    }
+    CHECK(loose.diagnosis().cracks ==
+          std::vector<std::pair<std::size_t, std::size_t>>{{3, 0}, {4, 1}, {9, 6}, {10, 7}});
   }
 }
 

@@ -171,7 +171,8 @@ inline Command_line described(Arguments& a)
   line.advanced_group("Dirty meshes (advanced)");
   line.option("repaired", a.repaired, "FILE",
               "write the mesh that --repair makes: polygons are triangulated, vertices of equal position "
-              "merged, degenerate faces removed, sheets that share an edge or a vertex separated, borders "
+              "merged, cracks closed, degenerate faces removed, sheets that share an edge or a vertex "
+              "separated, borders "
               "stitched. What leaves the surface as it is needs no option: isolated vertices are left out, "
               "copies of faces removed, edges without length closed, faces turned round to agree with their "
               "neighbours. Matrices and maps number INPUT's vertices all the same");

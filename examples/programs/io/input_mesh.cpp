@@ -309,6 +309,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending, const
                                "' cannot be repaired: CGAL's functions contradict themselves on it.");
     }
     input.diagnosis = diagnose(repaired);
+    input.diagnosis.cracks.clear(); // sheets that the repair has separated
     soup = std::move(repaired);
   } else {
     input.diagnosis = diagnose(soup);

@@ -49,12 +49,18 @@ namespace {
 Polygon_soup read_stl(const std::string& path)
 {
   std::ifstream file(path, std::ios::binary);
-  std::string start(9, '\0');
-  file.read(&start[0], 9);
-  const std::size_t mark = has_byte_order_mark(start) ? 3 : 0;
-  const bool respelt = start.compare(mark, 5, "solid") == 0 && (mark != 0 || start[5] == '\t');
+  std::string start(84, '\0'); // of binary files: words, and the number of faces, 50 bytes each
+  file.read(&start[0], 84);
+  std::uintmax_t faces = 0;
+  for(const std::size_t i : {83, 82, 81, 80})
+    faces = 256 * faces + static_cast<unsigned char>(start[i]);
+  const bool binary = std::filesystem::file_size(path) == 84 + 50 * faces;
+  const bool marked = has_byte_order_mark(start);
+  const std::size_t solid = start.find_first_not_of(" \t\r\n", marked ? 3 : 0);
+  const bool respelt =
+      !binary && solid < 70 && start.compare(solid, 5, "solid") == 0 && (marked || start[solid + 5] == '\t');
   file.clear();
-  file.seekg(respelt ? std::streamoff(mark + 6) : 0);
+  file.seekg(respelt ? std::streamoff(solid + 6) : 0);
   std::stringstream text;
   if(respelt)
     text << "solid " << file.rdbuf();

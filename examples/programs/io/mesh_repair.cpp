@@ -85,19 +85,6 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
   return result;
 }
 
-// Border vertices that all but lie on others get their places, where a surface was cut or coordinates were rounded.
-Polygon_soup with_cracks_closed(const Polygon_soup& soup, Repair_log& log)
-{
-  Polygon_soup closed = soup;
-  std::size_t moved = 0;
-  for(const auto& [v, w] : diagnose(soup).cracks) { // w before v, and where it stays
-    closed.points[v] = closed.points[w];
-    moved += closed.points[v] != soup.points[v];
-  }
-  log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others", moved);
-  return closed;
-}
-
 // Takes repetitions out of polygons, and what is no polygon then; true if no vertex is left twice in any of them.
 bool without_repetitions(Exact_soup& soup, Repair_log& log)
 {
@@ -247,6 +234,25 @@ void clean(Exact_soup& soup, Repair_log& log)
   if(soup.polygons.size() < before)
     log.add("face removed that used a vertex twice", "faces removed that used a vertex twice",
             before - soup.polygons.size());
+}
+
+// Moves border vertices that all but lie on others there, also in `input`: where a surface was cut or coordinates were rounded.
+void close_cracks(Exact_soup& soup, Polygon_soup& input, Repair_log& log)
+{
+  std::map<std::array<double, 3>, Kernel::Point_3> moved;
+  const auto position = [](const auto& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
+  for(const auto& [v, w] : diagnose(soup).cracks) { // w stays
+    moved.emplace(position(soup.points[v]),
+                  Kernel::Point_3(soup.points[w].x(), soup.points[w].y(), soup.points[w].z()));
+    soup.points[v] = soup.points[w];
+  }
+  if(moved.empty())
+    return;
+  for(Kernel::Point_3& p : input.points)
+    if(const auto found = moved.find(position(p)); found != moved.end())
+      p = found->second;
+  log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others", moved.size());
+  clean(soup, log);
 }
 
 // Splitting gives new vertices old positions, so that the direction of a face shows in its positions.
@@ -405,14 +411,15 @@ Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log, std::vecto
                            std::vector<std::size_t>& origin)
 {
   const Silence silence; // what CGAL warns of, the diagnosis says better
-  const Polygon_soup input = with_cracks_closed(file, log);
-  Exact_soup soup = usable_part(input, log);
+  Polygon_soup input{file.points, {}};
+  Exact_soup soup = usable_part(file, log);
   std::vector<bool> used(input.points.size(), false);
   for(const auto& polygon : soup.polygons)
     for(const std::size_t v : polygon)
       used[v] = true;
   clean(soup, log);
   triangulate(soup, log);
+  close_cracks(soup, input, log);
   orient(soup, log);
   Exact_mesh mesh = to_mesh(soup);
   log.add("pair of border edges stitched", "pairs of border edges stitched", PMP::stitch_borders(mesh));

@@ -68,10 +68,10 @@ private:
   explicit Ply_reader(const std::string& path)
   {
     std::ifstream stream(path, std::ios::binary);
-    m_line_end = line_end(stream);
     m_bytes.resize(std::filesystem::file_size(path));
     stream.read(m_bytes.data(), static_cast<std::streamsize>(m_bytes.size()));
     m_bytes.resize(static_cast<std::size_t>(stream.gcount()));
+    m_line_end = line_end(m_bytes.substr(0, m_bytes.find("end_header")));
     m_end = m_bytes.data() + m_bytes.size();
     m_at = m_bytes.data() + (has_byte_order_mark(m_bytes) ? 3 : 0);
   }

@@ -34,17 +34,10 @@ inline std::string quoted(std::string word)
   return "'" + word + "'";
 }
 
-// What ends the lines of a text: the carriage return of the first Macintoshes where no line feed follows the first. The stream is left at its
-// beginning.
-inline char line_end(std::istream& text)
+// What ends the lines of a text that begins so: the carriage return of the first Macintoshes where there is no line feed.
+inline char line_end(const std::string& start)
 {
-  std::string start(std::size_t(1) << 16, '\0');
-  text.read(&start[0], static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(text.gcount()));
-  text.clear();
-  text.seekg(0);
-  const std::size_t end = start.find_first_of("\r\n");
-  return end != std::string::npos && start.compare(end, 2, "\r\n") != 0 ? start[end] : '\n';
+  return start.find('\n') == std::string::npos && start.find('\r') != std::string::npos ? '\r' : '\n';
 }
 
 // Written at the beginning of a text by editors under Windows.
@@ -60,8 +53,14 @@ class Text_lines
 public:
   explicit Text_lines(const std::string& path)
     : m_stream(path, std::ios::binary)
-    , m_line_end(line_end(m_stream))
-  {}
+  {
+    std::string start(std::size_t(1) << 16, '\0');
+    m_stream.read(&start[0], static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(m_stream.gcount()));
+    m_line_end = line_end(start);
+    m_stream.clear();
+    m_stream.seekg(0);
+  }
 
   // Goes to the next line with a word in it; false at the end of the file.
   bool next()
@@ -184,7 +183,7 @@ private:
   }
 
   std::ifstream m_stream;
-  char m_line_end;
+  char m_line_end = '\n';
   std::string m_line;
   char* m_at = m_line.data();
   std::size_t m_number = 0;

@@ -83,8 +83,9 @@ struct Mesh_diagnosis
       coincident_vertices; ///< vertices at the position of another, `second`, that they share no edge with
   /// @}
 
-  /// pairs of border vertices that lie together within 1e-5 of the box's diagonal and half of every edge at them, and share no edge: each
-  /// with the first such vertex before it. The surface is cut there, or its coordinates were rounded.
+  /// of a mesh of triangles pairs of border vertices that lie together within 1e-5 of the box's diagonal and 0.49 of every edge at them, and
+  /// share no edge: each with the first such vertex before it that is not itself the first of a pair. The surface is cut there, or its
+  /// coordinates were rounded.
   std::vector<std::pair<std::size_t, std::size_t>> cracks;
 
   std::vector<Mesh_component>

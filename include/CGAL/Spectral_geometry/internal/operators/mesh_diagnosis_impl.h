@@ -75,6 +75,8 @@ private:
     return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
   }
 
+  Eigen::Vector3d point(const std::size_t v) const { return m_V.row(Eigen::Index(v)); }
+
   bool joined(const std::size_t low, const std::size_t high) const
   {
     const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{low, high, 0, 0, false});
@@ -274,50 +276,49 @@ private:
     add_sorted(pairs, m_result.coincident_vertices);
   }
 
-  // By cells as wide as the largest distance: what is near lies in one of 27.
+  // Cells of level l are 2^(l + 1) wide and hold those that reach at least 2^l, and less than that: what is near lies in one of 27, and
+  // there are few in each, as one that is found near an earlier one is not put there.
   void find_cracks()
   {
-    std::vector<std::size_t> border;
-    for(std::size_t v = 0; v < m_n; ++v)
-      if(m_border[v] && finite(v))
-        border.push_back(v);
-    if(border.empty())
+    if(m_result.polygons.count != 0 || std::find(m_border.begin(), m_border.end(), true) == m_border.end())
       return;
     Eigen::AlignedBox3d box;
-    for(const std::size_t v : border)
-      box.extend(m_V.row(Eigen::Index(v)).transpose().head<3>());
-    const double largest = 1e-5 * box.diagonal().norm(), width = largest > 0 ? largest : 1.;
-    if(!std::isfinite(largest))
+    for(const Side& side : m_sides)
+      for(const std::size_t v : {side.low, side.high})
+        if(finite(v))
+          box.extend(point(v));
+    const double largest = 1e-5 * box.diagonal().norm();
+    if(box.isEmpty() || !(largest > 0) || !std::isfinite(largest))
       return;
     std::vector<double> reach(m_n, largest);
     for(const Side& side : m_sides)
-      if(finite(side.low) && finite(side.high)) {
-        const double half = (m_V.row(Eigen::Index(side.low)) - m_V.row(Eigen::Index(side.high))).norm() / 2;
+      if(finite(side.low) && finite(side.high))
         for(const std::size_t v : {side.low, side.high})
-          reach[v] = (std::min)(reach[v], half);
-      }
+          reach[v] = (std::min)(reach[v], 0.49 * (point(side.low) - point(side.high)).norm());
     using Cell = std::array<std::int64_t, 3>;
-    std::map<Cell, std::vector<std::size_t>> cells;
-    for(const std::size_t v : border) {
-      Cell cell;
-      for(int c = 0; c < 3; ++c)
-        cell[std::size_t(c)] = std::int64_t(std::floor((m_V(Eigen::Index(v), c) - box.min()[c]) / width));
+    std::map<int, std::map<Cell, std::vector<std::size_t>>> levels;
+    const auto cell_of = [&](const std::size_t v, const int level) {
+      const Eigen::Vector3d x = (point(v) - box.min()) / std::ldexp(1., level + 1);
+      return Cell{std::int64_t(x[0]), std::int64_t(x[1]), std::int64_t(x[2])};
+    };
+    for(std::size_t v = 0; v < m_n; ++v) {
+      if(!m_border[v] || !finite(v) || !(reach[v] > 1e-10 * largest))
+        continue; // closer than that, positions are equal
       std::size_t first = v;
-      for(int k = 0; k < 27; ++k) {
-        const auto found = cells.find({cell[0] + k % 3 - 1, cell[1] + k / 3 % 3 - 1, cell[2] + k / 9 - 1});
-        if(found == cells.end())
-          continue;
-        for(const std::size_t w : found->second) {
-          const double distance = (m_V.row(Eigen::Index(v)) - m_V.row(Eigen::Index(w))).norm();
-          if(w < first && distance <= (std::min)(reach[v], reach[w]) && !joined(w, v)) {
-            first = w;
-            break; // those that follow are later ones
-          }
+      for(const auto& [level, cells] : levels) {
+        const Cell at = cell_of(v, level);
+        for(int k = 0; k < 27; ++k) {
+          const auto found = cells.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
+          if(found != cells.end())
+            for(const std::size_t w : found->second)
+              if(w < first && (point(v) - point(w)).norm() <= (std::min)(reach[v], reach[w]) && !joined(w, v))
+                first = w;
         }
       }
-      cells[cell].push_back(v);
       if(first != v)
         m_result.cracks.emplace_back(v, first);
+      else
+        levels[std::ilogb(reach[v])][cell_of(v, std::ilogb(reach[v]))].push_back(v);
     }
   }
 
@@ -494,12 +495,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(
                        " eigenvectors asked for, which belong to the larger components mostly.");
   }
   if(!cracks.empty())
-    result.push_back(
-        "The surface is cut at " +
-        internal::counted(cracks.size(), "border vertex that lies", "border vertices that lie") +
-        " on another, the first is vertex " + std::to_string(cracks.front().first) +
-        " (counted from 0) on vertex " + std::to_string(cracks.front().second) +
-        ": functions may jump there. Where that is not meant merge them, as --repair of the programs does.");
+    result.push_back("The surface is cut at " +
+                     internal::counted(cracks.size(), "border vertex that lies", "border vertices that lie") +
+                     " on another, the first is vertex " + std::to_string(cracks.front().first) +
+                     " (counted from 0) on vertex " + std::to_string(cracks.front().second) +
+                     ": functions may jump there. Where that is not meant merge them; --repair of the "
+                     "programs closes cracks.");
   return result;
 }
 
