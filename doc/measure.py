@@ -35,7 +35,7 @@ QUOTED = [
     ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("measured.demo.eigenvalue_error_percent",)),
     ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\s+cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
      ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
-    ("../README.md", r"takes `--fit-operators DIR --fit-mass\s+diagonal` \(([\d.]+) %\)", ("rivals.lumped.fitted.2",)),
+    ("../README.md", r"takes `--fit-operators DIR --fit-mass\s+diagonal` \(eigenvalues within ([\d.]+) %\)", ("rivals.lumped.fitted.2",)),
     ("../README.md", r"a million\s+vertices to a hundredth: ([\d.]+) s and ([\d.]+) GB with best, ([\d.]+) s and ([\d.]+) GB with fast",
      ("measured.million.best.seconds", "measured.million.best.gigabytes", "measured.million.fast.seconds", "measured.million.fast.gigabytes")),
     ("user_manual.md", r"What best costs: ([\d.]+) times the time of paper's", ("best_over_paper",)),
