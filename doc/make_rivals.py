@@ -21,10 +21,12 @@ import subprocess
 import sys
 import time
 
-from make_results import bold_smallest, norms, number, replace
+from make_results import bold_smallest, name, norms, number, replace
+from make_spectra import machine
 
-# Our rows, as they are called in the tables.
+# Our rows, as they are called in the tables, by the simplifier, or by all that tells a row from others.
 OURS = {"spectral, best": "**this package**", "spectral, best, fitted operators": "the same, operators fitted",
+        "spectral with shape term, free, averaged metric": "the same, policies alone",
         "spectral, paper": "the same, preset `paper`",
         "Garland-Heckbert plane": "CGAL: Garland-Heckbert, plane quadrics",
         "Garland-Heckbert probabilistic plane, area 20000": "CGAL: Garland-Heckbert, probabilistic plane quadrics"}
@@ -78,12 +80,16 @@ def loaded(path):
     return json.loads(text(path) or "null")
 
 
+def title_of(row):
+    return OURS.get(row["simplifier"]) or OURS.get(name(row))
+
+
 def merge(folder, n):
     ours = loaded(os.path.join(folder, "ours.json"))
     if not ours:
         sys.exit(f"make_rivals.py: there are no results of our own in '{folder}'")
-    order = list(OURS)
-    rows = sorted(ours["rows"], key=lambda r: order.index(r["simplifier"]) if r["simplifier"] in order else len(order))
+    order = list(OURS.values()) + [None]
+    rows = sorted(ours["rows"], key=lambda r: order.index(title_of(r)))
     result = {**ours, "rows": rows, "requested_vertices": n, "rivals": []}
     del result["command"]
     for row in result["rows"]:
@@ -111,7 +117,7 @@ def merge(folder, n):
 
 # The rows of that mass: each has a name, a count of vertices and the cells of COLUMNS, or what went wrong.
 def rows_of(result, mass):
-    rows = [(OURS[r["simplifier"]], r) for r in result["rows"] if r["judged_mass"] == mass and r["simplifier"] in OURS]
+    rows = [(title_of(r), r) for r in result["rows"] if r["judged_mass"] == mass and title_of(r)]
     for rival in result["rivals"]:
         found = [r for r in result["rows"] if r["judged_mass"] == mass and r["simplifier"] == rival["name"]]
         rows.append((rival["name"] + (" †" if found and rival["note"] else ""), found[0] if found else rival["status"]))
@@ -140,12 +146,12 @@ def bold_smallest_present(rows, value, digits, factor):
 def means(results, mass, columns=COLUMNS, wanted=None):
     found = {}
     for result in results:
-        for name, row in rows_of(result, mass):
+        for title, row in rows_of(result, mass):
             if not isinstance(row, str):
-                found.setdefault(name.removesuffix(" †"), []).append(row)
-    complete = {name: rows for name, rows in found.items() if len(rows) == len(results)}
+                found.setdefault(title.removesuffix(" †"), []).append(row)
+    complete = {title: rows for title, rows in found.items() if len(rows) == len(results)}
     if wanted:
-        complete = {title: complete[name] for name, title in wanted.items() for name in (OURS.get(name, name),) if name in complete}
+        complete = {title: complete[own] for key, title in wanted.items() for own in (OURS.get(key, key),) if own in complete}
 
     def mean(rows, value):
         values = [value(r) for r in rows]
@@ -184,7 +190,7 @@ def pages(output):
 
 def tables(output):
     results = results_in(output)
-    print(f"K = {results[0]['K']}. C_L and C_D are with the P of the closest points, those of operators with their own. Seconds are without "
+    print(f"K = {results[0]['K']}; {machine()}. C_L and C_D are with the P of the closest points, those of operators with their own. Seconds are without "
           "files where a program says so itself, peak MB are of the whole process. A dagger (†) marks a mesh that could not be judged before "
           "--repair: below the table is why. The best of a column is bold.\n\n"
           "| rival | version | licence | flags |\n|---|---|---|---|")

@@ -8,7 +8,8 @@
 # Simplifies each MESH to N vertices by programs outside of CGAL, and judges what they made beside our own results and CGAL's, by one
 # and the same program: BUILD/examples/spectral_compare. Nothing is fetched; the rivals are built by whoever runs this. Leaves
 # OUTPUT/MESH-N.json for each pair, with the rows of spectral_compare and an entry for each rival, OUTPUT/rivals.md with the tables, and
-# in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again: remove it to have it anew.
+# in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again: remove it to have it anew, NAME/made.json
+# and NAME/made.note to have it judged anew.
 #
 # RIVALS is a folder with one folder for each rival, NAME, and in it
 #   about   one line: VERSION; LICENCE; FLAGS, which is all that was set and changed
@@ -79,7 +80,10 @@ for pair in "$@"; do
   for run in "$rivals"/*/run; do
     name=$(basename "$(dirname "$run")")
     prefix=$folder/$name/made
-    [ ! -e "$prefix.measured" ] || continue
+    if [ -e "$prefix.measured" ]; then
+      [ -e "$prefix.json" ] || [ -e "$prefix.note" ] || judge
+      continue
+    fi
     echo "$(basename "$mesh"), N = $N: $name"
     rm -rf "${folder:?}/$name"
     mkdir "$folder/$name"
@@ -95,7 +99,7 @@ for pair in "$@"; do
   # Ours, and CGAL's quadrics: with the P of the closest points all rows are alike. Memory is that of a process that does this alone.
   prefix=$folder/ours
   [ -s "$prefix.json" ] ||
-    judged --vertices "$N" --only "spectral, best" --only "spectral, paper" --only "Garland-Heckbert plane" \
+    judged --vertices "$N" --only "spectral, best" --only "spectral with shape term" --only "spectral, paper" --only "Garland-Heckbert plane" \
       --only "Garland-Heckbert probabilistic plane, area" --json "$prefix.json" || cat "$prefix.complained" >&2
   for fit in "" fitted; do
     prefix=$folder/ours-alone$fit

@@ -1,0 +1,79 @@
+#!/bin/sh
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# make_all.sh BUILD QUICK MESHES RIVALS REMESHERS OTHERS
+#
+# Makes the tables, the figures and the data of this folder anew, all from the commit that is checked out, which stands in each. That takes
+# about two hours on a machine with two cores, the first of them without other work. In the order of the list below; the text around the
+# marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md and user_manual.md quote wrongly.
+#
+#   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later
+#   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
+#   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
+#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off, nasty/centaur-pose.off of TOSCA;
+#              pair/ with the lion of Sumner and Popović, and the map
+#   RIVALS     see run_rivals.sh
+#   REMESHERS  the same, of those whose meshes are matched
+#   OTHERS     meshes for make_survey.py, in folders by their sources
+#
+# What is made on the way goes to folders in BUILD and is used again when it is there, as is BUILD/rivals from an earlier run of
+# run_rivals.sh. Stops at the first script that fails.
+
+set -eu
+if [ $# -ne 6 ]; then
+  echo "usage: make_all.sh BUILD QUICK MESHES RIVALS REMESHERS OTHERS" >&2
+  exit 2
+fi
+doc=$(cd "$(dirname "$0")" && pwd)
+build=$(cd "$1" && pwd)
+quick=$(cd "$2" && pwd)
+meshes=$(cd "$3" && pwd)
+rivals=$(cd "$4" && pwd)
+remeshers=$(cd "$5" && pwd)
+others=$(cd "$6" && pwd)
+benchmark=$build/test/benchmark/spectral_benchmark
+limbs="limbs/cat.off limbs/horse.off limbs/centaur.off limbs/wolf.off"
+
+say() { printf '%s %s\n' "$(date +%H:%M)" "$1"; }
+
+say "times: measured.json"
+python3 "$doc/measure.py" "$quick" "$meshes" demo
+python3 "$doc/measure.py" "$build" "$meshes" nefertiti benchmark million
+say "times: degree.csv and scaling.csv"
+"$benchmark" --scaling "$doc/degree.csv" --scaling-shape disc --scaling-vertices 10,30,100,300,1000,3000,10000 --scaling-eigenvectors 8
+"$benchmark" --scaling "$doc/scaling.csv" --runs 1
+say "times: eigenpairs of large meshes, rivals.md"
+python3 "$doc/make_spectra.py" "$build"
+say "times: distances, matching, two scans of a million vertices, applications.md"
+python3 "$doc/make_applications.py" "$build" >"$build/applications.txt"
+python3 "$doc/make_applications.py" --large "$build"
+say "rivals.md and README.md"
+(
+  cd "$meshes"
+  sh "$doc/run_rivals.sh" "$build" "$rivals" "$build/rivals" $(printf '%s:600 ' $limbs cheburashka.obj homer.obj rocker-arm.obj) \
+    spot.obj:300 nefertiti.obj:1000
+)
+python3 "$doc/make_rivals.py" --pages "$build/rivals"
+
+# What follows tells no times: two at once.
+say "results.md, and beside it the survey of rivals.md"
+python3 "$doc/make_results.py" "$build" "$meshes" $limbs cheburashka.obj homer.obj rocker-arm.obj mountain.obj falconstatue.obj nefertiti.obj &
+find "$others" -type f | LC_ALL=C sort | xargs python3 "$doc/make_survey.py" "$build" 600
+wait $!
+say "pairs, applications.md"
+python3 "$doc/make_applications.py" --pairs "$build" "$build/applications" "$remeshers" \
+  "cat:$meshes/limbs/cat.off:$meshes/pair/cat-pose.off:same" "centaur:$meshes/limbs/centaur.off:$meshes/nasty/centaur-pose.off:same" \
+  "lion:$meshes/pair/lion-00.off:$meshes/pair/cat-00.off:$meshes/pair/lion2cat.txt" \
+  "horse, bent:$meshes/limbs/horse.off:bent" "wolf, bent:$meshes/limbs/wolf.off:bent"
+say "robustness.md"
+sh "$doc/make_robustness.sh" "$build/examples/spectral_simplify" "$meshes"/nasty/* "$meshes/igea.ply" >"$build/robustness.txt"
+(cd "$doc" && python3 -Bc '
+import sys
+from make_results import commit, replace
+replace("robustness.md", "inputs", f"Commit {commit()}.\n\n" + sys.stdin.read())') <"$build/robustness.txt"
+say "the figures"
+python3 "$doc/make_figures.py" "$build"
+say "made; now compare the text with the tables, with $build/applications.txt and with what follows"
+python3 "$doc/measure.py" --check
