@@ -204,7 +204,7 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
   const auto record = [&](const auto& profile) {
     for(int i = 0; i < 3; ++i) {
       const Kernel::Point_3 x = place(profile, i);
-      costs.push_back(*quadrics(profile, boost::optional<Kernel::Point_3>(x)));
+      costs.push_back(*quadrics(profile, SMS::internal::Spectral_optional<Kernel::Point_3>(x)));
       // There planes of a face go through one of its corners, here through the vertex itself.
       for(const auto& [v, p] : {std::pair{profile.v0(), profile.p0()}, std::pair{profile.v1(), profile.p1()}})
         for(const auto f : faces_around_target(halfedge(v, theirs), theirs))
@@ -220,7 +220,8 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
   std::size_t compared = 0;
   const auto compare = [&](const auto& profile) {
     for(int i = 0; i < 3; ++i) {
-      const double own = *policies.get_cost()(profile, boost::optional<Kernel::Point_3>(place(profile, i)));
+      const double own =
+          *policies.get_cost()(profile, SMS::internal::Spectral_optional<Kernel::Point_3>(place(profile, i)));
       CHECK(own == Catch::Approx(unit * costs.at(compared++)).epsilon(1e-10));
     }
   };
