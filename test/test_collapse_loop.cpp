@@ -466,7 +466,7 @@ TEST_CASE("Edges without length are merged with equal weights before the loop, a
   Spectral_options options = options_with(10);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
-  CAPTURE(bordered, SG::mass_name(options.mass), SMS::placement_name(options.placement));
+  CAPTURE(bordered, SG::mass_name(options.mass), int(options.placement));
   shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
   const auto put_on = [&](const int v, const int w) { input.V.row(v) = input.V.row(w); };
   std::size_t merges = 0;
@@ -578,7 +578,7 @@ TEST_CASE("The smallest meshes go as far as the topology lets them")
     for(Eigen::Index K = 1; K < input.V.rows(); ++K)
       for(const auto placement :
           {Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint}) {
-        CAPTURE(K, SG::mass_name(mass), SMS::placement_name(placement));
+        CAPTURE(K, SG::mass_name(mass), int(placement));
         Spectral_options options = options_with(K);
         options.mass = mass;
         options.placement = placement;

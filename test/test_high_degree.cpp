@@ -71,7 +71,7 @@ TEST_CASE("The candidates of discs and gears do not depend on what a hub is, and
   const double shape = GENERATE(0., 3.);
   const Spectral_placement_strategy placement =
       GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
-  CAPTURE(closed, theta, shape, SMS::placement_name(placement));
+  CAPTURE(closed, theta, shape, int(placement));
   const shapes::Matrices input = closed ? shapes::gear_matrices(40, 3) : shapes::disc_matrices(60);
   const Basis basis = eigenbasis(input, theta, 8);
   Parameters without = with_hubs_above(1000), with = with_hubs_above(35);

@@ -33,7 +33,7 @@ TEST_CASE("Vertices to keep survive with their position and their values")
   options.binary = GENERATE(false, true);
   options.preserve_border = bordered;
   const bool as_map = GENERATE(false, true);
-  CAPTURE(bordered, SMS::placement_name(options.placement), options.binary, as_map);
+  CAPTURE(bordered, int(options.placement), options.binary, as_map);
   const shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
   const std::vector<std::size_t> kept = every(17, input.V.rows(), 3);
   Mesh mesh = make_mesh(input);

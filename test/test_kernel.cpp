@@ -104,7 +104,7 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
   const Spectral_placement_strategy placement =
       GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint,
                Spectral_placement_strategy::free);
-  CAPTURE(bordered, theta, binary, SMS::placement_name(placement));
+  CAPTURE(bordered, theta, binary, int(placement));
   const shapes::Matrices input = bordered ? wavy_grid_matrices(16, 14) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, 9);
   Slow_mesh mesh(input, basis);
@@ -122,8 +122,7 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
 
   const std::vector<Eigen::Index> slots = core.forest().kept_slots();
   const Eigen::SparseMatrix<double> P = core.forest().restriction(slots);
-  const std::vector<Eigen::Index> map = core.forest().vertex_map(slots);
-  CHECK(fault_of_restriction(P, std::vector<std::size_t>(map.begin(), map.end()), binary) == "");
+  CHECK(fault_of_restriction(P, core.forest().vertex_map(slots), binary) == "");
   const Eigen::MatrixXd PF = P * basis.F, PV = P * input.V;
   double worst_f = 0, worst_slow = 0, worst_v = 0;
   for(std::size_t i = 0; i < slots.size(); ++i) {

@@ -92,7 +92,7 @@ TEST_CASE("After thousands of collapses the tracked E, P and F are those recompu
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
-  CAPTURE(bordered, SG::mass_name(options.mass), SMS::placement_name(options.placement), options.binary);
+  CAPTURE(bordered, SG::mass_name(options.mass), int(options.placement), options.binary);
   const shapes::Matrices input = bordered ? wavy_grid_matrices(50, 44) : shapes::bumpy_icosphere_matrices(4);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);

@@ -27,7 +27,7 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
   const Z_rows z = GENERATE(Z_rows::from_lambda, Z_rows::stored);
   const Spectral_placement_strategy placement =
       GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
-  CAPTURE(bordered, theta, z == Z_rows::stored, SMS::placement_name(placement));
+  CAPTURE(bordered, theta, z == Z_rows::stored, int(placement));
   const shapes::Matrices input = bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, 10);
   Slow_mesh mesh(input, basis);

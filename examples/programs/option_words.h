@@ -10,7 +10,69 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
+
+// A value and the word for it on the command line, in Python and in JSON.
+template <class Value>
+struct Word
+{
+  Value value;
+  const char* word;
+};
+
+inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_placement_strategy> placement_words[] = {
+    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::on_edge, "on_edge"},
+    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::midpoint, "midpoint"},
+    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::free, "free"}};
+
+inline constexpr Word<CGAL::Spectral_geometry::Relocation_options::Signals> relocation_words[] = {
+    {CGAL::Spectral_geometry::Relocation_options::Signals::sampled, "sampled"},
+    {CGAL::Spectral_geometry::Relocation_options::Signals::carried, "carried"},
+    {CGAL::Spectral_geometry::Relocation_options::Signals::carried_and_sampled, "carried_and_sampled"}};
+
+inline constexpr Word<CGAL::Spectral_geometry::Edge_flips> flip_words[] = {
+    {CGAL::Spectral_geometry::Edge_flips::none, "none"},
+    {CGAL::Spectral_geometry::Edge_flips::spectral, "spectral"},
+    {CGAL::Spectral_geometry::Edge_flips::delaunay, "delaunay"}};
+
+inline constexpr Word<CGAL::Spectral_geometry::Boundary_condition> boundary_words[] = {
+    {CGAL::Spectral_geometry::Boundary_condition::neumann, "neumann"},
+    {CGAL::Spectral_geometry::Boundary_condition::dirichlet, "dirichlet"}};
+
+inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_phase> phase_words[] = {
+    {CGAL::Surface_mesh_simplification::Spectral_phase::pre_simplification, "pre_simplification"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::eigenpairs, "eigenpairs"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::first_costs, "first_costs"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::collapses, "collapses"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::flips, "flips"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::relocation, "relocation"},
+    {CGAL::Surface_mesh_simplification::Spectral_phase::operator_fit, "operator_fit"}};
+
+template <class Value, std::size_t n>
+const char* word_of(const Word<Value> (&words)[n], const Value value)
+{
+  for(const Word<Value>& w : words)
+    if(w.value == value)
+      return w.word;
+  throw std::logic_error("word_of: a value has no word; add it to the table.");
+}
+
+template <class Value, std::size_t n>
+Value value_of(const Word<Value> (&words)[n], const std::string& word)
+{
+  for(const Word<Value>& w : words)
+    if(w.word == word)
+      return w.value;
+  throw std::logic_error("value_of: '" + word + "' is not in the table; check it where it is read.");
+}
+
+// "none" where nothing is relocated.
+inline const char*
+relocation_word(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
+{
+  return options.relocate ? word_of(relocation_words, options.relocation.signals) : "none";
+}
 
 // The words in which the command line and Python speak of options; who reads them has checked that they are among these.
 struct Option_words
@@ -45,14 +107,11 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
   namespace SMS = CGAL::Surface_mesh_simplification;
   namespace SG = CGAL::Spectral_geometry;
   using Options = SMS::Spectral_edge_collapse_options;
-  using Signals = SG::Relocation_options::Signals;
   Options options = words.preset == "paper"  ? Options::paper()
                     : words.preset == "fast" ? Options::fast(words.vertices)
                                              : Options::best();
   if(!words.placement.empty())
-    options.placement = words.placement == "midpoint" ? SMS::Spectral_placement_strategy::midpoint
-                        : words.placement == "free"   ? SMS::Spectral_placement_strategy::free
-                                                      : SMS::Spectral_placement_strategy::on_edge;
+    options.placement = value_of(placement_words, words.placement);
   if(!words.mass.empty())
     options.mass = words.mass == "averaged"  ? SG::Mass::averaged
                    : words.mass == "voronoi" ? SG::Mass::voronoi
@@ -66,37 +125,11 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
     options.keep_free_of_self_intersections = words.self_intersections == "refuse";
   if(!words.relocate.empty()) {
     options.relocate = words.relocate != "none";
-    options.relocation.signals = words.relocate == "carried"   ? Signals::carried
-                                 : words.relocate == "sampled" ? Signals::sampled
-                                                               : Signals::carried_and_sampled;
+    if(options.relocate)
+      options.relocation.signals = value_of(relocation_words, words.relocate);
   }
-  options.flips = words.flips == "spectral"   ? SG::Edge_flips::spectral
-                  : words.flips == "delaunay" ? SG::Edge_flips::delaunay
-                                              : SG::Edge_flips::none;
+  options.flips = words.flips.empty() ? SG::Edge_flips::none : value_of(flip_words, words.flips);
   return options;
-}
-
-// The name of a phase, that of its enumerator.
-inline const char* phase_name(const CGAL::Surface_mesh_simplification::Spectral_phase phase)
-{
-  using Phase = CGAL::Surface_mesh_simplification::Spectral_phase;
-  switch(phase) {
-  case Phase::pre_simplification:
-    return "pre_simplification";
-  case Phase::eigenpairs:
-    return "eigenpairs";
-  case Phase::first_costs:
-    return "first_costs";
-  case Phase::flips:
-    return "flips";
-  case Phase::relocation:
-    return "relocation";
-  case Phase::operator_fit:
-    return "operator_fit";
-  case Phase::collapses:
-    break;
-  }
-  return "collapses";
 }
 
 #endif // SPECTRAL_EXAMPLES_OPTION_WORDS_H

@@ -159,7 +159,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   if(a.pre_simplify)
     options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
   options.progress = [&bar](const SMS::Spectral_progress& progress) {
-    bar.show(phase_name(progress.phase), progress.fraction);
+    bar.show(word_of(phase_words, progress.phase), progress.fraction);
     return true;
   };
   options.cancel = &interrupted;
@@ -306,8 +306,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
     run.simplifier += ", binary";
   if(a.flips != "none")
     run.simplifier += ", " + a.flips + " flips";
-  run.relocation = relocation_name(report.options);
-  run.placement = SMS::placement_name(report.options.placement);
+  run.relocation = relocation_word(report.options);
+  run.placement = word_of(placement_words, report.options.placement);
   run.metric_mass = SG::mass_name(report.options.mass);
   run.shape_term = report.options.shape;
   run.requested_vertices = run.vertices = result.output_vertices;

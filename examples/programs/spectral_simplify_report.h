@@ -9,6 +9,7 @@
 #include "io/program.h"
 #include "io/text_lines.h"
 #include "io/vertex_attributes.h"
+#include "option_words.h"
 #include "report/run_json.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -49,14 +50,6 @@ struct Simplification_report
   std::vector<std::size_t> levels; // those that were written
 };
 
-// What moved the vertices after the collapses.
-inline const char*
-relocation_name(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
-{
-  return options.relocate ? CGAL::Spectral_geometry::relocation_signals_name(options.relocation.signals)
-                          : "none";
-}
-
 // `floor`: what good linear elements of the same number have; 0 when no estimate is known.
 inline void print_norm(const char* name, double norm, double floor)
 {
@@ -93,7 +86,7 @@ inline void print_table(const Simplification_report& r)
     const auto& e = *r.evaluation;
     std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
     if(r.options.boundary != CGAL::Spectral_geometry::Boundary_condition::neumann)
-      of += std::string(", ") + boundary_condition_name(r.options.boundary);
+      of += std::string(", ") + word_of(boundary_words, r.options.boundary);
     std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes), of.c_str(),
                 e.mass.c_str());
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
@@ -116,7 +109,7 @@ inline void print_table(const Simplification_report& r)
   using CGAL::Spectral_geometry::Edge_flips;
   if(r.options.flips != Edge_flips::none)
     std::printf("  flipped edges             %8zu   (%s)\n\n", r.result.flips.flips.size(),
-                edge_flips_name(r.options.flips));
+                word_of(flip_words, r.options.flips));
   if(r.options.relocate)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
                 r.result.relocation.moved_vertices, r.result.relocation.steps,

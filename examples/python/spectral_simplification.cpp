@@ -202,7 +202,7 @@ Simplification simplify(const Arguments& a)
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
   Watch watch(a);
   options.progress = [&](const SMS::Spectral_progress& progress) {
-    return watch(phase_name(progress.phase), progress.fraction);
+    return watch(word_of(phase_words, progress.phase), progress.fraction);
   };
   struct Run
   {

@@ -9,6 +9,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
+#include "../option_words.h"
 #include "../simplification.h"
 #include "collapse.h"
 
@@ -84,11 +85,11 @@ Simplifier spectral(const std::string& name, Options options, const Basis& basis
   options.eigenpairs = basis.pairs;
   options.threads = threads;
   return {name,
-          SMS::placement_name(options.placement),
+          word_of(placement_words, options.placement),
           SG::mass_name(basis.mass),
           basis.seconds,
           [options](const Mesh& fine, std::size_t N) { return simplify_spectrally(fine, N, options); },
-          options.relocate ? SG::relocation_signals_name(options.relocation.signals) : "none",
+          relocation_word(options),
           options.shape,
           false};
 }

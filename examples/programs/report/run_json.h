@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_REPORT_RUN_JSON_H
 #define SPECTRAL_EXAMPLES_REPORT_RUN_JSON_H
 
+#include "../option_words.h"
 #include "json_text.h"
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
@@ -24,7 +25,7 @@ relocation_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
   if(!options.relocate)
     return nullptr;
   const CGAL::Spectral_geometry::Relocation_result& x = result.relocation;
-  return {{"signals", relocation_signals_name(options.relocation.signals)},
+  return {{"signals", relocation_word(options)},
           {"steps", x.steps},
           {"stop_reason", x.stop_reason_name()},
           {"moved_vertices", x.moved_vertices},
@@ -52,9 +53,9 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"preset", preset},
           {"eigenvectors", options.number_of_eigenvectors},
           {"mass", mass_name(options.mass)},
-          {"boundary", boundary_condition_name(options.boundary)},
+          {"boundary", word_of(boundary_words, options.boundary)},
           {"intrinsic_delaunay", options.intrinsic_delaunay},
-          {"placement", placement_name(options.placement)},
+          {"placement", word_of(placement_words, options.placement)},
           {"shape", options.shape},
           {"quadrics_above", number_json(options.quadrics_above)},
           {"quadric_collapses", result.quadric_collapses},
@@ -63,7 +64,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"max_error", number_json(options.maximum_error)},
           {"kept_vertices", options.kept_vertices.size()},
           {"signals", options.signals.cols()},
-          {"flips", edge_flips_name(options.flips)},
+          {"flips", word_of(flip_words, options.flips)},
           {"flipped_edges", result.flips.flips.size()},
           {"relocation", relocation_json(result, options)},
           {"relative_error", number_json(result.relative_error)},

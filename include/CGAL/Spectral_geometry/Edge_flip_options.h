@@ -26,12 +26,6 @@ enum class Edge_flips {
   delaunay  ///< those with opposite angles of more than pi together, whose cotangent weight is negative
 };
 
-/// `"none"`, `"spectral"` or `"delaunay"`.
-inline const char* edge_flips_name(const Edge_flips flips)
-{
-  return flips == Edge_flips::spectral ? "spectral" : flips == Edge_flips::delaunay ? "delaunay" : "none";
-}
-
 /*!
 How `flip_edges()` chooses, and what a flip may not do. Whatever is set here, no edge of the boundary and no
 constrained edge is flipped, no edge appears twice, no triangle loses its area and no vertex its mass.

@@ -80,14 +80,6 @@ struct Relocation_options
   std::function<bool(double)> progress;
 };
 
-/// The name of a choice of signals as the programs spell it.
-inline const char* relocation_signals_name(const Relocation_options::Signals signals)
-{
-  return signals == Relocation_options::Signals::sampled   ? "sampled"
-         : signals == Relocation_options::Signals::carried ? "carried"
-                                                           : "carried_and_sampled";
-}
-
 /// What `relocate_positions()` did.
 struct Relocation_result
 {

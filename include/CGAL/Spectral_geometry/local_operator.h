@@ -46,12 +46,6 @@ using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::Ro
 /// \brief what functions do on the border of a mesh: their derivative across it vanishes (the natural condition), or they do.
 enum class Boundary_condition { neumann, dirichlet };
 
-/// \brief `"neumann"` or `"dirichlet"`.
-inline const char* boundary_condition_name(const Boundary_condition condition)
-{
-  return condition == Boundary_condition::dirichlet ? "dirichlet" : "neumann";
-}
-
 /*!
 \brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners alone, which is what the
 metric of the collapses, flips and relocation need to follow an operator.

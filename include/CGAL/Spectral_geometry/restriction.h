@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -96,20 +97,17 @@ public:
   /// the merges in the order in which they happened, from which a run can be replayed.
   const std::vector<Merge>& merges() const { return m_merges; }
 
-  /// the slots that are left after the first `number_of_merges` merges, ascending.
-  std::vector<Index> kept_slots(Index number_of_merges) const
+  /// the slots that are left after the first `number_of_merges` merges, or after all, ascending.
+  std::vector<Index> kept_slots(const std::optional<Index> number_of_merges = {}) const
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     std::vector<Index> slots;
-    slots.reserve(static_cast<std::size_t>(number_of_slots() - number_of_merges));
+    slots.reserve(alive.size());
     for(Index slot = 0; slot < number_of_slots(); ++slot)
       if(alive[static_cast<std::size_t>(slot)])
         slots.push_back(slot);
     return slots;
   }
-
-  /// the slots that are left after all merges, ascending.
-  std::vector<Index> kept_slots() const { return kept_slots(number_of_merges()); }
 
   /*!
   returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in `slots[i]`.
@@ -119,12 +117,12 @@ public:
   @param slots every slot that is left after the merges, once, in the order wanted for the rows: for a
     simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may change.
   @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is a
-    permutation) and `number_of_merges()`: `P` of any intermediate level of the simplification.
+    permutation) and `number_of_merges()`, the default: `P` of any intermediate level of the simplification.
 
   Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there are fewer
   merges.
   */
-  Matrix restriction(const std::vector<Index>& slots, Index number_of_merges) const
+  Matrix restriction(const std::vector<Index>& slots, const std::optional<Index> number_of_merges = {}) const
   {
     const Expansion e = expand(slots, number_of_merges);
     Index nonzeros = 0;
@@ -142,9 +140,6 @@ public:
     return P;
   }
 
-  /// `P` after all merges.
-  Matrix restriction(const std::vector<Index>& slots) const { return restriction(slots, number_of_merges()); }
-
   /*!
   returns, for every fine vertex, the row of the coarse vertex into which it was merged (`number_of_slots()`
   entries).
@@ -152,15 +147,11 @@ public:
   The map is total: a fine vertex whose weight in `P` is zero has a coarse vertex all the same. Parameters and
   exceptions are those of `restriction()`.
   */
-  std::vector<Index> vertex_map(const std::vector<Index>& slots, Index number_of_merges) const
+  std::vector<std::size_t> vertex_map(const std::vector<Index>& slots,
+                                      const std::optional<Index> number_of_merges = {}) const
   {
-    return expand(slots, number_of_merges).row;
-  }
-
-  /// the vertex map after all merges.
-  std::vector<Index> vertex_map(const std::vector<Index>& slots) const
-  {
-    return vertex_map(slots, number_of_merges());
+    const std::vector<Index> row = expand(slots, number_of_merges).row;
+    return {row.begin(), row.end()};
   }
 
 private:
@@ -179,23 +170,19 @@ private:
                       " has been removed by an earlier merge, pass the slot that was kept.");
   }
 
-  void check_number_of_merges(Index number_of_merges) const
+  std::vector<bool> alive_after(const std::optional<Index> asked_for) const
   {
-    internal::require(number_of_merges >= 0 && number_of_merges <= this->number_of_merges(),
-                      "Merge_forest: ", number_of_merges, " merges are asked for, pass a number in [0, ",
-                      this->number_of_merges(), "], those that were recorded.");
-  }
-
-  std::vector<bool> alive_after(Index number_of_merges) const
-  {
-    check_number_of_merges(number_of_merges);
+    const Index n = asked_for.value_or(number_of_merges());
+    internal::require(n >= 0 && n <= number_of_merges(), "Merge_forest: ", n,
+                      " merges are asked for, pass a number in [0, ", number_of_merges(),
+                      "], those that were recorded.");
     std::vector<bool> alive(m_alive.size(), true);
-    for(Index i = 0; i < number_of_merges; ++i)
+    for(Index i = 0; i < n; ++i)
       alive[static_cast<std::size_t>(m_merges[static_cast<std::size_t>(i)].removed)] = false;
     return alive;
   }
 
-  Expansion roots(const std::vector<Index>& slots, Index number_of_merges) const
+  Expansion roots(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     Expansion e{std::vector<Index>(alive.size(), -1), std::vector<double>(alive.size(), 0.)};
@@ -215,10 +202,10 @@ private:
   }
 
   // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in `removed`.
-  Expansion expand(const std::vector<Index>& slots, Index number_of_merges) const
+  Expansion expand(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
   {
     Expansion e = roots(slots, number_of_merges);
-    for(Index i = number_of_merges; i-- > 0;) {
+    for(Index i = number_of_merges.value_or(this->number_of_merges()); i-- > 0;) {
       const Merge& m = m_merges[static_cast<std::size_t>(i)];
       const std::size_t k = static_cast<std::size_t>(m.kept), r = static_cast<std::size_t>(m.removed);
       e.row[r] = e.row[k];

@@ -37,18 +37,6 @@ struct Spectral_edge_collapse_result
     error_reached ///< one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
   };
 
-  /// Candidates that were given up when their turn came, by cause. One edge may be counted several times:
-  /// it comes back whenever something near it has changed.
-  struct Refusals
-  {
-    std::size_t topology = 0;  ///< CGAL's link condition and the like
-    std::size_t geometry = 0;  ///< CGAL's geometric test, or a placement wrapper that gave no point
-    std::size_t filter = 0;    ///< the `filter` named parameter
-    std::size_t placement = 0; ///< no position without a degenerate triangle, or for the next reason
-    /// no position near the edge's cost without a face through another; where a placement is wrapped, whatever the wrapper did then
-    std::size_t crossing = 0;
-  };
-
   std::size_t input_vertices = 0;  ///< number of vertices before
   std::size_t output_vertices = 0; ///< and after
   std::size_t collapses = 0;       ///< merges of two vertices, those of edges without length included
@@ -56,7 +44,7 @@ struct Spectral_edge_collapse_result
   /// one sentence if the run ended neither at the target nor at the error bound, else empty
   std::string explanation;
   std::vector<std::string> warnings; ///< one sentence each: what was done, but is not advised
-  Refusals refusals;                 ///< candidates that were given up, by cause
+  Spectral_refusals refusals;        ///< candidates that were given up, by cause
   std::size_t evaluations = 0;       ///< how often an edge was costed
 
   double seconds_pre_simplification = 0; ///< wall seconds of the collapses of quadrics

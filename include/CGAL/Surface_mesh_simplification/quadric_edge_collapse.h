@@ -173,8 +173,7 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
   result.log = internal::collapse_by_quadrics(
       mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np, slots);
   result.restriction = result.log.forest().restriction(slots);
-  const std::vector<Eigen::Index> map = result.log.forest().vertex_map(slots);
-  result.vertex_map.assign(map.begin(), map.end());
+  result.vertex_map = result.log.forest().vertex_map(slots);
   return result;
 }
 

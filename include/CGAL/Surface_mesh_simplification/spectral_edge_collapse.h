@@ -132,8 +132,7 @@ inline void set_restriction(Spectral_edge_collapse_result& result, const Pre_sim
       s = first.slots[std::size_t(s)];
   }
   result.restriction = result.log.forest().restriction(slots);
-  const std::vector<Eigen::Index> map = result.log.forest().vertex_map(slots);
-  result.vertex_map.assign(map.begin(), map.end());
+  result.vertex_map = result.log.forest().vertex_map(slots);
 }
 
 /// Why the run ended.
@@ -302,11 +301,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
 
   result.output_vertices = state.number_of_vertices();
   result.collapses = result.input_vertices - result.output_vertices;
-  result.refusals.topology = state.refusals().topology;
-  result.refusals.geometry = state.refusals().geometry;
-  result.refusals.filter = state.refusals().filter;
-  result.refusals.placement = state.refusals().placement;
-  result.refusals.crossing = state.core().number_of_crossings();
+  result.refusals = state.refusals();
   set_stop_reason(result, mesh, end, target);
   result.E = policies.error();
   result.relative_error = policies.relative_error();

@@ -8,13 +8,43 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace CGAL::Spectral_geometry {
+namespace internal {
+
+inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
+{
+  // In units of 1/shift: the solver compares with absolute thresholds.
+  const double s = problem.shift();
+  const Eigen::MatrixXd L = problem.L(), B = Eigen::MatrixXd(problem.B()) * s;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(L, B);
+  if(solver.info() != Eigen::Success)
+    throw std::runtime_error("Eigenpairs: the dense eigensolver did not converge.");
+  return {(s * solver.eigenvalues().head(K)).cwiseMax(0.), std::sqrt(s) * solver.eigenvectors().leftCols(K)};
+}
+
+inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
+{
+  require(matrix.rows() == matrix.cols() && matrix.rows() != 0, "Eigenpairs: ", name, " is ",
+          size_name(matrix), "; pass a square matrix.");
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const Eigen::SparseMatrix<double> difference = matrix - transposed;
+  for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    const double size = matrix.col(j).norm();
+    require(std::isfinite(size) && difference.col(j).norm() <= 1e-10 * size, "Eigenpairs: ", name,
+            " is not symmetric and finite in row ", j, " (counted from 0); correct it.");
+  }
+}
+
+} // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options)
@@ -49,23 +79,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   problem.report(1.);
   return result;
 }
-
-namespace internal {
-
-inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
-{
-  require(matrix.rows() == matrix.cols() && matrix.rows() != 0, "Eigenpairs: ", name, " is ",
-          size_name(matrix), "; pass a square matrix.");
-  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
-  const Eigen::SparseMatrix<double> difference = matrix - transposed;
-  for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const double size = matrix.col(j).norm();
-    require(std::isfinite(size) && difference.col(j).norm() <= 1e-10 * size, "Eigenpairs: ", name,
-            " is not symmetric and finite in row ", j, " (counted from 0); correct it.");
-  }
-}
-
-} // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
                                                     const Eigen::SparseMatrix<double>& B, Eigen::Index K,

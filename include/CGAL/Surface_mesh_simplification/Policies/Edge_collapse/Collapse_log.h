@@ -133,8 +133,7 @@ public:
   std::vector<std::size_t> vertex_map(const std::size_t N) const
   {
     const Index merges = number_of_merges(N);
-    const std::vector<Index> map = m_forest.vertex_map(m_forest.kept_slots(merges), merges);
-    return std::vector<std::size_t>(map.begin(), map.end());
+    return m_forest.vertex_map(m_forest.kept_slots(merges), merges);
   }
 
   /// How many merges lead to the level of N vertices. Throws as restriction() does.
@@ -232,11 +231,7 @@ public:
   Eigen::SparseMatrix<double> restriction() const { return m_log.forest().restriction(slots(), m_done); }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
-  std::vector<std::size_t> vertex_map() const
-  {
-    const std::vector<Index> map = m_log.forest().vertex_map(slots(), m_done);
-    return std::vector<std::size_t>(map.begin(), map.end());
-  }
+  std::vector<std::size_t> vertex_map() const { return m_log.forest().vertex_map(slots(), m_done); }
 
 private:
   using Point = typename boost::property_traits<Vertex_point_map>::value_type;
@@ -245,22 +240,12 @@ private:
   using Merge = Spectral_geometry::Merge_forest::Merge;
   using FT = typename Kernel_traits<Point>::Kernel::FT;
 
-  halfedge_descriptor halfedge_between(const vertex_descriptor from, const vertex_descriptor to) const
-  {
-    const halfedge_descriptor null = boost::graph_traits<Triangle_mesh>::null_halfedge();
-    for(const halfedge_descriptor h : halfedges_around_target(halfedge(to, *m_mesh), *m_mesh))
-      if(source(h, *m_mesh) == from)
-        return h;
-    return null;
-  }
-
   void merge(const Merge& m, const Eigen::Vector3d& at)
   {
     const vertex_descriptor removed = m_vertices[std::size_t(m.removed)],
                             kept = m_vertices[std::size_t(m.kept)];
-    const halfedge_descriptor h = halfedge_between(removed, kept);
-    internal::require(h != boost::graph_traits<Triangle_mesh>::null_halfedge(),
-                      "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
+    const auto [h, are_joined] = halfedge(removed, kept, *m_mesh);
+    internal::require(are_joined, "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
                       " are not joined by an edge where the log merges them; pass a copy of the input as it "
                       "was before the run.");
     const Point point = at == internal::to_vector(get(m_vpm, kept)) ? Point(get(m_vpm, kept))

@@ -162,8 +162,7 @@ public:
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
   std::vector<std::size_t> vertex_map() const
   {
-    const std::vector<Eigen::Index> map = log().forest().vertex_map(this->m_follower->slots().current());
-    return std::vector<std::size_t>(map.begin(), map.end());
+    return log().forest().vertex_map(this->m_follower->slots().current());
   }
 
   /// The merges in the order in which they happened.

@@ -33,19 +33,19 @@ enum class Spectral_placement_strategy {
   free
 };
 
-/// The name of a placement as the programs spell it.
-inline const char* placement_name(const Spectral_placement_strategy placement)
+/// Candidates that were given up when their turn came, by cause. One edge may be counted several times: it comes back whenever
+/// something near it has changed.
+struct Spectral_refusals
 {
-  switch(placement) {
-  case Spectral_placement_strategy::midpoint:
-    return "midpoint";
-  case Spectral_placement_strategy::free:
-    return "free";
-  case Spectral_placement_strategy::on_edge:
-    break;
-  }
-  return "on_edge";
-}
+  std::size_t topology =
+      0; ///< CGAL's link condition and the like; where a placement is wrapped, a filter that the wrapper asks itself
+  std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
+  std::size_t filter = 0;   ///< the `filter` named parameter
+  /// no position without a degenerate triangle, none that leaves kept vertices where they are, or for the next reason
+  std::size_t placement = 0;
+  /// no position near the edge's cost without a face through another; where a placement is wrapped, whatever the wrapper did then
+  std::size_t crossing = 0;
+};
 
 /// What a run is doing; see `Spectral_options::progress`.
 enum class Spectral_phase {

@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -77,21 +78,17 @@ public:
     : m_name(Names::add())
   {
     for(const std::string& name : mesh.template properties<vertex_descriptor>())
-      if(Names::is_abandoned(name)) {
-        auto found = mesh.template property_map<vertex_descriptor, Number>(name);
-        if(is_there(found))
-          mesh.remove_property_map(map_of(found));
-      }
+      if(Names::is_abandoned(name))
+        if(std::optional<Map> map = look_up(mesh, name))
+          mesh.remove_property_map(*map);
     m_map = mesh.template add_property_map<vertex_descriptor, Number>(*m_name, Number()).first;
   }
 
   bool attach(const Triangle_mesh& mesh)
   {
-    auto found = mesh.template property_map<vertex_descriptor, Number>(*m_name);
-    if(!is_there(found))
-      return false;
-    m_map = map_of(found);
-    return true;
+    const std::optional<Map> map = look_up(mesh, *m_name);
+    m_map = map.value_or(m_map);
+    return map.has_value();
   }
 
   Eigen::Index operator[](const vertex_descriptor v) const { return m_map[v].value; }
@@ -105,18 +102,14 @@ private:
   };
   using Map = typename Triangle_mesh::template Property_map<vertex_descriptor, Number>;
 
-  // A pair before CGAL 6, an optional since.
-  static bool is_there(const std::pair<Map, bool>& found) { return found.second; }
-  template <class Optional>
-  static bool is_there(const Optional& found)
+  static std::optional<Map> look_up(const Triangle_mesh& mesh, const std::string& name)
   {
-    return bool(found);
-  }
-  static Map& map_of(std::pair<Map, bool>& found) { return found.first; }
-  template <class Optional>
-  static Map& map_of(Optional& found)
-  {
-    return *found;
+#if CGAL_VERSION_NR >= 1060000900
+    return mesh.template property_map<vertex_descriptor, Number>(name);
+#else
+    const auto found = mesh.template property_map<vertex_descriptor, Number>(name);
+    return found.second ? std::optional<Map>(found.first) : std::nullopt;
+#endif
   }
 
   // The names that are in use, of all meshes of this type: a copy of a mesh has its properties, too.

@@ -72,17 +72,6 @@ public:
 
   /// @}
 
-  /// Why candidates were given up when their turn came.
-  struct Refusals
-  {
-    std::size_t topology =
-        0; ///< CGAL's link condition and the like; a filter that is not in `Spectral_policies::filter()`, where a wrapper does not ask our placement
-    std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
-    std::size_t filter = 0;   ///< the `filter` named parameter
-    /// no position without a degenerate triangle or a crossing, or none that leaves kept vertices where they are
-    std::size_t placement = 0;
-  };
-
   /// Reads the mesh, finds the basis. Throws `std::invalid_argument` for a mesh, an option or a basis that
   /// cannot be used (the first offender is named), `Spectral_geometry::Cancelled` where the progress
   /// callback asks for it.
@@ -337,8 +326,7 @@ public:
   {
     const std::vector<Eigen::Index> slots = current_slots();
     check_number_of_vertices(slots.size());
-    const std::vector<Eigen::Index> map = m_core.forest().vertex_map(slots);
-    return std::vector<std::size_t>(map.begin(), map.end());
+    return m_core.forest().vertex_map(slots);
   }
 
   /// The merges so far and where each left its vertex.
@@ -369,7 +357,12 @@ public:
   /// The eigenpairs of the input at its own scale; null with signals of the user's.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
   /// Candidates that were given up so far, over all runs.
-  const Refusals& refusals() const { return m_refusals; }
+  Spectral_refusals refusals() const
+  {
+    Spectral_refusals all = m_refusals;
+    all.crossing = m_core.number_of_crossings();
+    return all;
+  }
   /// Of the mesh as it is now.
   std::size_t number_of_vertices() const { return m_number_of_vertices; }
   /// Runs that were started so far.
@@ -571,7 +564,7 @@ private:
   bool m_selecting = false;      // a placement asked for now is that of the selected candidate
   bool m_selection_open = false; // selected, and nothing has become of it yet
   bool m_placement_asked = false, m_placement_found = false;
-  Refusals m_refusals;
+  Spectral_refusals m_refusals; // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
 };
 
