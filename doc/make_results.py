@@ -19,8 +19,8 @@ SIZES = "3%,600"
 # Simplifiers that do not come to an end on a mesh.
 WITHOUT = {"nefertiti.obj": "centroidal"}
 # The rows of the summary: the two presets, and CGAL's own that are used most or come nearest.
-SUMMARY = {"spectral, best": "**this package**", "spectral, paper": "the same, preset `paper`",
-           "spectral, best, fitted operators": "preset `best`, operators fitted",
+SUMMARY = {"spectral, best": "**this package**", "spectral, paper": "this package, preset `paper`",
+           "spectral, best, fitted operators": "this package, operators fitted",
            "Garland-Heckbert plane": "Garland-Heckbert, plane quadrics",
            "Garland-Heckbert probabilistic plane, area 20000": "Garland-Heckbert, probabilistic plane quadrics",
            "Lindstrom-Turk": "Lindstrom-Turk", "isotropic remeshing": "isotropic remeshing"}

@@ -4,7 +4,6 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/dense_eigenpairs.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -306,9 +305,7 @@ TEST_CASE("Eigenpairs of a stiffness in any unit")
 TEST_CASE("The dense path agrees with the iteration, and takes K up to n")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
-  const std::function<bool(double)> silent;
-  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
-  const SG::internal::Ritz_pairs dense = SG::internal::dense_eigenpairs(problem, 30);
+  const Eigenpairs dense = by_dense(op, 30, {});
   const Eigenpairs pairs = SG::eigenpairs(op, 30);
   CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-9 * dense.values(29));
   const Eigen::MatrixXd product = dense.vectors.transpose() * op.B * pairs.vectors;
@@ -453,7 +450,7 @@ TEST_CASE("Eigenvalues that are missing are counted")
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
   const std::function<bool(double)> silent;
   const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
-  const Eigen::VectorXd all = SG::internal::dense_eigenpairs(problem, 40).values;
+  const Eigen::VectorXd all = by_dense(op, 40, {}).values;
   for(const std::vector<int>& left_out : {std::vector<int>{}, {0}, {17}, {5, 6, 30}}) {
     std::vector<double> found;
     for(int k = 0; k < 40; ++k)

@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_RESULT_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
