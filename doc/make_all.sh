@@ -9,7 +9,8 @@
 # about two hours on a machine with two cores, the first of them without other work. In the order of the list below; the text around the
 # marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md and user_manual.md quote wrongly.
 #
-#   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later
+#   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
+#              what make_operators.py does
 #   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
 #   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
 #              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off, nasty/centaur-pose.off of TOSCA;
@@ -40,7 +41,7 @@ say() { printf '%s %s\n' "$(date +%H:%M)" "$1"; }
 
 say "times: measured.json"
 python3 "$doc/measure.py" "$quick" "$meshes" demo
-python3 "$doc/measure.py" "$build" "$meshes" nefertiti benchmark million
+python3 "$doc/measure.py" "$build" "$meshes" nefertiti benchmark pairs million
 say "times: degree.csv and scaling.csv"
 "$benchmark" --scaling "$doc/degree.csv" --scaling-shape disc --scaling-vertices 10,30,100,300,1000,3000,10000 --scaling-eigenvectors 8
 "$benchmark" --scaling "$doc/scaling.csv" --runs 1
@@ -67,13 +68,26 @@ python3 "$doc/make_applications.py" --pairs "$build" "$build/applications" "$rem
   "cat:$meshes/limbs/cat.off:$meshes/pair/cat-pose.off:same" "centaur:$meshes/limbs/centaur.off:$meshes/nasty/centaur-pose.off:same" \
   "lion:$meshes/pair/lion-00.off:$meshes/pair/cat-00.off:$meshes/pair/lion2cat.txt" \
   "horse, bent:$meshes/limbs/horse.off:bent" "wolf, bent:$meshes/limbs/wolf.off:bent"
+say "distances, applications.md"
+(
+  cd "$meshes"
+  python3 "$doc/make_applications.py" --distances "$build" "$build/applications" $limbs
+)
 say "robustness.md"
 sh "$doc/make_robustness.sh" "$build/examples/spectral_simplify" "$meshes"/nasty/* "$meshes/igea.ply" >"$build/robustness.txt"
 (cd "$doc" && python3 -Bc '
 import sys
 from make_results import commit, replace
 replace("robustness.md", "inputs", f"Commit {commit()}.\n\n" + sys.stdin.read())') <"$build/robustness.txt"
-say "the figures"
+say "operators, user_manual.md"
+for mesh in ogre beetle; do
+  "$build/examples/spectral_simplify" "$meshes/nasty/$mesh.obj" "$build/$mesh.off" --repair --vertices 100% --no-evaluation --relocate none --quiet
+done
+python3 "$doc/make_operators.py" "$build" "$meshes/rocker-arm.obj" "$meshes/homer.obj" "$meshes/limbs/cat.off" \
+  --needles "$meshes/nefertiti.obj" "$meshes/falconstatue.obj" "$build/ogre.off" "$build/beetle.off" >"$build/operators.txt"
+say "the figures, of the demonstration's own shape"
+mkdir -p "$build/figures"
+[ -s "$build/figures/shape.ply" ] || "$quick/examples/make_demo_shape" "$build/figures/shape.ply" --vertices 10000
 python3 "$doc/make_figures.py" "$build"
-say "made; now compare the text with the tables, with $build/applications.txt and with what follows"
+say "made; now compare the text with the tables, with $build/applications.txt and operators.txt, and with what follows"
 python3 "$doc/measure.py" --check

@@ -6,11 +6,12 @@
 # Makes the shapes, tables and pictures of applications.md:
 #   doc/make_applications.py BUILD [FOLDER]
 #   doc/make_applications.py --large BUILD [FOLDER]
+#   doc/make_applications.py --distances BUILD FOLDER MESH...
 #   doc/make_applications.py --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]
 # BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
-# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, --pairs that of
-# proxies and matchers, on shapes in other triangles and on other pairs: with the file of the true map, `same` for the identity, or X itself
-# against its bent shape in other triangles; both write it into the page. RIVALS is a folder as for run_rivals.sh, whose programs make proxies.
+# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, --distances that
+# of operators fitted and the meshes' own, --pairs those of proxies and matchers, on shapes in other triangles and on other pairs: with the file of the true map, `same` for the identity, or X itself
+# against its bent shape in other triangles; all three write into the page. RIVALS is a folder as for run_rivals.sh, whose programs make proxies.
 # Where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
 # Needs nothing but Python 3.
 
@@ -170,7 +171,7 @@ def large(build, folder):
                                         *errors]) + " |")
     titles = ["vertices of X and Y", "reduced to", *STAGES, "total", "mean error", "90 %", "largest"]
     table = [machine() + ".", "", "| " + " | ".join(titles) + " |", "|" + "---:|" * len(titles), *lines]
-    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "large", "\n".join(table) + "\n")
+    write("large", table)
 
 
 # --- proxies and matchers ----------------------------------------------------------------------------------------------
@@ -231,12 +232,15 @@ def foreign_proxies(folder, rivals, name, X, Y, vertices):
 
 
 # Errors and parts below 0.05 by column of the table, as they are shown.
-def matched(build, folder, rivals, name, X, Y, truth, vertices):
-    stem = f"pair_{report_name(name)}_{vertices}"
-    proxies = ",".join(list(PROXIES) + (["none"] if vertices == 600 else []))
+def matched(build, folder, rivals, name, X, Y, truth, vertices, bending=True):
+    stem = f"pair_{report_name(name)}_{vertices}" + ("" if bending else "_unbent")
+    proxies = ",".join(list(PROXIES) + (["none"] if vertices == 600 and bending else []))
     found = {}
-    for matcher, words in (("product_manifold_filter", ["--proxy", proxies, *foreign_proxies(folder, rivals, name, X, Y, vertices)]),
-                           ("bcicp", ["--proxy", "spectral"])):
+    matchers = [("product_manifold_filter", ["--proxy", proxies, *foreign_proxies(folder, rivals, name, X, Y, vertices)]),
+                ("bcicp", ["--proxy", "spectral"])] if bending else [
+                    ("product_manifold_filter", ["--proxy", proxies, *foreign_proxies(folder, rivals, name, X, Y, vertices),
+                                                 "--fine-iterations", "0"])]
+    for matcher, words in matchers:
         output = f"{stem}_{matcher}.json"
         run(build, folder, output, "shape_matching", X, Y, "--ground-truth", truth, "--vertices", str(vertices), "--matcher", matcher, *words,
             "--json", output, "--quiet", by=os.environ.get("RUN_BY", ""))
@@ -289,7 +293,37 @@ def pairs(build, folder, rivals, others):
         means = {title: [sum(row[title][k] for row in of_size) / len(of_size) for k in (0, 1)] for title in titles if title in of_size[0]}
         lines.append(pair_row("mean" if vertices == SIZES[0] else "", vertices, titles, means))
     table = [machine() + ".", "", "| pair | vertices | " + " | ".join(titles) + " |", "|---|---:|" + "---:|" * len(titles), *lines]
-    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), "pairs", "\n".join(table) + "\n")
+    write("pairs", table)
+    # The last steps left out.
+    rows = {name: matched(build, folder, rivals, name, X, Y, truth, 600, bending=False) for name, X, Y, truth in wanted[1:]}
+    titles = [title for title in titles if all(title in row for row in rows.values())]
+    lines = [pair_row(name, 600, titles, found) for name, found in rows.items()]
+    means = {title: [sum(row[title][k] for row in rows.values()) / len(rows) for k in (0, 1)] for title in titles}
+    lines.append(pair_row("mean", 600, titles, means))
+    write("unbent", [machine() + ".", "", "| pair | vertices | " + " | ".join(titles) + " |", "|---|---:|" + "---:|" * len(titles), *lines])
+
+
+def write(name, lines):
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), name, "\n".join(lines) + "\n")
+
+
+# Errors of distances by the prolongation, and of signatures at the heaviest vertices, on proxies of 600 vertices.
+def distances(build, folder, meshes):
+    program = os.path.abspath(os.path.join(build, "examples", "spectral_distances_on_proxy"))
+    columns, titles = {}, []
+    for mesh in meshes:
+        name = os.path.splitext(os.path.basename(mesh))[0]
+        for operators in ("mesh", "fitted"):
+            said = subprocess.run([program, os.path.abspath(mesh), "--operators", operators, "--vertices", "600"], check=True, cwd=folder,
+                                  stdout=subprocess.PIPE, text=True).stdout
+            columns[name, operators] = {title.strip(): float(value) for title, value in re.findall(r"^(\D[^%\n]*?(?:= 0\.01)?) +([\d.]+) %", said, re.M)}
+        titles += [f"{name}: own", "fitted"]
+    lines = ["| | " + " | ".join(titles) + " | fitted over own, geometric mean |", "|---|" + "---:|" * (len(titles) + 1)]
+    for row in next(iter(columns.values())):
+        names = list(dict.fromkeys(name for name, _ in columns))
+        ratio = math.exp(sum(math.log(columns[n, "fitted"][row] / columns[n, "mesh"][row]) for n in names) / len(names))
+        lines.append(f"| {row} | " + " | ".join(f"{columns[n, o][row]:.2f}" for n in names for o in ("mesh", "fitted")) + f" | {ratio:.2f} |")
+    write("animals", [machine() + ".", "", *lines])
 
 
 # --- pictures out of the reports -------------------------------------------------------------------------------------
@@ -344,12 +378,17 @@ def curves(folder, report, path):
 
 
 def main():
-    words = [word for word in sys.argv[1:] if word not in ("--large", "--pairs")]
-    if not words or ("--pairs" in sys.argv and len(words) < 3) or ("--pairs" not in sys.argv and len(words) > 2):
-        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER], or --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]")
+    words = [word for word in sys.argv[1:] if word not in ("--large", "--distances", "--pairs")]
+    many = "--pairs" in sys.argv or "--distances" in sys.argv
+    if not words or (many and len(words) < 3) or (not many and len(words) > 2):
+        sys.exit("usage: make_applications.py [--large] BUILD [FOLDER], --distances BUILD FOLDER MESH..., or\n"
+                 "       --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]")
     folder = os.path.abspath(words[1] if len(words) > 1 else os.path.join(words[0], "applications"))
     if "--pairs" in sys.argv:
         pairs(words[0], folder, os.path.abspath(words[2]), words[3:])
+        return
+    if "--distances" in sys.argv:
+        distances(words[0], folder, words[2:])
         return
     if "--large" in sys.argv:
         large(words[0], folder)

@@ -170,7 +170,7 @@ def summary(results):
 
 def tables(results):
     first = results[0]
-    text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler']}, one thread; commit {commit()}. The command for each mesh:\n\n"
+    text = f"K = {first['K']}, CGAL {first['cgal_version']}, {first['compiler'].strip()}, one thread; commit {commit()}. The command for each mesh:\n\n"
     text += "".join(f"    {' '.join(['examples/spectral_compare', r['path'], '--vertices', SIZES, *options(r['path'])])} --json results/{r['path']}.json\n"
                     for r in results)
     text += "\n## Norms of all meshes\n"
@@ -198,11 +198,11 @@ def main():
     replace(os.path.join(here, "results.md"), "summary", summary(results))
 
 
-# Of the code that a number comes from, "-dirty" where it was changed afterwards, this folder apart.
+# Of the code that a number comes from, "-dirty" where it was changed afterwards, this folder and README.md apart, which these scripts write.
 def commit():
     here = os.path.dirname(os.path.abspath(__file__))
     name, changes = (subprocess.run(["git", "-C", here, *words], capture_output=True, text=True, check=True).stdout.strip()
-                     for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":(top,exclude)doc"]))
+                     for words in (["rev-parse", "--short", "HEAD"], ["status", "--porcelain", "--", ":/", ":(top,exclude)doc", ":(top,exclude)README.md"]))
     return name + ("-dirty" if changes else "")
 
 

@@ -63,6 +63,8 @@ QUOTED = [
     ("user_manual.md", r"judged in the lumped mass it has ‖C‖_L ([\d.]+) in the mean of nine meshes, paper ([\d.]+) and the best rival\s+([\d.]+)\. "
      r"Or fit operators with a diagonal mass \(`fit_operators\(\)`\): ([\d.]+), and eigenvalues within ([\d.]+) %",
      ("rivals.lumped.own.0", "lumped_means.paper", "lumped_means.rival", "rivals.lumped.fitted.0", "rivals.lumped.fitted.2")),
+    ("user_manual.md", r"The 100 pairs of nefertiti to\s+1e-8 take ([\d.]+) s with one thread and ([\d.]+) s with two, to 1e-4 ([\d.]+) and ([\d.]+) s; "
+     r"Spectra takes ([\d.]+) s", tuple("measured.pairs." + key for key in ("1e-08 one", "1e-08 all", "1e-04 one", "1e-04 all", "spectra"))),
     ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
     ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
     ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
@@ -133,6 +135,19 @@ def benchmark(build, meshes):
             return json.load(file)["rocker-arm.obj"]
 
 
+# The first 100 of nefertiti, beside Spectra's.
+def pairs(build, meshes):
+    def rows(*arguments):
+        with tempfile.TemporaryDirectory() as folder:
+            output = os.path.join(folder, "pairs.json")
+            run([os.path.join(build, "test", "benchmark", "spectral_benchmark"), os.path.join(meshes, "nefertiti.obj"), *arguments, "--json", output])
+            with open(output) as file:
+                return json.load(file)["nefertiti.obj"]["pairs"]
+
+    result = {f"{row['tolerance']:.0e} {'one' if row['threads'] == 1 else 'all'}": row["seconds"] for row in rows("--pairs", "1e-4,1e-8")}
+    return {**result, "spectra": rows("--pairs", "1e-8", "--solver", "spectra", "--runs", "1")[0]["seconds"]}
+
+
 # A shape of a million vertices to a hundredth.
 def million(build, _):
     with tempfile.TemporaryDirectory() as folder:
@@ -143,7 +158,7 @@ def million(build, _):
             **{preset: {key: runs[preset][key] for key in ("seconds", "seconds_eigenpairs", "gigabytes")} for preset in PRESETS}}
 
 
-PARTS = {"demo": demo, "nefertiti": nefertiti, "benchmark": benchmark, "million": million}
+PARTS = {"demo": demo, "nefertiti": nefertiti, "benchmark": benchmark, "pairs": pairs, "million": million}
 
 
 def measure(build, meshes, parts):
