@@ -417,7 +417,6 @@ function(manual_sections result figures prefix)
   string(REGEX REPLACE "`spectral_[a-z]+ --[^`]*`, " "" all "${all}")
   string(REGEX REPLACE " On the command line: `[^`]*`\\." "" all "${all}")
   string(REGEX REPLACE " `spectral_simplify` has them as `--preset`, and each option\noverrides the preset\\." "" all "${all}")
-  string(REGEX REPLACE " Figures and table come from `doc/[^`]*`, which runs\n`[^`]*` on the output of `[^`]*`\\." "" all "${all}")
   string(REPLACE ", see\n*Large meshes*" "" all "${all}")
   string(REPLACE ", see *Performance* below" "" all "${all}")
   string(REGEX REPLACE "\nThe changes of each version are in CHANGES.md[^.]*\\.\n" "" all "${all}")
@@ -426,8 +425,8 @@ function(manual_sections result figures prefix)
 endfunction()
 
 set(titles_Spectral_geometry "Which mass, and why" "References")
-set(titles_Surface_mesh_simplification "What is guaranteed" "The metric" "The shape term" "Presets" "Policies, and how to combine them"
-    "Choosing K and N" "Placements" "Edge flips" "Relocation" "Control over a run" "Design and implementation history")
+set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them"
+    "Choosing K and N" "Placements" "Edge flips" "Relocation" "Control over a run" "What is guaranteed" "Design and implementation history")
 # The others are about the programs and their figures, or doc/cgal says it in fewer words.
 set(titles_left "Introduction" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators" "Python" "Performance"
                 "Large meshes" "Troubleshooting")

@@ -5,22 +5,23 @@
 #
 # make_all.sh BUILD QUICK MESHES RIVALS REMESHERS OTHERS
 #
-# Makes the tables, the figures and the data of this folder anew, all from the commit that is checked out, which stands in each. That takes
-# about two hours on a machine with two cores, the first of them without other work. In the order of the list below; the text around the
-# marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md and user_manual.md quote wrongly.
+# Makes the tables, the figures and the data of this folder anew, but for those of experiments.md, from the commit that is checked out and
+# that BUILD was built from. That takes about an hour and a half on a machine with two cores, the first of it without other work. The text around
+# the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md and user_manual.md quote wrongly.
 #
 #   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
 #              what make_operators.py does
 #   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
-#   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
-#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off, nasty/centaur-pose.off of TOSCA;
-#              pair/ with the lion of Sumner and Popović, and the map
+#   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
+#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; pair/ with cat-pose.off of TOSCA, the lion
+#              and the cat of Sumner and Popović (lion-00.off, cat-00.off) and the map lion2cat.txt; nasty/ with centaur-pose.off, ogre.obj,
+#              beetle.obj, and whatever else robustness.md is to have
 #   RIVALS     see run_rivals.sh
 #   REMESHERS  the same, of those whose meshes are matched
 #   OTHERS     meshes for make_survey.py, in folders by their sources
 #
-# What is made on the way goes to folders in BUILD and is used again when it is there, as is BUILD/rivals from an earlier run of
-# run_rivals.sh. Stops at the first script that fails.
+# What is made on the way goes to folders in BUILD and is used again when it is there and of the same commit, as are the rivals' results in
+# BUILD/rivals, of any. Stops at the first script that fails.
 
 set -eu
 if [ $# -ne 6 ]; then
@@ -36,6 +37,17 @@ remeshers=$(cd "$5" && pwd)
 others=$(cd "$6" && pwd)
 benchmark=$build/test/benchmark/spectral_benchmark
 limbs="limbs/cat.off limbs/horse.off limbs/centaur.off limbs/wolf.off"
+
+for mesh in $limbs cheburashka.obj falconstatue.obj homer.obj igea.ply mountain.obj nefertiti.obj rocker-arm.obj spot.obj pair/cat-pose.off \
+  pair/lion-00.off pair/cat-00.off pair/lion2cat.txt nasty/centaur-pose.off nasty/ogre.obj nasty/beetle.obj; do
+  [ -r "$meshes/$mesh" ] || { echo "make_all.sh: there is no '$meshes/$mesh'" >&2; exit 1; }
+done
+commit=$(cd "$doc" && python3 -Bc 'from make_results import commit; print(commit())')
+if [ -e "$build/results-of" ] && [ "$(cat "$build/results-of")" != "$commit" ]; then
+  echo "make_all.sh: what is in '$build' was made at $(cat "$build/results-of"), this is $commit: take another folder" >&2
+  exit 1
+fi
+echo "$commit" >"$build/results-of"
 
 say() { printf '%s %s\n' "$(date +%H:%M)" "$1"; }
 
@@ -61,8 +73,11 @@ python3 "$doc/make_rivals.py" --pages "$build/rivals"
 # What follows tells no times: two at once.
 say "results.md, and beside it the survey of rivals.md"
 python3 "$doc/make_results.py" "$build" "$meshes" $limbs cheburashka.obj homer.obj rocker-arm.obj mountain.obj falconstatue.obj nefertiti.obj &
-find "$others" -type f | LC_ALL=C sort | xargs python3 "$doc/make_survey.py" "$build" 600
-wait $!
+results=$!
+trap 'kill $results 2>/dev/null' EXIT
+find "$others" -type f -print0 | LC_ALL=C sort -z | xargs -0 -n 100000 -x python3 "$doc/make_survey.py" "$build" 600
+wait $results
+trap - EXIT
 say "pairs, applications.md"
 python3 "$doc/make_applications.py" --pairs "$build" "$build/applications" "$remeshers" \
   "cat:$meshes/limbs/cat.off:$meshes/pair/cat-pose.off:same" "centaur:$meshes/limbs/centaur.off:$meshes/nasty/centaur-pose.off:same" \

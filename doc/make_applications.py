@@ -294,6 +294,8 @@ def pairs(build, folder, rivals, others):
         lines.append(pair_row("mean" if vertices == SIZES[0] else "", vertices, titles, means))
     table = [machine() + ".", "", "| pair | vertices | " + " | ".join(titles) + " |", "|---|---:|" + "---:|" * len(titles), *lines]
     write("pairs", table)
+    if not wanted[1:]:
+        return
     # The last steps left out.
     rows = {name: matched(build, folder, rivals, name, X, Y, truth, 600, bending=False) for name, X, Y, truth in wanted[1:]}
     titles = [title for title in titles if all(title in row for row in rows.values())]
@@ -309,6 +311,7 @@ def write(name, lines):
 
 # Errors of distances by the prolongation, and of signatures at the heaviest vertices, on proxies of 600 vertices.
 def distances(build, folder, meshes):
+    os.makedirs(folder, exist_ok=True)
     program = os.path.abspath(os.path.join(build, "examples", "spectral_distances_on_proxy"))
     columns, titles = {}, []
     for mesh in meshes:

@@ -26,7 +26,7 @@ from make_spectra import machine
 
 # Our rows, as they are called in the tables, by the simplifier, or by all that tells a row from others.
 OURS = {"spectral, best": "**this package**", "spectral, best, fitted operators": "this package, operators fitted",
-        "spectral with shape term, free, averaged metric": "this package, policies alone",
+        "spectral with shape term, free, averaged metric": "this package, without relocation",
         "spectral, paper": "this package, preset `paper`",
         "Garland-Heckbert plane": "CGAL: Garland-Heckbert, plane quadrics",
         "Garland-Heckbert probabilistic plane, area 20000": "CGAL: Garland-Heckbert, probabilistic plane quadrics"}

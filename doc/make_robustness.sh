@@ -278,6 +278,7 @@ printf 'ply\nformat ascii 1.0\nelement vertex 2000000000\nproperty float x\nprop
 printf 'solid x\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n' | other stl "STL that is cut off" "refused"
 printf '\037\213\010' | small "a compressed file" "refused"
 for mesh in "$@"; do
+  [ -r "$mesh" ] || { echo "make_robustness.sh: there is no '$mesh'" >&2; exit 1; }
   if [ "$(wc -c <"$mesh")" -lt 500000 ]; then
     set -- --vertices 50% --eigenvectors 20
   else

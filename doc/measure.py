@@ -69,7 +69,7 @@ QUOTED = [
     ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
     ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
      ("results.mountain 768.best", "results.mountain 768.preserved")),
-    ("user_manual.md", r"\|C\|_L falls to ([\d.]+) to ([\d.]+) times the mesh's own, \|C\|_D to ([\d.]+) to\s+([\d.]+) times",
+    ("user_manual.md", r"‖C‖_L falls to ([\d.]+) to ([\d.]+) times the mesh's own, ‖C‖_D to ([\d.]+) to\s+([\d.]+) times",
      ("fitted.0.least", "fitted.0.most", "fitted.1.least", "fitted.1.most")),
 ]
 # The tables of the manual, by the first cell of a row: what its other cells are.
@@ -293,7 +293,7 @@ def check():
     rows = cells(rivals.split("## Geometric means, judged in the averaged mass")[1].split("\n## ")[0])
     table = cells(readme.split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0])
     for name, title in SUMMARY.items():
-        if table.get(title.strip("*"), []) != rows.get(OURS.get(name, name).strip("*"), [])[:6]:
+        if title.strip("*") not in table or table[title.strip("*")] != rows.get(OURS.get(name, name).strip("*"), [])[:6]:
             wrong.append(f"README.md and rivals.md differ in {title}")
     survey = rivals.split("<!-- survey: begin -->")[1]
     found = re.search(r"On (\d+) further meshes \|C\|_L is ([\d.]+) times that of the probabilistic quadrics on the average, and lower on (\d+)\.", readme)

@@ -8,8 +8,8 @@
 # Simplifies each MESH to N vertices by programs outside of CGAL, and judges what they made beside our own results and CGAL's, by one
 # and the same program: BUILD/examples/spectral_compare. Nothing is fetched; the rivals are built by whoever runs this. Leaves
 # OUTPUT/MESH-N.json for each pair, with the rows of spectral_compare and an entry for each rival, OUTPUT/rivals.md with the tables, and
-# in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again: remove it to have it anew, NAME/made.json
-# and NAME/made.note to have it judged anew.
+# in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again: remove it to have it anew; of a rival that
+# finished NAME/made.json and NAME/made.note, to have it judged anew.
 #
 # RIVALS is a folder with one folder for each rival, NAME, and in it
 #   about   one line: VERSION; LICENCE; FLAGS, which is all that was set and changed
@@ -53,21 +53,22 @@ judge_operator()
 # What became of $name, in $prefix.*: judged, or a sentence in $prefix.note why it was not.
 judge()
 {
+  rm -f "$prefix.json" "$prefix.lumped.json" "$prefix.note" "$prefix.first"
   if [ -s "$prefix.off" ]; then
     P=
     [ ! -s "$prefix.P.mtx" ] || P=$prefix.P.mtx
     judged --rival "$name=$prefix.off${P:+,$P}" --json "$prefix.json" && return
-    complaint >"$prefix.note"
-    judged --rival "$name=$prefix.off" --repair --json "$prefix.json" && return
+    complaint >"$prefix.first"
+    judged --rival "$name=$prefix.off" --repair --json "$prefix.json" && mv "$prefix.first" "$prefix.note" && return
   elif [ -s "$prefix.M.lumped.mtx" ]; then
-    judge_operator "$prefix.M.mtx" averaged "$prefix.json" &&
-      judge_operator "$prefix.M.lumped.mtx" lumped "$prefix.lumped.json" && return
+    judge_operator "$prefix.M.lumped.mtx" lumped "$prefix.lumped.json" &&
+      judge_operator "$prefix.M.mtx" averaged "$prefix.json" && return
   elif [ -s "$prefix.L.mtx" ]; then
     judge_operator "$prefix.M.mtx" lumped,averaged "$prefix.json" && return
   else
     echo "left no result" >"$prefix.complained"
   fi
-  rm -f "$prefix.json"
+  rm -f "$prefix.json" "$prefix.lumped.json"
   complaint >"$prefix.note"
 }
 
@@ -81,7 +82,7 @@ for pair in "$@"; do
     name=$(basename "$(dirname "$run")")
     prefix=$folder/$name/made
     if [ -e "$prefix.measured" ]; then
-      [ -e "$prefix.json" ] || [ -e "$prefix.note" ] || judge
+      ! grep -q '"status": "finished"' "$prefix.measured" || [ -e "$prefix.json" ] || [ -e "$prefix.note" ] || judge
       continue
     fi
     echo "$(basename "$mesh"), N = $N: $name"
@@ -100,14 +101,14 @@ for pair in "$@"; do
   prefix=$folder/ours
   [ -s "$prefix.json" ] ||
     judged --vertices "$N" --only "spectral, best" --only "spectral with shape term" --only "spectral, paper" --only "Garland-Heckbert plane" \
-      --only "Garland-Heckbert probabilistic plane, area" --json "$prefix.json" || cat "$prefix.complained" >&2
+      --only "Garland-Heckbert probabilistic plane, area" --json "$prefix.json" || { cat "$prefix.complained" >&2; exit 1; }
   for fit in "" fitted; do
     prefix=$folder/ours-alone$fit
     [ -s "$prefix.measured" ] ||
       measured "$prefix.measured" "$programs/spectral_simplify" "$mesh" "$prefix.off" --vertices "$N" --quiet \
-        ${fit:+--fit-operators "$prefix"} 2>"$prefix.complained" || cat "$prefix.complained" >&2
+        ${fit:+--fit-operators "$prefix"} 2>"$prefix.complained" || { cat "$prefix.complained" >&2; exit 1; }
   done
-  tables --merge "$folder" "$N"
+  tables --merge "$folder" "$N" || exit 1
 done
-tables --tables "$output" >"$output/rivals.md"
+tables --tables "$output" >"$output/rivals.md" || exit 1
 echo "the tables are in '$output/rivals.md'"

@@ -12,6 +12,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 // A value and the word for it on the command line, in Python and in JSON.
 template <class Value>
@@ -65,6 +66,15 @@ Value value_of(const Word<Value> (&words)[n], const std::string& word)
     if(w.word == word)
       return w.value;
   throw std::logic_error("value_of: '" + word + "' is not in the table; check it where it is read.");
+}
+
+// All words of a table, after those that stand for no value of it.
+template <class Value, std::size_t n>
+std::vector<std::string> words_of(const Word<Value> (&words)[n], std::vector<std::string> all = {})
+{
+  for(const Word<Value>& w : words)
+    all.push_back(w.word);
+  return all;
 }
 
 // "none" where nothing is relocated.

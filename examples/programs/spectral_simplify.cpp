@@ -152,8 +152,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
-  options.boundary =
-      a.boundary == "dirichlet" ? SG::Boundary_condition::dirichlet : SG::Boundary_condition::neumann;
+  options.boundary = value_of(boundary_words, a.boundary);
   options.intrinsic_delaunay = a.intrinsic_delaunay;
   options.threads = a.threads;
   if(a.pre_simplify)

@@ -10,6 +10,7 @@
 #include "io/operator_reader.h"
 #include "io/program.h"
 #include "io/vertex_target.h"
+#include "option_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +117,7 @@ inline Command_line described(Arguments& a)
   line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
               "the mass matrix: lumped (paper), the mean of lumped and consistent (best), which keeps the "
               "eigenvalues of coarse meshes much closer, or lumped by mixed Voronoi areas");
-  line.choice("placement", a.placement, {"on_edge", "midpoint", "free"},
+  line.choice("placement", a.placement, words_of(placement_words),
               "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   line.option("shape", a.shape, "G",
               "weight of the shape beside the spectrum, which keeps thin limbs (best: 3, paper: 0); 1 to 10 "
@@ -124,7 +125,7 @@ inline Command_line described(Arguments& a)
   line.choice("self-intersections", a.self_intersections, {"allow", "refuse"},
               "collapses that put a face through another (best: refuse, paper: allow)");
   line.choice(
-      "relocate", a.relocate, {"none", "sampled", "carried", "carried_and_sampled"},
+      "relocate", a.relocate, words_of(relocation_words, {"none"}),
       "afterwards move the vertices so that the spectrum is kept still better (best: sampled, paper: "
       "none), by the functions at the closest points of INPUT, by what the restriction carries, or by "
       "both. With sampled the restriction is that of the closest points, and no longer follows --map");
@@ -143,7 +144,7 @@ inline Command_line described(Arguments& a)
       "xz, yy, yz, zz; anisotropic:A, a surface that conducts 1 / (1 + A |k|) in the direction of a "
       "principal curvature k, which is 1 on a sphere of the same area. --eigenpairs writes "
       "coarse_coefficients.npy as well");
-  line.choice("boundary", a.boundary, {"neumann", "dirichlet"},
+  line.choice("boundary", a.boundary, words_of(boundary_words),
               "what functions do on the border of INPUT: their derivative across it is zero, or they are");
   line.flag("intrinsic-delaunay", a.intrinsic_delaunay,
             "for an INPUT of needles: take eigenvectors, and judge, on the intrinsic Delaunay triangulations "
@@ -164,7 +165,7 @@ inline Command_line described(Arguments& a)
             "as far as its format holds it (.ply all, .obj colours, normals and texture coordinates, .off "
             "colours and normals): numbers by the restriction, integers that are no colours as labels, of "
             "which the one of most weight is taken");
-  line.choice("flips", a.flips, {"none", "spectral", "delaunay"},
+  line.choice("flips", a.flips, words_of(flip_words),
               "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite "
               "angles are more than 180 degrees together; --levels are written without");
 

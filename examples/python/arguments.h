@@ -6,6 +6,7 @@
 #define SPECTRAL_PYTHON_ARGUMENTS_H
 
 #include "../programs/io/threads.h"
+#include "../programs/option_words.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
@@ -150,8 +151,7 @@ public:
 
   SG::Boundary_condition boundary() const
   {
-    return word("boundary", {"neumann", "dirichlet"}) == "dirichlet" ? SG::Boundary_condition::dirichlet
-                                                                     : SG::Boundary_condition::neumann;
+    return value_of(boundary_words, word("boundary", words_of(boundary_words)));
   }
 
   // Of functions that have neither coefficients nor a boundary condition.

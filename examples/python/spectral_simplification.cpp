@@ -127,15 +127,15 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   Option_words words;
   words.preset = a.word("preset", {"best", "fast", "paper"});
   words.vertices = std::size_t(target);
-  words.placement = a.word("placement", {"on_edge", "midpoint", "free"}, true);
+  words.placement = a.word("placement", words_of(placement_words), true);
   words.mass = a.word("mass", {"lumped", "averaged", "voronoi"}, true);
   if(a.has("shape"))
     words.shape = a.number("shape", 0);
   if(a.has("quadrics_above"))
     words.quadrics_above = a.number("quadrics_above", 1, true, HUGE_VAL, false);
   words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
-  words.relocate = a.word("relocate", {"none", "sampled", "carried", "carried_and_sampled"}, true);
-  words.flips = a.word("flips", {"none", "spectral", "delaunay"});
+  words.relocate = a.word("relocate", words_of(relocation_words, {"none"}), true);
+  words.flips = a.word("flips", words_of(flip_words));
   SMS::Spectral_edge_collapse_options options = options_of(words);
   options.binary = a.flag("binary");
   if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)
