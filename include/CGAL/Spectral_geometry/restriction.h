@@ -9,6 +9,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -102,7 +103,7 @@ public:
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     std::vector<Index> slots;
-    slots.reserve(alive.size());
+    slots.reserve(static_cast<std::size_t>(std::count(alive.begin(), alive.end(), true)));
     for(Index slot = 0; slot < number_of_slots(); ++slot)
       if(alive[static_cast<std::size_t>(slot)])
         slots.push_back(slot);
