@@ -48,7 +48,7 @@ public:
         edge[k] = V.row(T(f, (k + 2) % 3)).unaryExpr(scaled) - p;
         m_length[std::size_t(3 * f + k)] = edge[k].norm();
       }
-      m_element[std::size_t(f)] = element_of(edge);
+      m_element[std::size_t(f)] = triangle_element(edge);
     }
     glue_sides();
   }
@@ -85,15 +85,6 @@ public:
   }
 
 private:
-  // With the dot products of a triangle without area, too: they tell which corner lies between the others.
-  static Triangle_element element_of(const Eigen::Vector3d (&edge)[3])
-  {
-    Triangle_element t = triangle_element(edge);
-    for(int k = 0; k < 3 && t.is_degenerate(); ++k)
-      t.dot[k] = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]);
-    return t;
-  }
-
   static int next(const int slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
   int twin(const int slot) const { return m_twin[std::size_t(slot)]; }
   int& vertex(const int slot) { return m_T(slot / 3, slot % 3); }
@@ -175,7 +166,7 @@ private:
     Eigen::Vector3d edge_of_f[3], edge_of_g[3];
     edge_of_f[s % 3] = id, edge_of_f[s1 % 3] = -cd, edge_of_f[s2 % 3] = -ic;
     edge_of_g[t % 3] = jc, edge_of_g[t1 % 3] = cd, edge_of_g[t2 % 3] = -jd;
-    const Triangle_element f = element_of(edge_of_f), g = element_of(edge_of_g);
+    const Triangle_element f = triangle_element(edge_of_f), g = triangle_element(edge_of_g);
     if(!(energy(f, g, cd.norm()) < energy(element(s), element(t), l)))
       return false;
     ++flips_of_f;

@@ -49,8 +49,7 @@ namespace CGAL::Surface_mesh_simplification::internal {
  *
  * Life of a run: on_started() builds everything from the mesh as it is and evaluates every edge;
  * placement() and cost() look up; on_collapsing() captures which candidate is about to be collapsed;
- * on_collapsed() follows the mesh and starts the evaluation of the edges that are costed next, which the other threads go on
- * with while CGAL's loop does; on_finished() ends it.
+ * on_collapsed() follows the mesh and evaluates the edges that are costed next; on_finished() ends it.
  * A further run continues: F, Z and P go on from where they are.
  */
 template <class TriangleMesh, class GeomTraits, class VertexPointMap>

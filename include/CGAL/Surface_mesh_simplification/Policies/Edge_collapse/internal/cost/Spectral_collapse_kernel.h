@@ -208,18 +208,16 @@ private:
     const Eigen::Vector3d ab = pb - pa;
     const Lanes a[3] = {pa[0] - m_point[0], pa[1] - m_point[1], pa[2] - m_point[2]};
     const Lanes b[3] = {pb[0] - m_point[0], pb[1] - m_point[1], pb[2] - m_point[2]};
-    const Lanes n[3] = {a[1] * ab[2] - a[2] * ab[1], a[2] * ab[0] - a[0] * ab[2],
-                        a[0] * ab[1] - a[1] * ab[0]};
-    const Lanes square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    const Lanes a_ab = a[0] * ab[0] + a[1] * ab[1] + a[2] * ab[2];
-    const Lanes b_ab = b[0] * ab[0] + b[1] * ab[1] + b[2] * ab[2];
-    const Lanes a_b = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    const Lanes sum = a_b - a_ab + b_ab; // of the cotangents, times twice the area
+    Spectral_geometry::internal::Triangle_products<Lanes> products;
+    Spectral_geometry::internal::set_triangle_products(products, a, ab, b);
+    const Lanes sum =
+        products.at_start + products.between + products.at_end; // of the cotangents, times twice the area
     constexpr double limit = Spectral_triangle::degenerate_cotangent;
     const Lanes bound = sum * sum * (1 / (limit * limit));
     Lanes inverse;
-    spectral_inverse_sqrt(inverse, square, bound, failed);
-    t = Triangles{a_b * inverse, -a_ab * inverse, b_ab * inverse, square * inverse * 0.5};
+    spectral_inverse_sqrt(inverse, products.twice_area_squared, bound, failed);
+    t = Triangles{products.at_start * inverse, products.between * inverse, products.at_end * inverse,
+                  products.twice_area_squared * inverse * 0.5};
   }
 
   Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
