@@ -105,7 +105,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eig
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T);
 
-/// Throws `std::invalid_argument` unless coefficients are none, or one row for each of n vertices, positive (definite) and finite.
+/// Throws `std::invalid_argument` unless theta is in [0, 1], 0 with Voronoi shares, and coefficients are none, or one row for each of n
+/// vertices, positive (definite) and finite.
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
 
 /// Those of the operator at a triangle, and its area weighted by the density.

@@ -100,7 +100,8 @@ where W weights the signals by \f$ (\lambda_k + 4\pi)^{-e} \f$, made relative by
 the mean spacing of eigenvalues at unit area (Weyl's law), and e = 2 would ask for the same relative accuracy of all modes. The
 first term is \f$ \|C \Lambda - \widetilde\Lambda C\| \f$ when G stands for the coarse eigenvectors, the second the metric E
 (Eq. 2 of Lescoat et al. 2020). The last ties the N and more unknowns x (the weights w, m, b below) to what they are of the
-mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or the mean mass of a vertex.
+mesh's own entries, \f$ x_a^0 \f$; \f$ s_a \f$ is the median weight of an edge or the mean mass of a vertex, for
+a term of a thin triangle \f$ x_a^0 \f$ more.
 
 **Both matrices are definite, whatever the input.**
 \f[ \widetilde L = \sum_a w_a \, d_a d_a^\top, \qquad

@@ -50,7 +50,7 @@ remaining solutions the one of smallest norm is returned.
 @param coarse \f$ C_{\widetilde X,\widetilde Y} \f$, (coarse modes of Y) x (coarse modes of X)
 @param target_restriction \f$ C_{Y,\widetilde Y} \f$, (coarse modes of Y) x (fine modes of Y); with at least as many
   rows as columns the system is not underdetermined
-@param tolerance in [0, 1[; 0 cuts off nothing but exact zeros
+@param tolerance in [0, 1[; less than 1e-14, which is rounding, counts as that
 
 Throws `std::invalid_argument` if sizes do not match, a number is not finite or the tolerance out of range.
 */

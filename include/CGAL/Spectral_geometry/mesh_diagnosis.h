@@ -28,7 +28,7 @@ struct Mesh_finding
 {
   std::size_t count = 0;  ///< how often
   std::size_t first = 0;  ///< the first vertex or face concerned, counted from 0
-  std::size_t second = 0; ///< what belongs to it: the other face or vertex, or the number of corners
+  std::size_t second = 0; ///< what belongs to it: the other face or vertex, or the number of corners or parts
 
   /// \brief counts one more.
   void add(const std::size_t where, const std::size_t partner = 0)

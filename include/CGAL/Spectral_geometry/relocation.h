@@ -32,7 +32,7 @@ collapse with the restriction it carried, or from a remesher with `closest_point
 Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes meet signals of lower eigenvalues only,
 and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls when \f$ \widetilde\lambda_i \f$ does, although
 these eigenvalues are too low already. `Relocation_options::beyond` therefore holds the mean of the next K / 2 where it was; this
-takes the lowest 1.5 K eigenpairs of the coarse mesh, found once and followed every ten steps, and nothing of the fine one.
+takes the lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and nothing of the fine one.
 
 Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements has the size of what is to
 be repaired, and a descent cancels it by distorting the shape.

@@ -62,8 +62,9 @@ The gradient is exact: derivatives with respect to the entries of B, L and M are
 derivatives with respect to its three cotangents and its area, and go on from there to its corners. Residuals are made of
 differences F_j - F_w: the small ones of smooth signals are not lost in the rounding of large sums.
 
-A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of A and two solves for each
-signal. Signals are treated 32 at a time, so that what a solve works on stays in the cache, on as many threads as `set_threads()` says.
+A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of A and for each signal one
+solve, two with a gradient. Signals are treated 32 at a time, so that what a solve works on stays in the cache, on as many threads
+as `set_threads()` says.
 
 E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows nothing of
 inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
@@ -112,7 +113,7 @@ public:
   /// Threads to use, from 1; no result depends on them.
   void set_threads(const int threads) { m_threads = threads; }
 
-  /// returns S(V), infinity if a triangle has no area.
+  /// returns S(V), infinity if a triangle has no area or A cannot be factorised.
   double value(const Positions& V) { return evaluate(V, nullptr); }
 
   /// returns S(V) and writes its gradient, n x 3, which is 0 where S is infinite.

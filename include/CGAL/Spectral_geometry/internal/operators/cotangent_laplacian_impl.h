@@ -161,7 +161,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Ei
 
 namespace internal {
 
-// `element(f)` is what face f adds: cotangents, area, and the lumped mass of its corners.
+// What a face adds: cotangents, area, and the lumped mass of its corners.
 struct Face_element
 {
   Triangle_cotangents t;
@@ -180,6 +180,7 @@ struct Face_element
   }
 };
 
+// `element(f)` is the `Face_element` of face f.
 template <class Element>
 Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const double theta,
                           const Element& element)

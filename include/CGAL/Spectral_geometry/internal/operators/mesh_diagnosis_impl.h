@@ -374,7 +374,8 @@ inline const Mesh_component& smallest_component(const std::vector<Mesh_component
   return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.vertices < b.vertices; });
 }
 
-/// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `does` is in the singular and the plural.
+/// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `singular` and `plural` are what one or
+/// several of them do.
 inline std::string finding_clause(const Mesh_finding& finding, const std::size_t total, const bool faces,
                                   const std::string& singular, const std::string& plural)
 {

@@ -86,7 +86,8 @@ inline bool triangles_intersect(Corners s, Corners t)
 /// Pairs of faces, the smaller index first, in ascending order.
 using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
-/// The pairs of faces of the mesh (V, T) that meet in more than a common vertex or edge.
+/// Whether `found(f, g)` is true for two faces f < g of the mesh (V, T) that meet in more than a common vertex or edge; looks no
+/// further then.
 template <class Positions, class Found>
 bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, const Found& found)
 {
@@ -106,7 +107,7 @@ bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, c
   return false;
 }
 
-/// All of them, in ascending order.
+/// All such pairs, in ascending order.
 template <class Positions>
 Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
 {
