@@ -87,9 +87,7 @@ struct Local_operator
   template <class Matrix>
   Local_operator restricted(const Matrix& P) const
   {
-    Local_operator result(theta);
-    result.voronoi = voronoi;
-    result.boundary = boundary;
+    Local_operator result = *this;
     if(coefficients.rows() != 0)
       result.coefficients = P * coefficients;
     return result;

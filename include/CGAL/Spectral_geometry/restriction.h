@@ -126,11 +126,8 @@ public:
   Matrix restriction(const std::vector<Index>& slots, const std::optional<Index> number_of_merges = {}) const
   {
     const Expansion e = expand(slots, number_of_merges);
-    Index nonzeros = 0;
-    for(const double w : e.weight)
-      nonzeros += (w != 0);
     Matrix P(static_cast<Index>(slots.size()), number_of_slots());
-    P.reserve(nonzeros);
+    P.reserve(number_of_slots() - std::count(e.weight.begin(), e.weight.end(), 0.));
     for(Index slot = 0; slot < number_of_slots(); ++slot) {
       P.startVec(slot);
       const std::size_t s = static_cast<std::size_t>(slot);
@@ -183,7 +180,7 @@ private:
     return alive;
   }
 
-  Expansion roots(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
+  Expansion expand(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     Expansion e{std::vector<Index>(alive.size(), -1), std::vector<double>(alive.size(), 0.)};
@@ -199,13 +196,7 @@ private:
     for(std::size_t s = 0; s < alive.size(); ++s)
       internal::require(!alive[s] || e.row[s] != -1, "Merge_forest: slot ", s,
                         " is left but has no row, list each slot that is left once.");
-    return e;
-  }
-
-  // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in `removed`.
-  Expansion expand(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
-  {
-    Expansion e = roots(slots, number_of_merges);
+    // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in `removed`.
     for(Index i = number_of_merges.value_or(this->number_of_merges()); i-- > 0;) {
       const Merge& m = m_merges[static_cast<std::size_t>(i)];
       const std::size_t k = static_cast<std::size_t>(m.kept), r = static_cast<std::size_t>(m.removed);
