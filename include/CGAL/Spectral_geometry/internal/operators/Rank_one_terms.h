@@ -75,18 +75,15 @@ public:
     return y;
   }
 
-  // for each entry of the pattern that of the matrix
-  Vector entries(const Vector& x) const { return m_map * x; }
-
-  // the adjoint: the derivatives by x of the sum of products of entries with those
-  Vector derivatives(const Vector& of_entries) const { return m_map.transpose() * of_entries; }
-
   Sparse_matrix matrix(const Vector& x) const
   {
     Sparse_matrix result = m_pattern;
-    result.coeffs() = entries(x).array();
+    result.coeffs() = Vector(m_map * x).array();
     return result;
   }
+
+  // the adjoint: the derivatives by x of the sum of products of entries of the matrix with those
+  Vector derivatives(const Vector& of_entries) const { return m_map.transpose() * of_entries; }
 
 private:
   std::vector<Eigen::Triplet<double>> m_entries;

@@ -40,12 +40,6 @@ class Operator_fit
   using Rows = Rank_one_terms::Rows;
 
 public:
-  // What eigenvalues are measured in, at unit area.
-  static double unit_of(const Laplace_operator& op)
-  {
-    return op.has_coefficients ? unit_of_stiffness(op.L) : 1.;
-  }
-
   Operator_fit(const Laplace_operator& own, const Matrix& G, Vector lambda,
                const Operator_fit_options& options)
     : m_options(options)
@@ -53,7 +47,8 @@ public:
     , m_lambda(std::move(lambda))
     , m_area(own.mass.sum())
     , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
-    , m_weight((m_lambda.array() + 4 * CGAL_PI * unit_of(own)).pow(-options.low_modes))
+    , m_weight((m_lambda.array() + 4 * CGAL_PI * (own.has_coefficients ? unit_of_stiffness(own.L) : 1.))
+                   .pow(-options.low_modes))
     , m_pool(options.threads)
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
