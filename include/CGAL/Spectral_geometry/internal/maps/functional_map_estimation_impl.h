@@ -40,16 +40,15 @@ orientation_operator(const Eigen::MatrixXi& T, const Eigen::MatrixXd& vectors, c
 
 namespace internal {
 
-// Accumulates sum_i w_i || C A_i - B_i C ||^2 as a quadratic form in vec(C), C of size rows x columns.
+// Accumulates sum_i w_i || C A_i - B_i C ||^2 as a quadratic form in vec(C), C of size k x k.
 class Commuting_terms
 {
 public:
-  Commuting_terms(Eigen::Index rows, Eigen::Index columns)
-    : m_rows(rows)
-    , m_columns(columns)
-    , m_form(Eigen::MatrixXd::Zero(rows * columns, rows * columns))
-    , m_left(Eigen::MatrixXd::Zero(rows, rows))
-    , m_right(Eigen::MatrixXd::Zero(columns, columns))
+  explicit Commuting_terms(Eigen::Index k)
+    : m_k(k)
+    , m_form(Eigen::MatrixXd::Zero(k * k, k * k))
+    , m_left(Eigen::MatrixXd::Zero(k, k))
+    , m_right(Eigen::MatrixXd::Zero(k, k))
   {}
 
   // vec(C A - B C) = (A^T (x) I - I (x) B) vec(C); its square has four blocks, of which only the mixed ones fill.
@@ -57,26 +56,25 @@ public:
   {
     m_right += weight * (A * A.transpose());
     m_left += weight * (B.transpose() * B);
-    for(Eigen::Index j = 0; j < m_columns; ++j)
-      for(Eigen::Index l = 0; l < m_columns; ++l)
-        m_form.block(j * m_rows, l * m_rows, m_rows, m_rows) -=
-            weight * (A(j, l) * B + A(l, j) * B.transpose());
+    for(Eigen::Index j = 0; j < m_k; ++j)
+      for(Eigen::Index l = 0; l < m_k; ++l)
+        m_form.block(j * m_k, l * m_k, m_k, m_k) -= weight * (A(j, l) * B + A(l, j) * B.transpose());
   }
 
   // The form, with the terms that are the same in all blocks.
   Eigen::MatrixXd form() const
   {
     Eigen::MatrixXd result = m_form;
-    for(Eigen::Index j = 0; j < m_columns; ++j) {
-      result.block(j * m_rows, j * m_rows, m_rows, m_rows) += m_left;
-      for(Eigen::Index l = 0; l < m_columns; ++l)
-        result.block(j * m_rows, l * m_rows, m_rows, m_rows).diagonal().array() += m_right(j, l);
+    for(Eigen::Index j = 0; j < m_k; ++j) {
+      result.block(j * m_k, j * m_k, m_k, m_k) += m_left;
+      for(Eigen::Index l = 0; l < m_k; ++l)
+        result.block(j * m_k, l * m_k, m_k, m_k).diagonal().array() += m_right(j, l);
     }
     return result;
   }
 
 private:
-  Eigen::Index m_rows, m_columns;
+  Eigen::Index m_k;
   Eigen::MatrixXd m_form, m_left, m_right;
 };
 
@@ -102,7 +100,7 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
   const Eigen::MatrixXd phi = X.pairs.vectors.leftCols(k), psi = Y.pairs.vectors.leftCols(k);
   Eigen::MatrixXd a = phi.transpose() * (X.op.B * f), b = psi.transpose() * (Y.op.B * g);
 
-  internal::Commuting_terms terms(k, k);
+  internal::Commuting_terms terms(k);
   const double largest = (std::max)(X.pairs.values(k - 1), Y.pairs.values(k - 1));
   terms.add(Eigen::MatrixXd((X.pairs.values.head(k) / largest).asDiagonal()),
             Eigen::MatrixXd((Y.pairs.values.head(k) / largest).asDiagonal()), weights.commutativity);

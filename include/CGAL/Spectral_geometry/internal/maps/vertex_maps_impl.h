@@ -16,17 +16,6 @@
 #include <cstddef>
 
 namespace CGAL::Spectral_geometry {
-namespace internal {
-
-inline void check_vertex_map(const std::vector<Eigen::Index>& map, Eigen::Index targets, Eigen::Index sources)
-{
-  check_dimension("the number of entries of the vertex map", static_cast<Eigen::Index>(map.size()), targets);
-  for(std::size_t i = 0; i < map.size(); ++i)
-    require(map[i] >= 0 && map[i] < sources, "vertex map: entry ", i, " is ", map[i],
-            ", it must be a vertex of the source, in [0, ", sources, ").");
-}
-
-} // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
 nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads)
@@ -57,7 +46,12 @@ functional_map_of_vertex_map(const Eigen::MatrixXd& source_vectors, const Eigen:
                              const Eigen::SparseMatrix<double>& target_B,
                              const std::vector<Eigen::Index>& target_to_source)
 {
-  internal::check_vertex_map(target_to_source, target_vectors.rows(), source_vectors.rows());
+  internal::check_dimension("the number of entries of the vertex map",
+                            static_cast<Eigen::Index>(target_to_source.size()), target_vectors.rows());
+  for(std::size_t y = 0; y < target_to_source.size(); ++y)
+    internal::require(target_to_source[y] >= 0 && target_to_source[y] < source_vectors.rows(),
+                      "vertex map: entry ", y, " is ", target_to_source[y],
+                      ", it must be a vertex of the source, in [0, ", source_vectors.rows(), ").");
   internal::check_dimension("the size of the mass of the target", target_B.rows(), target_vectors.rows());
   internal::check_dimension("the number of columns of the mass of the target", target_B.cols(),
                             target_vectors.rows());
