@@ -39,6 +39,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
 
 namespace internal {
 
+// Of a triangle whose edges were divided by a power of two.
+inline Triangle_cotangents cotangents_of(const Triangle_element& t, const int exponent)
+{
+  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
+  if(t.is_degenerate())
+    return result;
+  for(int k = 0; k < 3; ++k)
+    result.cot(k) = t.dot[k] / t.twice_area;
+  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent);
+  return result;
+}
+
 // With coefficients the area is weighted by the density.
 inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                                          const Eigen::Vector3d& r, const Point_coefficients* mean)
@@ -46,22 +58,16 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
   Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
   const double extent = (std::max)(
       {edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
-  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
-  if(extent == 0.)
-    return result;
-
   // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is exact.
-  const int exponent = std::isfinite(extent) ? std::ilogb(extent) : 0;
+  const int exponent = extent > 0. && std::isfinite(extent) ? std::ilogb(extent) : 0;
   for(Eigen::Vector3d& e : edge)
     for(int c = 0; c < 3; ++c)
       e(c) = std::scalbn(e(c), -exponent);
 
-  const Triangle_element t = mean ? triangle_element(edge, *mean) : triangle_element(edge);
-  if(t.is_degenerate())
-    return result;
-  for(int k = 0; k < 3; ++k)
-    result.cot(k) = t.dot[k] / t.twice_area;
-  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent) * (mean ? (*mean)[0] : 1.);
+  if(!mean)
+    return cotangents_of(triangle_element(edge), exponent);
+  Triangle_cotangents result = cotangents_of(triangle_element(edge, *mean), exponent);
+  result.area *= (*mean)[0];
   return result;
 }
 
@@ -166,19 +172,15 @@ struct Face_element
 {
   Triangle_cotangents t;
   Eigen::RowVector3d corner_masses;
-
-  Face_element(const Triangle_cotangents& t, const Eigen::RowVector3d& corner_masses)
-    : t(t)
-    , corner_masses(corner_masses)
-  {}
-  Face_element(const Triangle_cotangents& t, const bool voronoi)
-    : t(t)
-    , corner_masses(Eigen::RowVector3d::Constant(t.area / 3.))
-  {
-    for(int k = 0; k < 3 && voronoi; ++k)
-      corner_masses(k) = t.area * lumped_share(voronoi, t.cot, k);
-  }
 };
+
+inline Face_element lumped_element(const Triangle_cotangents& t, const bool voronoi)
+{
+  Face_element result{t, Eigen::RowVector3d::Constant(t.area / 3.)};
+  for(int k = 0; k < 3 && voronoi; ++k)
+    result.corner_masses(k) = t.area * lumped_share(voronoi, t.cot, k);
+  return result;
+}
 
 // `element(f)` is the `Face_element` of face f.
 template <class Element>
@@ -235,13 +237,12 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
 inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& op)
 {
   const auto on_border = [&](const Eigen::Index v) { return border[std::size_t(v)] != 0; };
-  const auto couples = [&](const Eigen::Index i, const Eigen::Index j) {
-    return i != j && (on_border(i) || on_border(j));
-  };
   const double unit = op.L.diagonal().cwiseAbs().mean() / std::sqrt(12.);
   const double beyond = 100 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
   for(Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
-    matrix->prune([&](const Eigen::Index i, const Eigen::Index j, double) { return !couples(i, j); });
+    matrix->prune([&](const Eigen::Index i, const Eigen::Index j, double) {
+      return i == j || !(on_border(i) || on_border(j));
+    });
   for(Eigen::Index v = 0; v < op.L.rows(); ++v)
     if(on_border(v))
       op.L.coeffRef(v, v) = beyond * op.B.coeff(v, v);
@@ -269,7 +270,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   internal::require(corner_masses.rows() == T.rows() && corner_masses.cols() == 3,
                     "Laplace operator: the corner masses must be a matrix of the size of T.");
   return internal::assemble(T, V.rows(), theta, [&](const Eigen::Index f) {
-    return internal::Face_element(internal::checked_cotangents(V, T, f), corner_masses.row(f));
+    return internal::Face_element{internal::checked_cotangents(V, T, f), corner_masses.row(f)};
   });
 }
 
@@ -281,7 +282,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   internal::check_triangles(T, V.rows());
   internal::check_local_operator(op, V.rows());
   Laplace_operator result = internal::assemble(T, V.rows(), op.theta, [&](const Eigen::Index f) {
-    return internal::Face_element(internal::checked_cotangents(V, T, f, op.coefficients), op.voronoi);
+    return internal::lumped_element(internal::checked_cotangents(V, T, f, op.coefficients), op.voronoi);
   });
   result.voronoi = op.voronoi;
   result.has_coefficients = op.coefficients.rows() != 0;

@@ -11,10 +11,10 @@
 #include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
@@ -74,14 +74,7 @@ public:
 
   Triangle_cotangents cotangents(const Eigen::Index f) const
   {
-    const Triangle_element& t = m_element[std::size_t(f)];
-    Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
-    if(t.is_degenerate())
-      return result;
-    for(int k = 0; k < 3; ++k)
-      result.cot(k) = t.dot[k] / t.twice_area;
-    result.area = std::scalbn(0.5 * t.twice_area, 2 * m_exponent);
-    return result;
+    return cotangents_of(m_element[std::size_t(f)], m_exponent);
   }
 
 private:
@@ -101,24 +94,17 @@ private:
   // Two sides of opposite direction, and no third: all others stay without a twin, as on a border.
   void glue_sides()
   {
-    struct Side
-    {
-      int low, high, slot;
-    };
-    std::vector<Side> sides;
+    std::vector<std::pair<std::pair<int, int>, int>> sides; // ends and slot
     sides.reserve(m_twin.size());
-    for(int s = 0; s < int(m_twin.size()); ++s) {
-      const auto [low, high] = std::minmax({vertex(next(s)), vertex(next(next(s)))});
-      sides.push_back({low, high, s});
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-      return std::tie(a.low, a.high, a.slot) < std::tie(b.low, b.high, b.slot);
-    });
-    for(auto first = sides.begin(), last = first; first != sides.end(); first = last) {
-      while(last != sides.end() && last->low == first->low && last->high == first->high)
-        ++last;
-      if(last - first == 2 && vertex(next(first->slot)) != vertex(next(first[1].slot)))
-        glue(first->slot, first[1].slot);
+    for(int s = 0; s < int(m_twin.size()); ++s)
+      sides.emplace_back(std::minmax({vertex(next(s)), vertex(next(next(s)))}), s);
+    std::sort(sides.begin(), sides.end());
+    for(auto side = sides.begin(), end = side; side != sides.end(); side = end) {
+      while(end != sides.end() && end->first == side->first)
+        ++end;
+      const int s = side->second, t = end[-1].second;
+      if(end - side == 2 && vertex(next(s)) != vertex(next(t)))
+        glue(s, t);
     }
   }
 
@@ -223,7 +209,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
                       corners(f, 1), " and ", corners(f, 2),
                       " (counted from 0) is a needle or too large, its cotangents or its area overflow the "
                       "matrix; collapse its shortest edge, remesh there or rescale the mesh.");
-    internal::Face_element element(t, mass == Mass::voronoi);
+    internal::Face_element element = internal::lumped_element(t, mass == Mass::voronoi);
     for(int k = 0; k < 3; ++k)
       if(is_loop(f, k)) // its difference of values is 0
         element.t.cot(k) = 0.;
