@@ -114,6 +114,27 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::
                                                                    const int (&corners)[3],
                                                                    const Operator_coefficients& coefficients);
 
+/// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal index may matter: `index` gets the
+/// numbers of the vertices as they come.
+template <class Mesh, class NamedParameters, class Index_map>
+Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, Index_map index)
+{
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                       get_const_property_map(vertex_point, mesh));
+  std::vector<double> coordinates;
+  typename boost::property_traits<Index_map>::value_type n = 0;
+  for(const auto v : vertices(mesh)) {
+    put(index, v, n++);
+    const auto& p = get(points, v);
+    for(const double x : {to_double(p.x()), to_double(p.y()), to_double(p.z())})
+      coordinates.push_back(x);
+  }
+  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+      coordinates.data(), static_cast<Eigen::Index>(n), 3);
+}
+
 } // namespace internal
 
 /// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's area at each corner.
@@ -166,21 +187,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                       get_const_property_map(vertex_point, tm));
-  // Neither removed elements nor the lack of an internal index may matter: number the vertices as they come.
-  auto index = get(CGAL::dynamic_vertex_property_t<int>(), tm);
-
-  std::vector<double> coordinates;
-  int n = 0;
-  for(const auto v : vertices(tm)) {
-    put(index, v, n++);
-    const auto& p = get(points, v);
-    for(const double x : {to_double(p.x()), to_double(p.y()), to_double(p.z())})
-      coordinates.push_back(x);
-  }
+  const auto index = get(CGAL::dynamic_vertex_property_t<int>(), tm);
+  Mesh_matrices result;
+  result.V = internal::numbered_positions(tm, np, index);
   std::vector<int> corners;
   Eigen::Index m = 0;
   for(const auto f : faces(tm)) {
@@ -192,9 +201,6 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = 
     ++m;
   }
 
-  Mesh_matrices result;
-  result.V =
-      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(coordinates.data(), n, 3);
   result.T = Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>>(corners.data(), m, 3);
   internal::check_positions(result.V);
   return result;

@@ -9,9 +9,7 @@
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-#include <CGAL/number_utils.h>
 
 #include <cstddef>
 #include <string>
@@ -137,28 +135,15 @@ diagnose_polygon_soup(const Eigen::MatrixXd& V, const std::vector<std::vector<st
 template <class PolygonMesh, class NamedParameters = parameters::Default_named_parameters>
 Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm, const NamedParameters& np = parameters::default_values())
 {
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                       get_const_property_map(vertex_point, pm));
-  auto index = get(CGAL::dynamic_vertex_property_t<std::size_t>(), pm);
-  std::vector<double> coordinates;
-  std::size_t n = 0;
-  for(const auto v : vertices(pm)) {
-    put(index, v, n++);
-    const auto& p = get(points, v);
-    for(const double x : {to_double(p.x()), to_double(p.y()), to_double(p.z())})
-      coordinates.push_back(x);
-  }
+  const auto index = get(CGAL::dynamic_vertex_property_t<std::size_t>(), pm);
+  const Eigen::MatrixXd V = internal::numbered_positions(pm, np, index);
   std::vector<std::vector<std::size_t>> polygons;
   for(const auto f : faces(pm)) {
     polygons.emplace_back();
     for(const auto v : vertices_around_face(halfedge(f, pm), pm))
       polygons.back().push_back(get(index, v));
   }
-  return diagnose_polygon_soup(Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
-                                   coordinates.data(), Eigen::Index(n), 3),
-                               polygons);
+  return diagnose_polygon_soup(V, polygons);
 }
 
 /// @}

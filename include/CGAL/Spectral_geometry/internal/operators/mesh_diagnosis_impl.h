@@ -68,8 +68,6 @@ private:
     }
   };
 
-  bool finite(const std::size_t v) const { return m_finite[v]; }
-
   bool same_position(const std::size_t v, const std::size_t w) const
   {
     return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
@@ -124,33 +122,27 @@ private:
   // Only faces with the same smallest vertex and the same sum can have the same vertices.
   void find_duplicates()
   {
-    struct Key
-    {
-      std::size_t smallest, sum, face;
-      bool operator<(const Key& other) const
-      {
-        return std::tie(smallest, sum, face) < std::tie(other.smallest, other.sum, other.face);
-      }
-    };
-    std::vector<Key> keys;
-    keys.reserve(m_polygons.size());
+    using Key = std::pair<std::size_t, std::size_t>; // smallest vertex and sum
+    std::vector<std::pair<Key, std::size_t>> faces;
+    faces.reserve(m_polygons.size());
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
       if(m_sound[f]) {
         const std::vector<std::size_t>& p = m_polygons[f];
-        keys.push_back(
-            {*std::min_element(p.begin(), p.end()), std::accumulate(p.begin(), p.end(), std::size_t(0)), f});
+        const Key key(*std::min_element(p.begin(), p.end()),
+                      std::accumulate(p.begin(), p.end(), std::size_t(0)));
+        faces.emplace_back(key, f);
       }
-    std::sort(keys.begin(), keys.end());
+    std::sort(faces.begin(), faces.end());
     std::vector<std::pair<std::size_t, std::size_t>> duplicates;
     std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sets;
-    for(std::size_t i = 0, j; i < keys.size(); i = j) {
-      for(j = i + 1; j < keys.size() && keys[j].smallest == keys[i].smallest && keys[j].sum == keys[i].sum;)
+    for(std::size_t i = 0, j; i < faces.size(); i = j) {
+      for(j = i + 1; j < faces.size() && faces[j].first == faces[i].first;)
         ++j;
       if(j == i + 1)
         continue;
       sets.clear();
       for(std::size_t k = i; k < j; ++k) {
-        sets.emplace_back(m_polygons[keys[k].face], keys[k].face);
+        sets.emplace_back(m_polygons[faces[k].second], faces[k].second);
         std::sort(sets.back().first.begin(), sets.back().first.end());
       }
       std::sort(sets.begin(), sets.end());
@@ -239,7 +231,7 @@ private:
     std::vector<State> state(m_n, unused);
     for(std::size_t f = 0; f < m_polygons.size(); ++f) {
       const std::vector<std::size_t>& p = m_polygons[f];
-      if(!m_sound[f] || !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return finite(v); }))
+      if(!m_sound[f] || !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return m_finite[v]; }))
         continue;
       double area = 1;
       if(p.size() == 3) {
@@ -264,7 +256,7 @@ private:
     std::vector<std::pair<std::array<double, 3>, std::size_t>> order;
     order.reserve(m_n);
     for(std::size_t v = 0; v < m_n; ++v)
-      if(finite(v))
+      if(m_finite[v])
         order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
     std::sort(order.begin(), order.end());
     std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -285,14 +277,14 @@ private:
     Eigen::AlignedBox3d box;
     for(const Side& side : m_sides)
       for(const std::size_t v : {side.low, side.high})
-        if(finite(v))
+        if(m_finite[v])
           box.extend(point(v));
     const double largest = 1e-5 * box.diagonal().norm();
     if(box.isEmpty() || !(largest > 0) || !std::isfinite(largest))
       return;
     std::vector<double> reach(m_n, largest);
     for(const Side& side : m_sides)
-      if(finite(side.low) && finite(side.high))
+      if(m_finite[side.low] && m_finite[side.high])
         for(const std::size_t v : {side.low, side.high})
           reach[v] = (std::min)(reach[v], 0.49 * (point(side.low) - point(side.high)).norm());
     using Cell = std::array<std::int64_t, 3>;
@@ -302,7 +294,7 @@ private:
       return Cell{std::int64_t(x[0]), std::int64_t(x[1]), std::int64_t(x[2])};
     };
     for(std::size_t v = 0; v < m_n; ++v) {
-      if(!m_border[v] || !finite(v) || !(reach[v] > 1e-10 * largest))
+      if(!m_border[v] || !m_finite[v] || !(reach[v] > 1e-10 * largest))
         continue; // closer than that, positions are equal
       std::size_t first = v;
       for(const auto& [level, cells] : levels) {
@@ -374,28 +366,32 @@ inline const Mesh_component& smallest_component(const std::vector<Mesh_component
   return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.vertices < b.vertices; });
 }
 
-/// "3 of 17 faces have zero area, the first is face 4 (counted from 0)"; `singular` and `plural` are what one or
-/// several of them do.
-inline std::string finding_clause(const Mesh_finding& finding, const std::size_t total, const bool faces,
-                                  const std::string& singular, const std::string& plural)
+/// Adds what was found, if anything: "3 of 17 faces have zero area, the first is face 4 (counted from 0): they ...". `singular` and
+/// `plural` are what one or several of them do.
+inline void add_clause(std::vector<std::string>& clauses, const Mesh_finding& finding,
+                       const std::size_t total, const bool faces, const std::string& singular,
+                       const std::string& plural, const std::string& help)
 {
   const std::string kind = faces ? "face" : "vertex", kinds = faces ? "faces" : "vertices";
   const std::string first = kind + " " + std::to_string(finding.first) + " (counted from 0)";
   if(finding.count == 1)
-    return first + " " + singular;
-  return std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds + " " + plural +
-         ", the first is " + first;
+    clauses.push_back(first + " " + singular + ": " + help);
+  else if(finding.count > 1)
+    clauses.push_back(std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds + " " +
+                      plural + ", the first is " + first + ": " + help);
 }
 
 /// The same for edges, which have no number but two ends.
-inline std::string edge_clause(const Mesh_finding& finding, const std::string& singular,
-                               const std::string& plural)
+inline void add_edge_clause(std::vector<std::string>& clauses, const Mesh_finding& finding,
+                            const std::string& singular, const std::string& plural, const std::string& help)
 {
   const std::string first = "from vertex " + std::to_string(finding.first) + " to vertex " +
                             std::to_string(finding.second) + " (counted from 0)";
   if(finding.count == 1)
-    return "the edge " + first + " " + singular;
-  return std::to_string(finding.count) + " edges " + plural + ", the first runs " + first;
+    clauses.push_back("the edge " + first + " " + singular + ": " + help);
+  else if(finding.count > 1)
+    clauses.push_back(std::to_string(finding.count) + " edges " + plural + ", the first runs " + first +
+                      ": " + help);
 }
 
 } // namespace internal
@@ -405,13 +401,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
   using std::to_string;
   std::vector<std::string> result;
   const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many, const char* help) {
-    if(f.count != 0)
-      result.push_back(internal::finding_clause(f, number_of_vertices, false, one, many) + ": " + help);
+    internal::add_clause(result, f, number_of_vertices, false, one, many, help);
   };
   const auto faces = [&](const Mesh_finding& f, const std::string& one, const char* many,
                          const std::string& help) {
-    if(f.count != 0)
-      result.push_back(internal::finding_clause(f, number_of_faces, true, one, many) + ": " + help);
+    internal::add_clause(result, f, number_of_faces, true, one, many, help);
   };
   vertices(non_finite_vertices, "has a coordinate that is not a finite number",
            "have a coordinate that is not a finite number", "correct it or remove the faces around");
@@ -428,10 +422,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
   const std::string twin = "has the vertices of face " + to_string(duplicate_faces.second);
   faces(duplicate_faces, twin, "have the vertices of an earlier one",
         (duplicate_faces.count > 1 ? "it " + twin + "; " : std::string()) + "remove the copies");
-  if(non_manifold_edges.count != 0)
-    result.push_back(
-        internal::edge_clause(non_manifold_edges, "has more than two faces", "have more than two faces") +
-        ": separate the sheets");
+  internal::add_edge_clause(result, non_manifold_edges, "has more than two faces", "have more than two faces",
+                            "separate the sheets");
   if(misoriented_edges.count != 0)
     result.push_back(
         "the faces " + to_string(misoriented_edges.first) + " and " + to_string(misoriented_edges.second) +
@@ -452,18 +444,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::remarks() const
 {
   std::vector<std::string> result;
-  if(zero_length_edges.count != 0)
-    result.push_back(internal::edge_clause(zero_length_edges, "has no length", "have no length") +
-                     ": their ends are merged first");
-  if(zero_area_faces.count != 0)
-    result.push_back(
-        internal::finding_clause(zero_area_faces, number_of_faces, true, "has zero area", "have zero area") +
-        ": they contribute nothing to the operator");
-  if(coincident_vertices.count != 0)
-    result.push_back(internal::finding_clause(coincident_vertices, number_of_vertices, false,
-                                              "lies where another vertex lies",
-                                              "lie where another vertex lies") +
-                     ": seams stay open unless they are stitched");
+  internal::add_edge_clause(result, zero_length_edges, "has no length", "have no length",
+                            "their ends are merged first");
+  internal::add_clause(result, zero_area_faces, number_of_faces, true, "has zero area", "have zero area",
+                       "they contribute nothing to the operator");
+  internal::add_clause(result, coincident_vertices, number_of_vertices, false,
+                       "lies where another vertex lies", "lie where another vertex lies",
+                       "seams stay open unless they are stitched");
   if(components.size() > 1) {
     const Mesh_component& smallest = internal::smallest_component(components);
     result.push_back("there are " + std::to_string(components.size()) + " components, the smallest of " +
