@@ -176,7 +176,7 @@ private:
       const Index first = Index(i - given) * width;
       add({panel(F, first), panel(Z, first)}, gradient != nullptr, work);
       if(gradient)
-        add_linear(first, (std::min)(Index(width), F.cols() - first), work, by_F, by_Z);
+        internal::on_vector_units([&] { add_linear(first, work, by_F, by_Z); });
     });
     m_smoothed = m_plain = 0;
     Entries derivatives = m_geometry.zero_entries();
@@ -205,9 +205,9 @@ private:
   }
 
   // Derivatives with respect to the entries of F and Z, in which R is linear.
-  CGAL_SPECTRAL_INLINE void add_linear_body(const Index first, const Index columns, const Work& work,
-                                            Rows& by_F, Rows& by_Z) const
+  CGAL_SPECTRAL_INLINE void add_linear(const Index first, const Work& work, Rows& by_F, Rows& by_Z) const
   {
+    const Index columns = (std::min)(Index(width), by_F.cols() - first);
     for(Index w = 0; w < number_of_vertices(); ++w) {
       Row f{}, z{};
       add_multiple(2 * m_entries.B_diagonal(w), work.multiplier.row(w).data(), z);
@@ -220,11 +220,6 @@ private:
       std::copy_n(f, columns, by_F.row(w).data() + first);
       std::copy_n(z, columns, by_Z.row(w).data() + first);
     }
-  }
-
-  void add_linear(const Index first, const Index columns, const Work& work, Rows& by_F, Rows& by_Z) const
-  {
-    internal::on_vector_units([&] { add_linear_body(first, columns, work, by_F, by_Z); });
   }
 
   // A = B + tau L, lower triangle.
