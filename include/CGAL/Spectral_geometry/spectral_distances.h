@@ -124,8 +124,8 @@ inline void check_steps(Eigen::Index steps, Eigen::Index least)
   require(steps >= least, "spectral distances: ", steps, " steps are asked for, take at least ", least, ".");
 }
 
-// The pairs without the kernel.
-inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
+// Of the pairs without the kernel.
+inline Eigen::ArrayXd nonzero_values(const Eigenpairs& pairs)
 {
   require(pairs.zeros >= 0, "spectral distances: the eigenpairs do not say how many eigenvalues are zero; "
                             "set Eigenpairs::zeros to the number of connected components.");
@@ -135,15 +135,15 @@ inline Eigen::Index first_nonzero(const Eigenpairs& pairs)
   require(pairs.values(first) > 0, "spectral distances: eigenvalue ", first,
           " was computed as zero, but only ", first,
           " are; the component has a neck that is too narrow for doubles.");
-  return first;
+  return pairs.values.tail(pairs.size() - first).array();
 }
 
-// Squared distances in the embedding v -> (sqrt(w_i) phi_i(v)), i >= first. Differences first: the expansion
-// of the square would lose the distances of close vertices.
+// Squared distances in the embedding v -> (sqrt(w_i) phi_i(v)) by the last pairs, as many as there are weights. Differences first:
+// the expansion of the square would lose the distances of close vertices.
 inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const Distance_sources& sources,
-                                         const Eigen::ArrayXd& weights, Eigen::Index first)
+                                         const Eigen::ArrayXd& weights)
 {
-  const auto functions = pairs.vectors.rightCols(pairs.size() - first);
+  const auto functions = pairs.vectors.rightCols(weights.size());
   const Eigen::VectorXd scales = weights.sqrt().matrix();
   const Eigen::MatrixXd at_sources = scales.asDiagonal() * sources.values(functions).transpose();
   const Eigen::MatrixXd embedding = scales.asDiagonal() * functions.transpose();
@@ -159,7 +159,7 @@ inline Eigen::MatrixXd squared_distances(const Eigenpairs& pairs, const Distance
 /// nonzero eigenvalue, in u^2. On a sphere of unit area it is 0.00995; Lescoat et al. show 0.01.
 inline double default_diffusion_time(const Eigenpairs& pairs)
 {
-  return 1 / (4 * pairs.values(internal::first_nonzero(pairs)));
+  return 1 / (4 * internal::nonzero_values(pairs)(0));
 }
 
 /*!
@@ -175,7 +175,7 @@ inline Eigen::MatrixXd squared_diffusion_distance(const Eigenpairs& pairs, const
                                                   double t)
 {
   internal::check_time(t);
-  return internal::squared_distances(pairs, sources, (-2 * t * pairs.values.array()).exp(), 0);
+  return internal::squared_distances(pairs, sources, (-2 * t * pairs.values.array()).exp());
 }
 
 /*!
@@ -189,9 +189,7 @@ between antipodes of the unit sphere the sum is pi/12, of which 100 pairs give 9
 */
 inline Eigen::MatrixXd squared_biharmonic_distance(const Eigenpairs& pairs, const Distance_sources& sources)
 {
-  const Eigen::Index first = internal::first_nonzero(pairs);
-  const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
-  return internal::squared_distances(pairs, sources, values.square().inverse(), first);
+  return internal::squared_distances(pairs, sources, internal::nonzero_values(pairs).square().inverse());
 }
 
 /*!
@@ -206,9 +204,7 @@ the network. On surfaces the sum grows with the logarithm of `K`: compare at one
 */
 inline Eigen::MatrixXd squared_commute_time_distance(const Eigenpairs& pairs, const Distance_sources& sources)
 {
-  const Eigen::Index first = internal::first_nonzero(pairs);
-  const Eigen::ArrayXd values = pairs.values.tail(pairs.size() - first).array();
-  return internal::squared_distances(pairs, sources, values.inverse(), first);
+  return internal::squared_distances(pairs, sources, internal::nonzero_values(pairs).inverse());
 }
 
 /*!
@@ -238,7 +234,7 @@ and the first mode have decayed to 1e-4.
 inline Eigen::VectorXd heat_kernel_times(const Eigenpairs& pairs, Eigen::Index steps = 100)
 {
   internal::check_steps(steps, 1);
-  const double first = pairs.values(internal::first_nonzero(pairs)), last = pairs.values(pairs.size() - 1);
+  const double first = internal::nonzero_values(pairs)(0), last = pairs.values(pairs.size() - 1);
   const double scale = 4 * std::log(10.);
   Eigen::VectorXd times(steps);
   for(Eigen::Index i = 0; i < steps; ++i) {
@@ -303,7 +299,7 @@ Throws `std::invalid_argument` if all nonzero eigenvalues are equal: then choose
 inline Wave_kernel_energies wave_kernel_energies(const Eigenpairs& pairs, Eigen::Index steps = 100)
 {
   internal::check_steps(steps, 1);
-  const double first = std::log(pairs.values(internal::first_nonzero(pairs)));
+  const double first = std::log(internal::nonzero_values(pairs)(0));
   const double last = std::log(pairs.values(pairs.size() - 1));
   const double sigma = 0.07 * (last - first);
   internal::require(sigma > 0, "spectral distances: all nonzero eigenvalues are equal, the wave kernel has "
@@ -330,8 +326,8 @@ inline Eigen::MatrixXd wave_kernel_signature(const Eigenpairs& pairs, const Wave
                     "spectral distances: the energies of the wave kernel are [", energies.t_min, ", ",
                     energies.t_max, "] with sigma ", energies.sigma,
                     ", pass a finite ascending interval and a positive sigma.");
-  const Eigen::Index first = internal::first_nonzero(pairs), modes = pairs.size() - first;
-  const Eigen::ArrayXd log_values = pairs.values.tail(modes).array().log();
+  const Eigen::ArrayXd log_values = internal::nonzero_values(pairs).log();
+  const Eigen::Index modes = log_values.size();
   Eigen::MatrixXd weights(modes, energies.steps);
   for(Eigen::Index i = 0; i < energies.steps; ++i) {
     const Eigen::ArrayXd exponents = -((energies.at(i) - log_values) / energies.sigma).square() / 2;
