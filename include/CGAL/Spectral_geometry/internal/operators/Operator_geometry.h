@@ -53,13 +53,17 @@ public:
   Operator_geometry(const Eigen::MatrixXi& T, const Index n, const Local_operator& op)
     : m_op(op)
   {
-    check(T, n);
+    check_local_operator(op, n);
+    require(T.cols() == 3, "relocation: T has ", T.cols(), " columns; pass a matrix of three.");
     m_rows.assign(std::size_t(n), {});
     m_triangles.reserve(std::size_t(T.rows()));
     for(Index f = 0; f < T.rows(); ++f) {
       Triangle t;
-      for(int k = 0; k < 3; ++k)
+      for(int k = 0; k < 3; ++k) {
         t.v[k] = T(f, k);
+        require(t.v[k] >= 0 && t.v[k] < n && t.v[k] != T(f, (k + 1) % 3), "relocation: triangle ", f,
+                " refers to vertex ", t.v[k], ", which does not exist or occurs twice; repair the indices.");
+      }
       for(int k = 0; k < 3; ++k)
         t.e[k] = edge_of(t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
       m_triangles.push_back(t);
@@ -118,16 +122,6 @@ private:
     int v[3];
     int e[3]; // edge k is opposite to corner k
   };
-
-  void check(const Eigen::MatrixXi& T, const Index n) const
-  {
-    check_local_operator(m_op, n);
-    require(T.cols() == 3, "relocation: T has ", T.cols(), " columns; pass a matrix of three.");
-    for(Index f = 0; f < T.rows(); ++f)
-      for(int k = 0; k < 3; ++k)
-        require(T(f, k) >= 0 && T(f, k) < n && T(f, k) != T(f, (k + 1) % 3), "relocation: triangle ", f,
-                " refers to vertex ", T(f, k), ", which does not exist or occurs twice; repair the indices.");
-  }
 
   int edge_of(const int i, const int j)
   {
