@@ -9,15 +9,12 @@
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace CGAL::Spectral_geometry {
-namespace internal {
 
-inline void check_interpolation_input(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
+closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
 {
+  using internal::require;
   const char* const who = "closest_point_interpolation: ";
   require(points.rows() == 0 || points.cols() == 3, who, "the points have ", points.cols(),
           " columns, pass a matrix of 3 columns.");
@@ -35,14 +32,6 @@ inline void check_interpolation_input(const Eigen::MatrixXd& points, const Mesh_
       require(surface.V.row(v).allFinite(), who, "vertex ", v,
               " of the surface has a coordinate that is not finite, remove or repair it.");
     }
-}
-
-} // namespace internal
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
-closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
-{
-  internal::check_interpolation_input(points, surface);
   return internal::interpolation(internal::Closest_point_query(surface), surface, points);
 }
 
