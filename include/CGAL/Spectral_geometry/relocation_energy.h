@@ -6,8 +6,8 @@
 #define CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 
 #include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
@@ -241,9 +241,8 @@ private:
       entries.emplace_back(int(i), int(i), diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face
     Eigen::SparseMatrix<double> A(n, n);
     A.setFromTriplets(entries.begin(), entries.end());
-    if(!m_analysed)
-      m_cholesky.analyzePattern(A);
-    m_analysed = true;
+    if(m_cholesky.rows() == 0)
+      m_cholesky.analyzePattern(A); // it stays the same
     m_cholesky.factorize(A);
     return m_cholesky.info() == Eigen::Success;
   }
@@ -410,7 +409,6 @@ private:
   std::vector<Signals> m_given;
   Entries m_entries;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
-  bool m_analysed = false;
   double m_smoothed = 0, m_plain = 0;
   int m_threads = 1;
   std::vector<Work> m_work;

@@ -18,7 +18,6 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 

@@ -12,7 +12,6 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
-#include <cmath>
 
 namespace CGAL::Spectral_geometry {
 

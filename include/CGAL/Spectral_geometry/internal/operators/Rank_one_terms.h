@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_RANK_ONE_TERMS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_RANK_ONE_TERMS_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/supernodal_structure.h>
 
 #include <Eigen/Core>

@@ -68,11 +68,6 @@ private:
     }
   };
 
-  bool same_position(const std::size_t v, const std::size_t w) const
-  {
-    return m_V.row(Eigen::Index(v)) == m_V.row(Eigen::Index(w));
-  }
-
   Eigen::Vector3d point(const std::size_t v) const { return m_V.row(Eigen::Index(v)); }
 
   bool joined(const std::size_t low, const std::size_t high) const
@@ -193,7 +188,7 @@ private:
         misoriented.emplace_back(side.face, m_sides[i + 1].face);
       else if(j - i == 1)
         m_border[side.low] = m_border[side.high] = true;
-      if(same_position(side.low, side.high))
+      if(point(side.low) == point(side.high))
         m_result.zero_length_edges.add(side.low, side.high);
     }
     add_sorted(misoriented, m_result.misoriented_edges);
