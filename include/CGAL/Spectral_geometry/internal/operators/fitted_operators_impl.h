@@ -263,7 +263,7 @@ private:
     }
   }
 
-  // The lower triangle of H = sum_v A_v^T A_v / D_v, where row v of R, times the root of W, is A_v^T x. It only preconditions: of
+  // The lower triangle of H = sum_v A_v A_v^T / D_v, where row v of R, times the root of W, is A_v^T x. It only preconditions: of
   // a vertex in whose row very many unknowns are, the diagonal is enough.
   void assemble_normal_matrix(const Rows& G)
   {
