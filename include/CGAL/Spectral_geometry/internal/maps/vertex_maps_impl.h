@@ -89,11 +89,6 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
       lengths(c, t) = (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
     }
 
-  struct Workspace
-  {
-    std::vector<Eigen::Index> faces, vertices; // within one edge of the nearest vertex, each once
-    std::vector<double> distances;             // of these vertices, squared
-  };
   const auto sort_unique = [](std::vector<Eigen::Index>& numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -104,39 +99,39 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
     Eigen::Vector3d weights;
   };
   std::vector<Found> found(nearest.size());
-  internal::Thread_pool<Workspace> pool(threads);
-  pool.for_each(found.size(), 64, [&](const std::size_t y, Workspace& near) {
-    near.faces.clear();
-    near.vertices.clear();
-    near.distances.clear();
-    for(const Eigen::Index around : star[static_cast<std::size_t>(nearest[y])])
+  const auto look = [&](const Eigen::Index y) {
+    std::vector<Eigen::Index> faces, vertices; // within one edge of the nearest vertex, each once
+    std::vector<double> distances;             // of these vertices, squared
+    const std::size_t i = static_cast<std::size_t>(y);
+    for(const Eigen::Index around : star[static_cast<std::size_t>(nearest[i])])
       for(int c = 0; c < 3; ++c) {
-        const std::vector<Eigen::Index>& faces = star[static_cast<std::size_t>(source_T(around, c))];
-        near.faces.insert(near.faces.end(), faces.begin(), faces.end());
+        const std::vector<Eigen::Index>& more = star[static_cast<std::size_t>(source_T(around, c))];
+        faces.insert(faces.end(), more.begin(), more.end());
       }
-    sort_unique(near.faces);
-    for(const Eigen::Index t : near.faces)
+    sort_unique(faces);
+    for(const Eigen::Index t : faces)
       for(int c = 0; c < 3; ++c)
-        near.vertices.push_back(source_T(t, c));
-    sort_unique(near.vertices);
-    const auto query = queries.col(static_cast<Eigen::Index>(y));
-    for(const Eigen::Index v : near.vertices)
-      near.distances.push_back((points.col(v) - query).squaredNorm());
+        vertices.push_back(source_T(t, c));
+    sort_unique(vertices);
+    const auto query = queries.col(y);
+    for(const Eigen::Index v : vertices)
+      distances.push_back((points.col(v) - query).squaredNorm());
     const auto distance = [&](const Eigen::Index v) {
-      return near.distances[static_cast<std::size_t>(
-          std::lower_bound(near.vertices.begin(), near.vertices.end(), v) - near.vertices.begin())];
+      return distances[static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
+                                                vertices.begin())];
     };
-    double best = (points.col(nearest[y]) - query).squaredNorm();
-    for(const Eigen::Index t : near.faces) {
+    double best = (points.col(nearest[i]) - query).squaredNorm();
+    for(const Eigen::Index t : faces) {
       const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)), distance(source_T(t, 2)));
       const internal::Point_of_triangle candidate =
           internal::closest_point_of_triangle_by_distances(d, lengths.col(t));
       if(candidate.squared_distance < best) {
         best = candidate.squared_distance;
-        found[y] = {t, candidate.weights};
+        found[i] = {t, candidate.weights};
       }
     }
-  });
+  };
+  internal::for_each_task(queries.cols(), threads, look, 64);
   std::vector<Eigen::Triplet<double>> entries;
   for(std::size_t y = 0; y < found.size(); ++y)
     if(found[y].face == -1)
