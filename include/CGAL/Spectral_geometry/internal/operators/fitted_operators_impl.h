@@ -49,7 +49,6 @@ public:
     , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
     , m_weight((m_lambda.array() + 4 * CGAL_PI * (own.has_coefficients ? unit_of_stiffness(own.L) : 1.))
                    .pow(-options.low_modes))
-    , m_pool(options.threads)
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
     m_weight *= mean > 0. ? 1. / mean : 0.; // 0 where all eigenvalues are
@@ -395,8 +394,8 @@ private:
   void for_each_block(const Function& f)
   {
     const Index N = m_row_mass.size(), ranges = number_of_ranges();
-    m_pool.for_each(std::size_t(ranges), 1, [&](std::size_t r, Nothing&) {
-      const Index range = static_cast<Index>(r), end = N * (range + 1) / ranges;
+    for_each_task(ranges, m_options.threads, [&](const Index range) {
+      const Index end = N * (range + 1) / ranges;
       Tall_matrix first_scratch(rows_of_block, m_lambda.size()), second_scratch = first_scratch;
       for(Index first = N * range / ranges; first < end; first += rows_of_block)
         f(range, first, (std::min)(rows_of_block, end - first), first_scratch, second_scratch);
@@ -465,9 +464,6 @@ private:
   Vector m_solved_total;                         // its solution for m_total
   Vector m_rank_one;
   int m_steps = 1000; // of conjugate gradients, the last time
-  struct Nothing
-  {};
-  Thread_pool<Nothing> m_pool;
 };
 
 // A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and those of other vertices has of each of the former
