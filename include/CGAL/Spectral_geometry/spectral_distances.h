@@ -124,7 +124,7 @@ inline void check_steps(Eigen::Index steps, Eigen::Index least)
   require(steps >= least, "spectral distances: ", steps, " steps are asked for, take at least ", least, ".");
 }
 
-// Of the pairs without the kernel.
+// The eigenvalues without those of the kernel.
 inline Eigen::ArrayXd nonzero_values(const Eigenpairs& pairs)
 {
   require(pairs.zeros >= 0, "spectral distances: the eigenpairs do not say how many eigenvalues are zero; "
