@@ -50,9 +50,9 @@ struct Relocation_options
   double smallest_angle_ratio = 0.5;
   /// No triangle turns its normal further than this from where it was, radians. In ]0, pi/2].
   double largest_turn = CGAL_PI / 3;
-  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine mesh, give or take this
-  /// part. Positive. The spectra are compared at the scale of the meshes as they are, which brings the area near that of the fine
-  /// mesh by itself.
+  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine mesh (where these are further
+  /// apart, no more than a tenth from those of the coarse one), give or take this part. Positive. The spectra are compared at the
+  /// scale of the meshes as they are, which brings the area near that of the fine mesh by itself.
   double size_tolerance = 0.03;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
