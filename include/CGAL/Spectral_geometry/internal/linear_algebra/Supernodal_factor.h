@@ -81,22 +81,22 @@ public:
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
     m_ok = true;
-    std::fill(m_is_negative.begin(), m_is_negative.end(), char(0));
+    m_negative.clear();
     try {
+      std::vector<double> signs(m_order.size(), 1.); // of the pivots
       std::vector<std::vector<double>> updates(m_children.size());
       for_each_task(static_cast<Index>(m_branches.size()), threads, [&](Index b) {
         for(std::size_t k = m_branches[b].first; k < m_branches[b].last; ++k)
-          eliminate(k, updates, 1);
+          eliminate(k, updates, signs.data() + m_first[k], 1);
       });
       for(const std::size_t k : m_top)
-        eliminate(k, updates, threads);
+        eliminate(k, updates, signs.data() + m_first[k], threads);
+      for(std::size_t i = 0; i < signs.size(); ++i)
+        if(signs[i] < 0.)
+          m_negative.push_back(static_cast<int>(i));
     } catch(const std::bad_alloc&) {
       throw_lack_of_memory();
     }
-    m_negative.clear();
-    for(std::size_t i = 0; i < m_is_negative.size(); ++i)
-      if(m_is_negative[i])
-        m_negative.push_back(static_cast<int>(i));
     if(!m_ok && m_pivots == Pivots::positive)
       throw Not_positive_definite();
   }
@@ -182,7 +182,6 @@ private:
       values += (groups[g].width + below(g)) * groups[g].width;
     }
     m_values.resize(values);
-    m_is_negative.resize(m_order.size());
     find_places(A, group_of);
   }
 
@@ -258,8 +257,9 @@ private:
 
   // --- the numbers ---
 
-  // Supernode k: its block F, (width + below) x width by rows, becomes L, and U, below x below, what it hands to its parent.
-  void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, int threads)
+  // Supernode k: its block F, (width + below) x width by rows, becomes L, and U, below x below, what it hands to its parent. `signs` are those
+  // of its pivots, 1 before.
+  void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, double* signs, int threads)
   {
     double* const F = m_values.data() + m_value_start[k];
     const std::size_t w = width(k), b = below(k), stride = padded(b);
@@ -269,16 +269,13 @@ private:
       add_update(c, updates[c], F, w, U.data(), stride);
       std::vector<double>().swap(updates[c]); // its memory, too
     }
-    std::vector<double> signs(w, 1.);
-    factorise_block(F, w, w + b, signs.data());
-    for(std::size_t j = 0; j < w; ++j)
-      m_is_negative[m_first[k] + j] = signs[j] < 0.;
+    factorise_block(F, w, w + b, signs);
     const double* const below_F = F + w * w;
     const bool large = double(w) * b * b > 1e6; // a millisecond: worth starting a thread
     for_each_task(static_cast<Index>(stride / panel_width), large ? threads : 1, [&](Index panel) {
       const std::size_t j = panel * panel_width;
       std::vector<double> T(w * panel_width);
-      pack(below_F + j * w, w, w, static_cast<int>((std::min)(b - j, std::size_t(panel_width))), signs.data(),
+      pack(below_F + j * w, w, w, static_cast<int>((std::min)(b - j, std::size_t(panel_width))), signs,
            T.data());
       multiply_block(U.data() + j * stride + j, stride, panel_width, below_F + j * w, w, T.data(), w, b - j,
                      true);
@@ -414,18 +411,35 @@ private:
   template <class Solver>
   void solve_in_place(double* w, int threads) const
   {
+    constexpr int columns = Solver::columns;
     const Index branches = static_cast<Index>(m_branches.size());
-    for_each_task(branches, threads, [&](Index k) { forward_branch<Solver>(m_branches[k], w); });
-    for(const Branch& branch : m_branches)
-      add_to_ancestors<Solver>(branch, w);
+    for_each_task(branches, threads, [&](Index b) {
+      const Branch& branch = m_branches[b];
+      std::fill_n(w + branch.slot * columns, branch.ancestors.size() * columns, 0.);
+      for(std::size_t k = branch.first; k < branch.last; ++k)
+        Solver::forward(supernode(k), w);
+    });
+    for(const Branch& branch : m_branches) {
+      const double* from = w + branch.slot * columns;
+      for(const int row : branch.ancestors)
+        for(int c = 0; c < columns; ++c)
+          w[Index(row) * columns + c] += *from++;
+    }
     for(const std::size_t k : m_top)
       Solver::forward(supernode(k), w);
     for(const int row : m_negative)
-      for(int c = 0; c < Solver::columns; ++c)
-        w[Index(row) * Solver::columns + c] *= -1.;
+      for(int c = 0; c < columns; ++c)
+        w[Index(row) * columns + c] *= -1.;
     for(std::size_t k = m_top.size(); k-- > 0;)
       Solver::backward(supernode(m_top[k]), w);
-    for_each_task(branches, threads, [&](Index k) { backward_branch<Solver>(m_branches[k], w); });
+    for_each_task(branches, threads, [&](Index b) {
+      const Branch& branch = m_branches[b];
+      double* to = w + branch.slot * columns;
+      for(const int row : branch.ancestors)
+        to = std::copy_n(w + Index(row) * columns, columns, to);
+      for(std::size_t k = branch.last; k-- > branch.first;)
+        Solver::backward(supernode(k), w);
+    });
   }
 
   Supernode supernode(std::size_t k) const
@@ -434,37 +448,9 @@ private:
             static_cast<int>(width(k)), static_cast<int>(below(k))};
   }
 
-  template <class Solver>
-  void forward_branch(const Branch& branch, double* w) const
-  {
-    std::fill_n(w + branch.slot * Solver::columns, branch.ancestors.size() * Solver::columns, 0.);
-    for(std::size_t k = branch.first; k < branch.last; ++k)
-      Solver::forward(supernode(k), w);
-  }
-
-  template <class Solver>
-  void add_to_ancestors(const Branch& branch, double* w) const
-  {
-    const double* from = w + branch.slot * Solver::columns;
-    for(const int row : branch.ancestors)
-      for(int c = 0; c < Solver::columns; ++c)
-        w[Index(row) * Solver::columns + c] += *from++;
-  }
-
-  template <class Solver>
-  void backward_branch(const Branch& branch, double* w) const
-  {
-    double* to = w + branch.slot * Solver::columns;
-    for(const int row : branch.ancestors)
-      to = std::copy_n(w + Index(row) * Solver::columns, Solver::columns, to);
-    for(std::size_t k = branch.last; k-- > branch.first;)
-      Solver::backward(supernode(k), w);
-  }
-
   Pivots m_pivots;
   std::atomic<bool> m_ok{true};
-  std::vector<char> m_is_negative; // each pivot
-  std::vector<int> m_negative;     // those that are
+  std::vector<int> m_negative; // the pivots that are
   std::vector<int> m_order;
   std::vector<int> m_first = {0};             // first column of each supernode, and n
   std::vector<std::vector<int>> m_children;   // of each supernode

@@ -50,8 +50,7 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
 {
   const int n = static_cast<int>(A.cols());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> degree_order;
-  Sparse_matrix copy = A; // AMDOrdering works in place
-  Eigen::AMDOrdering<int>()(copy, degree_order);
+  Eigen::AMDOrdering<int>()(A, degree_order);
   const std::vector<int> order(degree_order.indices().data(), degree_order.indices().data() + n);
   const std::vector<int> parent = elimination_tree(permuted(A, order));
 
