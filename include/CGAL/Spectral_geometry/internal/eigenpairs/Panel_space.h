@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_PANEL_SPACE_H
 
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 

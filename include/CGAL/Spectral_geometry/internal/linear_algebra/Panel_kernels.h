@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_KERNELS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_PANEL_KERNELS_H
 
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel.h>
 #include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 
 #include <Eigen/Core>
@@ -16,6 +15,29 @@
 // vectors share every access to a matrix entry.
 
 namespace CGAL::Spectral_geometry::internal {
+
+using Eigen::Index;
+
+constexpr int panel_width = 8;
+
+/// Eight vectors, n x 8 by rows, each row in one cache line.
+class Panel
+{
+public:
+  explicit Panel(Index n)
+    : m_storage(std::size_t(n) * panel_width)
+  {}
+  Panel(Panel&&) = default;
+  Panel& operator=(Panel&&) = default;
+  Panel(const Panel&) = delete; // long ones must not be copied unnoticed
+  Panel& operator=(const Panel&) = delete;
+
+  double* row(Index i) { return m_storage.data() + i * panel_width; }
+  const double* row(Index i) const { return m_storage.data() + i * panel_width; }
+
+private:
+  Aligned_buffer m_storage;
+};
 
 /// One row of a panel in registers, as Eigen has it for the flags of the build.
 using Panel_row = Eigen::Array<double, panel_width, 1>;
@@ -211,7 +233,24 @@ struct Supernode
   int first, width, below;
 };
 
-// x_own: the rows of the panel that belong to the supernode's columns.
+// Subtracts the columns, solved for, from `Count` of the rows below: one access to `own` for all of them.
+template <class Row, int Count>
+CGAL_SPECTRAL_INLINE void forward_rows(const Supernode& s, const double* own, double* x, int i)
+{
+  const double* l = s.L + std::ptrdiff_t(s.width + i) * s.width;
+  Row sum[Count], r;
+  for(int q = 0; q < Count; ++q)
+    load(sum[q], x + std::ptrdiff_t(s.rows[i + q]) * panel_width);
+  for(int t = 0; t < s.width; ++t) {
+    load(r, own + t * panel_width);
+    for(int q = 0; q < Count; ++q)
+      subtract(sum[q], l[q * s.width + t], r);
+  }
+  for(int q = 0; q < Count; ++q)
+    store(x + std::ptrdiff_t(s.rows[i + q]) * panel_width, sum[q]);
+}
+
+// `own`: the rows of the panel that belong to the supernode's columns.
 template <class Row>
 CGAL_SPECTRAL_INLINE void forward_body(const Supernode& s, double* x)
 {
@@ -228,29 +267,11 @@ CGAL_SPECTRAL_INLINE void forward_body(const Supernode& s, double* x)
     add(result, l[k], sum);
     store(own + k * panel_width, result);
   }
-  const double* l = s.L + std::ptrdiff_t(s.width) * s.width;
   int i = 0;
-  for(; i + 4 <= s.below; i += 4, l += 4 * s.width) { // four rows at once: one access to x_own for all
-    Row sum[4], r;
-    for(int q = 0; q < 4; ++q)
-      load(sum[q], x + std::ptrdiff_t(s.rows[i + q]) * panel_width);
-    for(int t = 0; t < s.width; ++t) {
-      load(r, own + t * panel_width);
-      for(int q = 0; q < 4; ++q)
-        subtract(sum[q], l[q * s.width + t], r);
-    }
-    for(int q = 0; q < 4; ++q)
-      store(x + std::ptrdiff_t(s.rows[i + q]) * panel_width, sum[q]);
-  }
-  for(; i < s.below; ++i, l += s.width) {
-    Row sum, r;
-    load(sum, x + std::ptrdiff_t(s.rows[i]) * panel_width);
-    for(int t = 0; t < s.width; ++t) {
-      load(r, own + t * panel_width);
-      subtract(sum, l[t], r);
-    }
-    store(x + std::ptrdiff_t(s.rows[i]) * panel_width, sum);
-  }
+  for(; i + 4 <= s.below; i += 4)
+    forward_rows<Row, 4>(s, own, x, i);
+  for(; i < s.below; ++i)
+    forward_rows<Row, 1>(s, own, x, i);
 }
 
 // Subtracts the rows below from `Count` neighbouring columns of the supernode.

@@ -6,7 +6,6 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_LINEAR_ALGEBRA_TALL_PRODUCTS_H
 
 #include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Panel.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Panel_kernels.h>
 
 #include <Eigen/Core>
