@@ -32,7 +32,7 @@ public:
 
   Index size() const { return m_mass.rows(); }
 
-  // y = B x; B is symmetric, its columns serve as rows
+  // y = M x; the mass matrix M is symmetric, its columns serve as rows
   void multiply_mass(const Panel& x, Panel& y) const
   {
     for_each_range([&](Index begin, Index end, int) {
@@ -42,7 +42,7 @@ public:
   }
 
   // H = basis^T W and H2 = basis^T W2, of the first count and count2 <= count panels, in one pass over the basis
-  void products(const std::vector<Panel>& basis, Index count, const Panel& W, Coefficients& H, Index count2,
+  void products(const Panel* basis, Index count, const Panel& W, Coefficients& H, Index count2,
                 const Panel& W2, Coefficients& H2) const
   {
     const Coefficients zero = Coefficients::Zero((count + count2) * panel_width, panel_width);
@@ -64,8 +64,8 @@ public:
   }
 
   // W -= basis H and W2 -= basis H2
-  void subtract(const std::vector<Panel>& basis, Index count, Panel& W, const Coefficients& H, Index count2,
-                Panel& W2, const Coefficients& H2) const
+  void subtract(const Panel* basis, Index count, Panel& W, const Coefficients& H, Index count2, Panel& W2,
+                const Coefficients& H2) const
   {
     for_each_range([&](Index begin, Index end, int) {
       for(Index i = begin; i < end; i += rows_in_cache) {
@@ -79,26 +79,16 @@ public:
     });
   }
 
+  // P^T W
   Eigen::MatrixXd product(const Panel& P, const Panel& W) const
   {
-    std::vector<Coefficients> parts(number_of_ranges, Coefficients::Zero(panel_width, panel_width));
-    for_each_range([&](Index begin, Index end, int range) {
-      for(Index i = begin; i < end; i += rows_in_cache)
-        gram(P.row(i), W.row(i), (std::min)(rows_in_cache, end - i), parts[range].data());
-    });
-    for(int range = 1; range < number_of_ranges; ++range)
-      parts[0] += parts[range];
-    return parts[0];
+    Coefficients H, none;
+    products(&P, 1, W, H, 0, W, none);
+    return H;
   }
 
   // W -= P H
-  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& coefficients) const
-  {
-    const Coefficients H = coefficients;
-    for_each_range([&](Index begin, Index end, int) {
-      subtract_product(W.row(begin), P.row(begin), end - begin, H.data());
-    });
-  }
+  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& H) const { subtract(&P, 1, W, H, 0, W, {}); }
 
   // W = W T
   void transform(Panel& W, const Eigen::MatrixXd& T) const
@@ -123,11 +113,8 @@ public:
     for(Index q = 0; q < new_count; ++q)
       minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
     constexpr Index rows_at_once = 64; // all panels' rows in the second level cache
-    // not in the tasks, which must not throw
-    std::vector<std::vector<double>> results(number_of_ranges,
-                                             std::vector<double>(new_count * rows_at_once * panel_width));
-    for_each_range([&](Index begin, Index end, int range) {
-      std::vector<double>& result = results[range];
+    for_each_range([&](Index begin, Index end, int) {
+      std::vector<double> result(new_count * rows_at_once * panel_width);
       for(Index i = begin; i < end; i += rows_at_once) {
         const Index rows = (std::min)(rows_at_once, end - i), entries = rows * panel_width;
         std::fill(result.begin(), result.end(), 0.);

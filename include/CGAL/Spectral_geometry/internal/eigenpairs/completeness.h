@@ -14,44 +14,23 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-// A place to count: below the K-th value and the group that it belongs to, in a gap. Copies of values(K-1) itself need not be
-// counted, any K of them are right.
-struct Gap
-{
-  Eigen::Index count; // values below it
-  double lower, upper;
-};
-
-inline Gap last_gap(const Eigen_problem& problem, const Eigen::VectorXd& values)
-{
-  const double s = problem.shift();
-  for(Eigen::Index k = values.size() - 1; k >= 0; --k) {
-    const double lower = k > 0 ? values(k - 1) : -s;
-    if(values(k) - lower > 1e-5 * (values(k) + s))
-      return {k, lower, values(k)};
-  }
-  return {0, -s, -s}; // the values are not ascending from -s: never happens
-}
-
-// Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
-inline bool counting_is_meaningful(double tolerance)
-{
-  return tolerance <= 1e-3;
-}
-
-// The number of eigenvalues below the gap minus the number of those found; factorisations without pivoting can be
-// wrong next to an eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
+// The number of eigenvalues below a gap minus the number of those found. The gap is that below the K-th value and the group that it belongs
+// to: copies of values(K-1) itself need not be counted, any K of them are right. Factorisations without pivoting can be wrong next to an
+// eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
 inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads,
                           Eigen::Index& missing)
 {
-  const Gap gap = last_gap(problem, values);
+  const double s = problem.shift();
+  Eigen::Index k = values.size() - 1; // values below the gap
+  while(k > 0 && !(values(k) - values(k - 1) > 1e-5 * (values(k) + s)))
+    --k;
+  const double lower = k > 0 ? values(k - 1) : -s;
   for(const double t : {0.5, 0.375, 0.59375}) {
-    const double mu = gap.lower + t * (gap.upper - gap.lower);
+    const double mu = lower + t * (values(k) - lower);
     missing = 0;
     if(mu < 0.)
       return true; // L is positive semidefinite
-    const Eigen::Index count = number_of_negative_eigenvalues(problem.shifted(mu), threads);
-    missing = count - gap.count;
+    missing = number_of_negative_eigenvalues(problem.shifted(mu), threads) - k;
     if(missing >= 0)
       return true;
   }
