@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_FLIPS_FLIP_CONNECTIVITY_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
@@ -31,13 +30,13 @@ public:
     std::array<int, 4> vertices() const { return {i, j, c, d}; }
   };
 
+  /// T refers to n vertices.
   Flip_connectivity(const Eigen::MatrixXi& T, const Eigen::Index n)
     : m_T(T)
     , m_twin(std::size_t(3 * T.rows()), -1)
     , m_edge(std::size_t(3 * T.rows()), -1)
     , m_faces(std::size_t(n))
   {
-    check_triangles(T, n);
     std::map<std::pair<int, int>, int> slot_of; // by directed edge
     for(int s = 0; s < 3 * int(T.rows()); ++s) {
       require(slot_of.emplace(std::make_pair(corner(s, 1), corner(s, 2)), s).second,

@@ -14,8 +14,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <CGAL/number_type_config.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,14 +58,10 @@ public:
   bool keeps_shape(const Quad& q, const std::array<Triangle, 2>& before,
                    const std::array<Triangle, 2>& after) const
   {
-    double smallest[2] = {CGAL_PI, CGAL_PI};
-    for(std::size_t k = 0; k < 2; ++k) {
-      if(!(after[k].shape.area > 0) || !(after[k].shape.cot.cwiseAbs().maxCoeff() <= largest_cotangent))
+    for(const Triangle& t : after)
+      if(!(t.shape.area > 0) || !(t.shape.cot.cwiseAbs().maxCoeff() <= largest_cotangent))
         return false;
-      smallest[0] = (std::min)(smallest[0], smallest_angle(before[k]));
-      smallest[1] = (std::min)(smallest[1], smallest_angle(after[k]));
-    }
-    if(smallest[1] < m_angle_ratio * smallest[0])
+    if(smallest_angle(after) < m_angle_ratio * smallest_angle(before))
       return false;
     const Eigen::Vector3d old_normals[2] = {normal({q.c, q.i, q.j}), normal({q.d, q.j, q.i})};
     const Eigen::Vector3d new_normals[2] = {normal(after[0].corners), normal(after[1].corners)};
@@ -118,9 +112,12 @@ private:
     return a.cross(b);
   }
 
-  static double smallest_angle(const Triangle& t)
+  static double smallest_angle(const std::array<Triangle, 2>& both)
   {
-    return t.shape.area > 0 ? std::atan2(1., t.shape.cot.maxCoeff()) : 0;
+    const auto of = [](const Triangle& t) {
+      return t.shape.area > 0 ? std::atan2(1., t.shape.cot.maxCoeff()) : 0;
+    };
+    return (std::min)(of(both[0]), of(both[1]));
   }
 
   static double area_change(const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after)

@@ -52,7 +52,7 @@ public:
     , m_mesh(T, V.rows())
     , m_energy(V, m_mesh, F, Z, op)
     , m_guards(V, m_mesh, options)
-    , m_smallest_gain(1e-10 * m_energy.value())
+    , m_smallest_gain(is_delaunay() ? 1e-9 : 1e-10 * m_energy.value())
     , m_version(std::size_t(m_mesh.number_of_edges()), 0)
     , m_stays(std::size_t(m_mesh.number_of_edges()), false)
   {
@@ -61,10 +61,8 @@ public:
     for(const auto& [v, w] : constrained)
       pairs.insert(std::minmax(v, w));
     for(int e = 0; e < m_mesh.number_of_edges(); ++e) {
-      const std::pair<int, int> ends = m_mesh.ends(e);
-      m_stays[std::size_t(e)] =
-          m_mesh.is_on_boundary(e) ||
-          pairs.count({(std::min)(ends.first, ends.second), (std::max)(ends.first, ends.second)}) != 0;
+      const auto [v, w] = m_mesh.ends(e);
+      m_stays[std::size_t(e)] = m_mesh.is_on_boundary(e) || pairs.count(std::minmax(v, w)) != 0;
     }
   }
 
@@ -104,6 +102,8 @@ private:
     }
   };
 
+  bool is_delaunay() const { return m_options.criterion == Edge_flips::delaunay; }
+
   std::array<Triangle, 2> faces(const Quad& q) const
   {
     return {m_energy.triangle(q.f), m_energy.triangle(q.g)};
@@ -121,15 +121,10 @@ private:
     const std::array<Triangle, 2> before = faces(q), after = m_energy.flipped(q);
     if(!m_guards.keeps_shape(q, before, after))
       return;
-    if(m_options.criterion == Edge_flips::delaunay) {
-      const double key = cotangent_at(before[0], q.c) + cotangent_at(before[1], q.d);
-      if(key < -1e-9) // less is rounding; cospherical vertices have two Delaunay edges
-        m_queue.push({key, e, version});
-    } else {
-      const double key = m_energy.cost(q, after);
-      if(key < -m_smallest_gain)
-        m_queue.push({key, e, version});
-    }
+    const double key =
+        is_delaunay() ? cotangent_at(before[0], q.c) + cotangent_at(before[1], q.d) : m_energy.cost(q, after);
+    if(key < -m_smallest_gain)
+      m_queue.push({key, e, version});
   }
 
   void flip(const Candidate& candidate, Edge_flip_result& result)
@@ -162,7 +157,7 @@ private:
   Flip_connectivity m_mesh;
   Flip_energy m_energy;
   Flip_guards m_guards;
-  double m_smallest_gain; // what remains is rounding
+  double m_smallest_gain; // less is rounding; cospherical vertices have two Delaunay edges
   std::vector<int> m_version;
   std::vector<bool> m_stays;
   std::priority_queue<Candidate> m_queue;

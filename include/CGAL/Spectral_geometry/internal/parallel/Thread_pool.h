@@ -82,7 +82,8 @@ public:
     open(n, grain, body);
     take_part(m_workspaces.front());
     close();
-    rethrow();
+    if(m_error)
+      std::rethrow_exception(std::exchange(m_error, nullptr));
   }
 
 private:
@@ -127,13 +128,7 @@ private:
       worker.join();
   }
 
-  // Once nobody is inside.
-  void rethrow()
-  {
-    if(m_error)
-      std::rethrow_exception(std::exchange(m_error, nullptr));
-  }
-
+  // Nobody is inside any more when it returns.
   void close()
   {
     m_gate.fetch_and(~open_bit);
