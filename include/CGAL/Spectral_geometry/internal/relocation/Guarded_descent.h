@@ -39,8 +39,7 @@ public:
   void start(const Positions& V)
   {
     m_V = V;
-    m_value = m_objective.value_and_gradient(m_V, m_gradient);
-    m_guards.tangential(m_V, m_gradient);
+    refresh();
     m_history.clear();
     set_scales();
   }

@@ -46,17 +46,32 @@ public:
   Relocation_guards(const Positions& V, const Eigen::MatrixXi& T, const Positions& anchors,
                     const Relocation_options& options)
     : m_T(T)
-    , m_trust_radius(options.trust_radius)
-    , m_smallest_angle_ratio(options.smallest_angle_ratio)
     // The rounding of what is legal only just must not make the start illegal; nor below.
     , m_largest_turn_cosine((std::min)(std::cos(options.largest_turn), 1 - 1e-12))
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
     , m_boundary(std::size_t(V.rows()))
     , m_held_by(std::size_t(V.rows()), 0)
+    , m_radius(V.rows())
+    , m_smallest_angle(T.rows())
+    , m_threads(options.threads)
   {
-    measure_vertices(V);
-    measure_triangles(V);
+    Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = Eigen::VectorXd::Zero(V.rows());
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      for(int k = 0; k < 3; ++k) {
+        const int i = m_T(f, k), j = m_T(f, (k + 1) % 3);
+        const double l = (V.row(i) - V.row(j)).norm();
+        for(const int v : {i, j}) {
+          length(v) += l;
+          count(v) += 1;
+        }
+      }
+      m_normal.push_back(normal_of(f, V).normalized());
+      m_smallest_angle(f) = (options.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+    }
+    for(Eigen::Index v = 0; v < V.rows(); ++v)
+      m_radius(v) = (std::max)(options.trust_radius * length(v) / (std::max)(count(v), 1.),
+                               (V.row(v) - m_anchors.row(v)).norm());
   }
 
   void fix(const Eigen::Index v) { m_fixed[std::size_t(v)] = true; }
@@ -78,9 +93,6 @@ public:
   /// A further condition on the position of a vertex: a distance to a surface.
   using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
   void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
-
-  /// Threads to use, from 1, for conditions on single vertices; no result depends on them.
-  void set_threads(const int threads) { m_threads = threads; }
 
   /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
   using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
@@ -133,7 +145,10 @@ public:
         if(offends[std::size_t(v)]) {
           offends[std::size_t(v)] = 0;
           m_held_by[std::size_t(v)] |= by_triangles;
-          step_back(v, from, to, round);
+          if(round >= 4)
+            to.row(v) = from.row(v);
+          else
+            to.row(v) = nearest_allowed(v, from.row(v), 0.5 * (from.row(v) + to.row(v))).transpose();
         }
   }
 
@@ -165,33 +180,6 @@ private:
         return;
       }
       to.row(v) = (0.6 * from.row(v) + 0.4 * to.row(v)).eval();
-    }
-  }
-
-  void measure_vertices(const Positions& V)
-  {
-    Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = Eigen::VectorXd::Zero(V.rows());
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
-      for(int k = 0; k < 3; ++k) {
-        const int i = m_T(f, k), j = m_T(f, (k + 1) % 3);
-        const double l = (V.row(i) - V.row(j)).norm();
-        for(const int v : {i, j}) {
-          length(v) += l;
-          count(v) += 1;
-        }
-      }
-    m_radius.resize(V.rows());
-    for(Eigen::Index v = 0; v < V.rows(); ++v)
-      m_radius(v) = (std::max)(m_trust_radius * length(v) / (std::max)(count(v), 1.),
-                               (V.row(v) - m_anchors.row(v)).norm());
-  }
-
-  void measure_triangles(const Positions& V)
-  {
-    m_smallest_angle.resize(m_T.rows());
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      m_normal.push_back(normal_of(f, V).normalized());
-      m_smallest_angle(f) = (m_smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
     }
   }
 
@@ -255,24 +243,16 @@ private:
     return any;
   }
 
-  void step_back(const Eigen::Index v, const Positions& from, Positions& to, const int round) const
-  {
-    if(round >= 4)
-      to.row(v) = from.row(v);
-    else
-      to.row(v) = nearest_allowed(v, from.row(v), 0.5 * (from.row(v) + to.row(v))).transpose();
-  }
-
   Eigen::MatrixXi m_T;
-  double m_trust_radius, m_smallest_angle_ratio, m_largest_turn_cosine;
+  double m_largest_turn_cosine;
   Positions m_anchors;
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
   Allowed m_allowed;
   Leaps m_leaps;
   mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
-  Eigen::VectorXd m_radius, m_smallest_angle;
-  int m_threads = 1;
+  Eigen::VectorXd m_radius, m_smallest_angle;   // of each vertex; of each triangle, what is allowed
+  int m_threads;
   std::vector<Eigen::Vector3d> m_normal;
 };
 

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 
+#include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
@@ -128,19 +129,21 @@ class Relocation_objective
 public:
   using Positions = Operator_geometry::Positions;
 
+  /// F and Z: the signals that P carries, whether S sees them (`carried`) or not; `sampled`: others that it sees, or null.
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                        const Local_operator& op, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,
-                       const double plain, const double beyond)
+                       const Relocation_options& options)
     : m_E(T, F, Z, op)
     , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
-    , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(beyond * double(F.cols())))
+    , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(options.beyond * double(F.cols())))
   {
+    m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
     if(tau > 0 && m_S.plain_part() > 0) {
-      m_S.set_mu(plain * m_S.smoothed_part() / m_S.plain_part());
+      m_S.set_mu(options.plain * m_S.smoothed_part() / m_S.plain_part());
       m_scale = m_S.value(start);
     }
   }
@@ -151,8 +154,6 @@ public:
     m_spectrum.refresh(V);
     return m_spectrum.is_active();
   }
-
-  void set_threads(const int threads) { m_S.set_threads(threads); }
 
   double E(const Positions& V) { return m_E.value(V); }
 

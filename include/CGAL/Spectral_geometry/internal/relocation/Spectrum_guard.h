@@ -75,7 +75,18 @@ public:
   /// The mean over the modes of their relative change since the start.
   double change(const Positions& V)
   {
-    return is_active() && m_geometry.assemble(V, m_entries) ? change_of_entries() : 0.;
+    if(!is_active() || !m_geometry.assemble(V, m_entries))
+      return 0.;
+    m_stiffness.setZero(m_phi.cols());
+    m_norm.setZero(m_phi.cols());
+    for(Index v = 0; v < m_phi.rows(); ++v)
+      m_norm += m_entries.B_diagonal(v) * m_phi.row(v).square();
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      m_stiffness -= m_entries.L(Index(e)) * (m_phi.row(i) - m_phi.row(j)).square();
+      m_norm += 2 * m_entries.B(Index(e)) * m_phi.row(i) * m_phi.row(j);
+    }
+    return (m_entries.mass.sum() * m_stiffness / (m_norm * m_reference)).mean() - 1;
   }
 
   /// In parts of the objective at the start; adds its gradient.
@@ -101,8 +112,7 @@ private:
 
   void find(const Laplace_operator& op)
   {
-    Eigenpairs_options options;
-    options.tolerance = 1e-3;
+    Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
     options.verify = false;
     const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, m_modes), options);
     m_vectors = pairs.vectors;
@@ -131,20 +141,6 @@ private:
     if(ritz.info() != Eigen::Success)
       return find(op);
     m_vectors = X * ritz.eigenvectors();
-  }
-
-  double change_of_entries()
-  {
-    m_stiffness.setZero(m_phi.cols());
-    m_norm.setZero(m_phi.cols());
-    for(Index v = 0; v < m_phi.rows(); ++v)
-      m_norm += m_entries.B_diagonal(v) * m_phi.row(v).square();
-    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
-      const auto [i, j] = m_geometry.edges()[e];
-      m_stiffness -= m_entries.L(Index(e)) * (m_phi.row(i) - m_phi.row(j)).square();
-      m_norm += 2 * m_entries.B(Index(e)) * m_phi.row(i) * m_phi.row(j);
-    }
-    return (m_entries.mass.sum() * m_stiffness / (m_norm * m_reference)).mean() - 1;
   }
 
   // Of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was taken last.

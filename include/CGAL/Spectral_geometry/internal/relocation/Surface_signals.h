@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
@@ -23,14 +22,14 @@ namespace CGAL::Spectral_geometry::internal {
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. These five are kept by reference.
+  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. The first three are kept by reference.
   Surface_signals(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts,
-                  const Eigen::MatrixXi& T, const Rows& F, const Rows& Z, const int threads)
+                  const Eigen::MatrixXi& T, Rows F, Rows Z, const int threads)
     : m_closest(closest)
     , m_parts(parts)
     , m_T(T)
-    , m_F(F)
-    , m_Z(Z)
+    , m_F(std::move(F))
+    , m_Z(std::move(Z))
     , m_threads(threads)
   {}
 
@@ -88,7 +87,7 @@ private:
   const Closest_point_query& m_closest;
   const std::vector<Eigen::Index>& m_parts;
   const Eigen::MatrixXi& m_T;
-  const Rows &m_F, &m_Z;
+  Rows m_F, m_Z;
   int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;
 };

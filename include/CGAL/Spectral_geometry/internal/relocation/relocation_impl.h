@@ -23,9 +23,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <memory>
-#include <utility>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
@@ -67,7 +65,6 @@ public:
     set_parts(P);
     set_guards(fixed);
     set_objective(P, F, Z, op);
-    m_has_reverted.assign(std::size_t(m_start.rows()), 0);
     if(m_options.keep_free_of_self_intersections)
       m_crossing = self_intersecting_faces(m_start, m_T);
     if(m_options.keep_hausdorff_distance)
@@ -126,8 +123,8 @@ public:
     result.objective_after = descent.value();
     V = repaired(descent.positions());
     result.held = m_guards.held();
-    result.reverted_vertices = std::size_t(std::count(m_has_reverted.begin(), m_has_reverted.end(), 1));
-    result.held.fixed -= result.reverted_vertices;
+    result.reverted_vertices = m_reverted;
+    result.held.fixed -= m_reverted;
     result.E_after = m_objective->E(V);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
       result.moved_vertices += V.row(v) != m_start.row(v);
@@ -181,23 +178,16 @@ private:
   void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                      const Local_operator& op)
   {
-    const Eigen::MatrixXd carried_F = P * F, carried_Z = P * Z;
     const double largest =
         std::sqrt((Z.colwise().squaredNorm().array() /
                    F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
-    if(m_options.signals != Relocation_options::Signals::carried) {
-      m_fine_F = F;
-      m_fine_Z = Z;
-      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, m_fine_F, m_fine_Z,
-                                                    m_options.threads);
-    }
-    m_objective = std::make_unique<Relocation_objective>(
-        m_T, carried_F, carried_Z, op, m_size, m_start, m_sampled.get(),
-        m_options.signals != Relocation_options::Signals::sampled,
-        largest > 0 ? m_options.smoothing / largest : 0., m_options.plain, m_options.beyond);
-    m_objective->set_threads(m_options.threads);
-    m_guards.set_threads(m_options.threads);
+    if(m_options.signals != Relocation_options::Signals::carried)
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, F, Z, m_options.threads);
+    m_objective =
+        std::make_unique<Relocation_objective>(m_T, P * F, P * Z, op, m_size, m_start, m_sampled.get(),
+                                               m_options.signals != Relocation_options::Signals::sampled,
+                                               largest > 0 ? m_options.smoothing / largest : 0., m_options);
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
@@ -220,17 +210,17 @@ private:
         std::fill(back.begin(), back.end(), 1);
         V = m_start;
       }
-      for(Eigen::Index v = 0; v < V.rows(); ++v)
+      for(Eigen::Index v = 0; v < V.rows(); ++v) {
         if(too_large || back[std::size_t(v)]) {
           // Half way back a vertex of the boundary would lie beside it.
           const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
         }
-      for(std::size_t v = 0; v < back.size(); ++v)
-        if(back[v] && !m_guards.is_fixed(Eigen::Index(v))) {
-          m_has_reverted[v] = 1;
-          m_guards.fix(Eigen::Index(v));
+        if(back[std::size_t(v)] && !m_guards.is_fixed(v)) {
+          ++m_reverted;
+          m_guards.fix(v);
         }
+      }
       m_guards.admit_without_projection(m_start, V);
       if(round >= 24)
         break;
@@ -300,13 +290,12 @@ private:
   std::unique_ptr<Closest_point_query> m_closest;
   std::vector<Eigen::Index> m_fine_parts; // the component of each vertex of the fine mesh
   std::vector<Eigen::Index> m_parts;      // that in which each vertex is looked for
-  Position_dependent_signals::Rows m_fine_F, m_fine_Z;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
   Face_pairs m_crossing;          // at the start
   std::vector<Nearest> m_nearest; // of each fine vertex at the start
   double m_furthest = 0;
-  std::vector<char> m_has_reverted;
+  std::size_t m_reverted = 0; // vertices that went back, and stay
 };
 
 } // namespace internal
