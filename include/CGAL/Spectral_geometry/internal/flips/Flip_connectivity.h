@@ -45,11 +45,15 @@ public:
       m_faces[std::size_t(corner(s, 0))].push_back(s / 3);
     }
     for(const auto& [ends, s] : slot_of) {
-      const auto twin = slot_of.find({ends.second, ends.first});
-      if(twin != slot_of.end())
-        m_twin[std::size_t(s)] = twin->second;
-      if(twin == slot_of.end() || ends.first < ends.second)
-        add_edge(s);
+      const auto found = slot_of.find({ends.second, ends.first});
+      const int twin = found == slot_of.end() ? -1 : found->second, e = number_of_edges();
+      m_twin[std::size_t(s)] = twin;
+      if(twin >= 0 && ends.second < ends.first)
+        continue; // the twin has made the edge
+      m_edge[std::size_t(s)] = e;
+      if(twin >= 0)
+        m_edge[std::size_t(twin)] = e;
+      m_slot.push_back(s);
     }
   }
 
@@ -124,15 +128,6 @@ private:
 
   // The k-th corner after the one opposite to a slot.
   int corner(const int slot, const int k) const { return m_T(slot / 3, (slot + k) % 3); }
-
-  void add_edge(const int slot)
-  {
-    m_edge[std::size_t(slot)] = int(m_slot.size());
-    const int twin = m_twin[std::size_t(slot)];
-    if(twin >= 0)
-      m_edge[std::size_t(twin)] = int(m_slot.size());
-    m_slot.push_back(slot);
-  }
 
   Side side(const int slot, const int k) const
   {

@@ -87,15 +87,15 @@ private:
   Aligned_buffer m_storage;
 };
 
-// y_p = the inner product of row i of A and row column[p] of G, for each entry p of rows begin .. end of a sparse matrix; A has
-// these rows only. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
+// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows of a sparse matrix. Two panels of a
+// matrix lie `A_panel` and `G_panel` numbers apart.
 template <class Row>
 CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* column, const double* A,
                                                std::ptrdiff_t A_panel, const double* G,
                                                std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
-                                               std::ptrdiff_t begin, std::ptrdiff_t end)
+                                               std::ptrdiff_t rows)
 {
-  for(std::ptrdiff_t i = begin; i < end; ++i, A += panel_width)
+  for(std::ptrdiff_t i = 0; i < rows; ++i, A += panel_width)
     for(int p = start[i]; p < start[i + 1]; ++p) {
       const double *a = A, *g = G + std::ptrdiff_t(column[p]) * panel_width;
       Row sum, r, s;
@@ -114,13 +114,11 @@ CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* colu
 
 inline void sampled_product(const int* start, const int* column, const double* A, std::ptrdiff_t A_panel,
                             const double* G, std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
-                            std::ptrdiff_t begin, std::ptrdiff_t end)
+                            std::ptrdiff_t rows)
 {
   on_vector_units(
-      [&] {
-        sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y, begin, end);
-      },
-      [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, begin, end); });
+      [&] { sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); },
+      [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); });
 }
 
 } // namespace CGAL::Spectral_geometry::internal

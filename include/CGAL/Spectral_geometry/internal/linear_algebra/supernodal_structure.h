@@ -19,11 +19,10 @@ using Sparse_matrix = Eigen::SparseMatrix<double>;
 // A(order, order)
 inline Sparse_matrix permuted(const Sparse_matrix& A, const std::vector<int>& order)
 {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> P(A.rows());
-  for(int i = 0; i < static_cast<int>(order.size()); ++i)
-    P.indices()(order[i]) = i;
-  Sparse_matrix result(A.rows(), A.cols());
-  result = A.twistedBy(P);
+  const Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> P(
+      Eigen::VectorXi::Map(order.data(), A.rows()));
+  Sparse_matrix result;
+  result = A.twistedBy(P.inverse());
   return result;
 }
 

@@ -355,7 +355,7 @@ private:
       };
       const auto sample = [&](const Sparse_matrix& pattern, Vector& result) {
         sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0), A.panel_size(),
-                        m_G.row(0, 0), m_G.panel_size(), panels, result.data(), 0, rows);
+                        m_G.row(0, 0), m_G.panel_size(), panels, result.data(), rows);
       };
       for(Index q = 0; q < panels; ++q) {
         A.rows(q, 0, rows) = R.rows(q, first, rows);

@@ -79,9 +79,19 @@ public:
         body(i, m_workspaces.front());
       return;
     }
-    open(n, grain, body);
+    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
+      for(std::size_t i = begin; i < end; ++i)
+        (*static_cast<const Body*>(b))(i, workspace);
+    };
+    m_body = &body;
+    m_size = n;
+    m_grain = grain;
+    m_next.store(0, std::memory_order_relaxed);
+    announce();
     take_part(m_workspaces.front());
-    close();
+    m_gate.fetch_and(~open_bit);
+    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
+      relax(spins);
     if(m_error)
       std::rethrow_exception(std::exchange(m_error, nullptr));
   }
@@ -106,34 +116,12 @@ private:
     return gate / one_loop;
   }
 
-  template <class Body>
-  void open(const std::size_t n, const std::size_t grain, const Body& body)
-  {
-    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
-      for(std::size_t i = begin; i < end; ++i)
-        (*static_cast<const Body*>(b))(i, workspace);
-    };
-    m_body = &body;
-    m_size = n;
-    m_grain = grain;
-    m_next.store(0, std::memory_order_relaxed);
-    announce();
-  }
-
   void end()
   {
     m_end = true;
     announce();
     for(std::thread& worker : m_workers)
       worker.join();
-  }
-
-  // Nobody is inside any more when it returns.
-  void close()
-  {
-    m_gate.fetch_and(~open_bit);
-    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
-      relax(spins);
   }
 
   // Only the calling thread does this, while nobody is inside.

@@ -51,7 +51,7 @@ public:
            (!m_closed || std::abs(m_volume.beyond(volume)) <= m_tolerance);
   }
 
-  /// In parts of the objective at the start.
+  /// `weight` is the objective at the start, in parts of which it is measured; adds its gradient.
   double penalty(const Positions& V, const double weight, Positions& gradient) const
   {
     double area, volume;

@@ -89,7 +89,7 @@ public:
     return (m_entries.mass.sum() * m_stiffness / (m_norm * m_reference)).mean() - 1;
   }
 
-  /// In parts of the objective at the start; adds its gradient.
+  /// `weight` is the objective at the start, in parts of which it is measured; adds its gradient.
   double penalty(const Positions& V, const double weight, Positions& gradient)
   {
     const double missing = aim - change(V);
