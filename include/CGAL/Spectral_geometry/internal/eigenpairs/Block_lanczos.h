@@ -90,14 +90,11 @@ public:
   Ritz_pairs compute(bool verify, bool& complete)
   {
     bool found = false;
-    for(int attempt = 0; m_inside && !found && attempt < 3; ++attempt) {
-      if(!shift_inside())
-        break;
+    for(int attempt = 0; m_inside && attempt < 3 && shift_inside(); ++attempt) {
       found = find_pairs();
-      if(!found && m_norm < largest_norm)
+      if(found || m_norm < largest_norm)
         break;
-      if(!found)
-        m_sigma += 0.4 * m_problem.shift();
+      m_sigma += 0.4 * m_problem.shift(); // there is an eigenvalue next to it
     }
     if(!found) {
       shift_below();

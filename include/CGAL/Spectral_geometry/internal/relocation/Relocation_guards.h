@@ -17,7 +17,8 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
@@ -262,33 +263,31 @@ class Sheet_guard
 {
 public:
   Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
-    : m_closest(&closest)
-    , m_parts(&parts)
+    : m_closest(closest)
+    , m_parts(parts)
     , m_starts(parts.size())
   {}
 
   bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   {
     Start& start = m_starts[std::size_t(v)];
-    if(start.position != from) {
+    if(!start.closest || start.position != from) {
       start.closest =
-          start.known ? (*m_closest)(from, start.closest) : (*m_closest)(from, (*m_parts)[std::size_t(v)]);
+          start.closest ? m_closest(from, *start.closest) : m_closest(from, m_parts[std::size_t(v)]);
       start.position = from;
-      start.known = true;
     }
-    return ((*m_closest)(to, start.closest).point - start.closest.point).norm() > 3 * (to - from).norm();
+    return (m_closest(to, *start.closest).point - start.closest->point).norm() > 3 * (to - from).norm();
   }
 
 private:
   struct Start
   {
-    bool known = false;
-    Eigen::Vector3d position = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-    Closest_point_query::Answer closest;
+    Eigen::Vector3d position;
+    std::optional<Closest_point_query::Answer> closest; // to it, once it was asked for
   };
 
-  const Closest_point_query* m_closest;
-  const std::vector<Eigen::Index>* m_parts;
+  const Closest_point_query& m_closest;
+  const std::vector<Eigen::Index>& m_parts;
   std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 
