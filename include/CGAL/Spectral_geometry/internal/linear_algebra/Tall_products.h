@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstddef>
 
 namespace CGAL::Spectral_geometry::internal {

@@ -9,7 +9,6 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
-#include <cstddef>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
