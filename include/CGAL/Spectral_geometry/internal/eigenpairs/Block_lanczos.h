@@ -72,8 +72,7 @@ public:
     , m_inside(few_copies && K >= 2 * panel_width && maximum_vectors == 0)
     , m_sigma((m_inside ? place_of_shift * K : -1.) * problem.shift())
     , m_factor(problem.shifted(m_sigma), threads, Supernodal_factor::Pivots::of_either_sign)
-    , m_mass(problem.shift() * permuted(problem.B(), m_factor.order()))
-    , m_space(m_mass, threads)
+    , m_space(problem.shift() * permuted(problem.B(), m_factor.order()), threads)
     , m_W(problem.size())
     , m_BW(problem.size())
     , m_BV(problem.size())
@@ -83,7 +82,6 @@ public:
     const Index standard = (std::max)(K * 36 / 10, K + 120);
     const Index limit = maximum_vectors > 0 ? maximum_vectors : standard;
     m_maximum_panels = (std::min)(limit, problem.size() - 2 * panel_width) / panel_width;
-    m_kept_panels = (std::min)(rounded_up(K + 2 * panel_width) / panel_width, m_maximum_panels - 1);
   }
 
   // `complete` tells whether no eigenvalue can be missing.
@@ -452,7 +450,7 @@ private:
   // Thick restart (Wu and Simon 2000): S X = X Theta + W E_bottom.
   void restart()
   {
-    const Index kept = m_kept_panels * panel_width, m = dimension();
+    const Index m = dimension(), kept = (std::min)(rounded_up(m_K + 2 * panel_width), m - panel_width);
     const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept), arrow = m_link * bottom;
     compress(kept);
     m_T.block(kept, 0, panel_width, kept) = arrow;
@@ -496,10 +494,9 @@ private:
   double m_factorised = m_sigma;
   Index m_below = 0; // eigenvalues below it
   Supernodal_factor m_factor;
-  Sparse_matrix m_mass; // s B in the order of the factor
-  Panel_space m_space;
+  Panel_space m_space; // with s B in the order of the factor
 
-  Index m_maximum_panels, m_kept_panels;
+  Index m_maximum_panels;
   std::vector<Panel> m_basis; // the first m_panels are in use
   Index m_panels = 0;
   Panel m_W, m_BW, m_BV;  // the next panel, its product with s B, that of the last panel

@@ -12,6 +12,7 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
@@ -25,8 +26,8 @@ using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, panel_width, Eigen::R
 class Panel_space
 {
 public:
-  Panel_space(const Eigen::SparseMatrix<double>& mass, int threads)
-    : m_mass(mass)
+  Panel_space(Eigen::SparseMatrix<double> mass, int threads)
+    : m_mass(std::move(mass))
     , m_threads(threads)
   {}
 
@@ -51,9 +52,9 @@ public:
       for(Index i = begin; i < end; i += rows_in_cache) {
         const Index rows = (std::min)(rows_in_cache, end - i);
         for(Index p = 0; p < count; ++p) {
-          gram(basis[p].row(i), W.row(i), rows, block(parts[range], p));
+          gram(basis[p].row(i), W.row(i), rows, parts[range].row(p * panel_width).data());
           if(p < count2)
-            gram(basis[p].row(i), W2.row(i), rows, block(parts[range], count + p));
+            gram(basis[p].row(i), W2.row(i), rows, parts[range].row((count + p) * panel_width).data());
         }
       }
     });
@@ -71,9 +72,9 @@ public:
       for(Index i = begin; i < end; i += rows_in_cache) {
         const Index rows = (std::min)(rows_in_cache, end - i);
         for(Index p = 0; p < count; ++p) {
-          subtract_product(W.row(i), basis[p].row(i), rows, block(H, p));
+          subtract_product(W.row(i), basis[p].row(i), rows, H.row(p * panel_width).data());
           if(p < count2)
-            subtract_product(W2.row(i), basis[p].row(i), rows, block(H2, p));
+            subtract_product(W2.row(i), basis[p].row(i), rows, H2.row(p * panel_width).data());
         }
       }
     });
@@ -120,7 +121,8 @@ public:
         std::fill(result.begin(), result.end(), 0.);
         for(Index q = 0; q < new_count; ++q)
           for(Index p = 0; p < count; ++p)
-            subtract_product(&result[q * entries], basis[p].row(i), rows, block(minus_Y[q], p));
+            subtract_product(&result[q * entries], basis[p].row(i), rows,
+                             minus_Y[q].row(p * panel_width).data());
         for(Index q = 0; q < new_count; ++q)
           std::copy_n(&result[q * entries], entries, basis[q].row(i));
       }
@@ -140,16 +142,10 @@ public:
   }
 
 private:
-  static double* block(Coefficients& H, Index p) { return H.data() + p * panel_width * panel_width; }
-  static const double* block(const Coefficients& H, Index p)
-  {
-    return H.data() + p * panel_width * panel_width;
-  }
-
   static constexpr int number_of_ranges = 8;
-  static constexpr Index rows_in_cache = 128; // two chunks of eight columns in the first level cache
+  static constexpr Index rows_in_cache = 128; // those of two panels in the first level cache
 
-  const Eigen::SparseMatrix<double>& m_mass;
+  Eigen::SparseMatrix<double> m_mass;
   int m_threads;
 };
 
