@@ -227,7 +227,7 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
   // One collapse at least is left to the loop: a run that is cancelled before it ends above the target.
   const std::size_t end = (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
   state.collapse_by_others([&](std::vector<Eigen::Index>& slots) {
-    return collapse_by_quadrics(mesh, n, end, state.core().kept(), options, np, slots);
+    return collapse_by_quadrics(mesh, n, end, state.core().fields().kept, options, np, slots);
   });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();

@@ -53,9 +53,6 @@ public:
                  const Spectral_geometry::Local_operator& op, const double area_scale,
                  const Spectral_cost_parameters& parameters);
 
-  /// Replaces Z = F Lambda by rows of its own. set_geometry() must follow.
-  void set_Z(const Eigen::MatrixXd& Z) { m_fields.Z.assign(Z); }
-
   /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. What set_geometry() does in the
   /// first run, unless the mesh is another one then.
   void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
@@ -67,10 +64,7 @@ public:
   void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
   /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
-  void set_kept(std::vector<char> kept) { m_kept = std::move(kept); }
-
-  const std::vector<char>& kept() const { return m_kept; }
-  bool is_kept(const Spectral_slot s) const { return s < m_kept.size() && m_kept[s]; }
+  void set_kept(std::vector<char> kept) { m_fields.kept = std::move(kept); }
 
   /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
   /// where functions vanish.
@@ -87,13 +81,11 @@ public:
 
   /// The best way to collapse the edge between two slots. Reads only; one kernel per thread. Where all three samples of
   /// section 3.4 cost more than `bound`, the best of them is taken and the candidate is marked as deferred: it is to be
-  /// evaluated again, with the minimiser, when its turn comes.
+  /// evaluated again, with the minimiser, when its turn comes. For CGAL's queue an edge at an end of many neighbours is costed as
+  /// if that end stayed, unless costs are to be exact, and marked as well.
   Spectral_candidate evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
-                              const double bound = std::numeric_limits<double>::infinity()) const;
-
-  /// The same for CGAL's queue. An edge at an end of many neighbours is costed as if that end stayed, and marked as deferred.
-  Spectral_candidate evaluate_for_queue(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
-                                        const double bound) const;
+                              const double bound = std::numeric_limits<double>::infinity(),
+                              const bool for_queue = false) const;
 
   /// The candidate of an edge, evaluated if need be. A candidate of an older version is good enough
   /// where the edge was selected: it is what CGAL's queue holds.
@@ -118,8 +110,8 @@ public:
   /// Evaluates every edge of the mesh. `progress(fraction)` returning false stops early.
   bool evaluate_all(const std::function<bool(double)>& progress);
 
-  /// Evaluates every edge that CGAL's loop costs again after a collapse to `kept`: those incident to
-  /// the neighbours of `kept`.
+  /// Evaluates every edge that CGAL's loop costs again after a collapse to `kept`, those incident to
+  /// the neighbours of `kept`, but for what is put off.
   void evaluate_around(const Spectral_slot kept);
 
   /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for, or from m_batch.
@@ -177,7 +169,7 @@ private:
     double m_sum = 0, m_rest = 0;
   };
 
-  Spectral_placement_search search() const;
+  Spectral_placement_search search(Spectral_slot u, Spectral_slot v) const;
 
   // What is left for an edge whose best placement, `crossing`, would cross another sheet: the cheapest of its ends and its middle that
   // does not, at a cost of at most `bound`.
@@ -194,9 +186,6 @@ private:
   // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
   void update_row(const Spectral_slot w, std::vector<Spectral_row_entry>& row);
 
-  // The rings of the neighbours of `kept`.
-  void follow_around(const Spectral_slot removed, const Spectral_slot kept);
-
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift.
   void refresh_around(const Spectral_slot kept);
@@ -208,11 +197,8 @@ private:
   // their noise. Free placement gains too much from its search: there it was 1.03.
   double minimiser_bound() const;
 
-  void evaluate_edges_of(const Spectral_slot u, const double bound, Spectral_collapse_kernel& kernel);
-
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
-  std::vector<char> m_kept;
   Spectral_shape_term m_shape;
   double m_surface_scale = 0; // 1 / area of the input
   bool m_dirichlet = false;

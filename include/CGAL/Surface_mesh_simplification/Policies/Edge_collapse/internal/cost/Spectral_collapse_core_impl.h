@@ -21,13 +21,6 @@ struct alignas(cache_line) Spectral_collapse_core::Workspace
   std::vector<Spectral_row_entry> row;
 };
 
-inline auto triangle_in(const Spectral_fields& fields)
-{
-  return [&fields](const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) {
-    return fields.triangle(c, a, b);
-  };
-}
-
 inline void set_candidate(Spectral_candidate& c, const Spectral_sample& sample)
 {
   if(!std::isfinite(sample.cost))
@@ -56,28 +49,20 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
 {
   m_number_of_signals = F.cols();
   m_fields.F.assign(F);
-  m_fields.R.assign(0, 0);
-  m_fields.Z.assign(0, 0);
-  m_fields.lambda.assign(0, 0);
   if(lambda.size() != 0)
     m_fields.lambda.assign(lambda.transpose());
   else
-    set_Z(Z);
+    m_fields.Z.assign(Z);
   m_fields.theta = op.theta;
   m_fields.voronoi = op.voronoi;
   const Spectral_geometry::Operator_coefficients& c = op.coefficients;
-  m_fields.coefficients.clear();
   for(Eigen::Index v = 0; v < c.rows(); ++v)
     m_fields.coefficients.push_back(c.row(v).transpose());
   m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
   m_fields.area_scale = area_scale;
   m_fields.largest_degree_of_others = parameters.largest_degree_of_others;
   m_parameters = parameters;
-  m_surface_scale = 0;
-  m_recent_cost = 0;
-  m_fields.vanishing.clear();
   m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
-  m_shape = Spectral_shape_term();
   m_pool = std::make_unique<Pool>(parameters.threads);
   m_forest = Spectral_geometry::Merge_forest(F.rows());
   m_candidates.resize(std::size_t(F.rows()));
@@ -102,8 +87,8 @@ Spectral_collapse_core::follow(const Spectral_slot removed, const Spectral_slot 
 {
   m_shape.merge(removed, kept);
   m_forest.merge(removed, kept, weight);
-  if(is_kept(removed))
-    m_kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
+  if(m_fields.is_kept(removed))
+    m_fields.kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
   merge_rows(m_fields.F, removed, kept, weight);
   if(m_fields.has_z_rows())
     merge_rows(m_fields.Z, removed, kept, weight);
@@ -125,7 +110,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
   m_fields.E = Eigen::VectorXd::Zero(n);
   m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
     m_fields.rings.find_back(Spectral_slot(w));
-    m_fields.rings.update_triangles(Spectral_slot(w), triangle_in(m_fields));
+    m_fields.update_triangles(Spectral_slot(w));
     update_row(Spectral_slot(w), workspace.row);
   });
   m_number_of_vertices = 0;
@@ -153,40 +138,31 @@ Spectral_collapse_core::moves_kept_vertex(const Spectral_slot u, const Spectral_
                                           const Eigen::Vector3d& point) const
 {
   const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
-    return is_kept(kept) && (is_kept(other) || point != m_fields.points[kept] ||
-                             (m_fields.vanishes_at(other) && !m_fields.vanishes_at(kept)));
+    return m_fields.is_kept(kept) && (m_fields.is_kept(other) || point != m_fields.points[kept] ||
+                                      (m_fields.vanishes_at(other) && !m_fields.vanishes_at(kept)));
   };
   return would_move(u, v) || would_move(v, u);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate(
-    Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel, const double bound) const
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate
+Spectral_collapse_core::evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
+                                 const double bound, const bool for_queue) const
 {
   if(v < u)
     std::swap(u, v);
   Spectral_candidate result;
   result.other = v;
-  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(!kernel.prepare(m_fields, u, v))
     return result;
-  set_candidate(result, search().best(u, v, kernel, bound));
-  result.deferred = result.collapsible && result.cost > bound;
-  return result;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_for_queue(
-    Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel, const double bound) const
-{
-  if(v < u)
-    std::swap(u, v);
-  if(m_parameters.exact_costs || (!m_fields.is_hub(u) && !m_fields.is_hub(v)))
-    return evaluate(u, v, kernel, bound);
-  Spectral_candidate result;
-  result.other = v;
-  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
-    return result;
-  set_candidate(result, search().at_large_end(u, v, kernel));
+  const Spectral_placement_search search = this->search(u, v);
+  if(for_queue && !m_parameters.exact_costs)
+    set_candidate(result, search.at_large_end(kernel));
   result.deferred = result.collapsible;
-  return result.collapsible ? result : evaluate(u, v, kernel, bound);
+  if(!result.collapsible) {
+    set_candidate(result, search.best(kernel, bound));
+    result.deferred = result.collapsible && result.cost > bound;
+  }
+  return result;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
@@ -195,10 +171,10 @@ Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, 
   const Spectral_candidate* found = m_candidates.find(u, v);
   if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
     ++m_number_of_evaluations;
-    found = &m_candidates.insert(
-        (std::min)(u, v), any_version
-                              ? evaluate(u, v, m_pool->workspace().kernel)
-                              : evaluate_for_queue(u, v, m_pool->workspace().kernel, minimiser_bound()));
+    Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
+    found =
+        &m_candidates.insert((std::min)(u, v), any_version ? evaluate(u, v, kernel)
+                                                           : evaluate(u, v, kernel, minimiser_bound(), true));
   }
   if(any_version && found->collapsible && crosses(u, v, found->point)) {
     ++m_number_of_evaluations;
@@ -219,13 +195,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double
 Spectral_collapse_core::cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
 {
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(!kernel.prepare(m_fields, u, v))
     return std::numeric_limits<double>::infinity();
   ++m_number_of_evaluations;
-  Spectral_sample sample;
-  sample.point = point;
-  sample.weight = projected_weight(u, v, point);
-  search().evaluate(u, v, kernel, &sample, 1);
+  const Spectral_placement_search search = this->search(u, v);
+  Spectral_sample sample{point, search.projected_weight(point)};
+  search.evaluate(kernel, &sample, 1);
   return sample.cost;
 }
 
@@ -241,7 +216,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double
 Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_slot v,
                                          const Eigen::Vector3d& point) const
 {
-  return search().projected_weight(u, v, point);
+  return search(u, v).projected_weight(point);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE bool
@@ -252,7 +227,11 @@ Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress
   for(std::size_t first = 0; first < n; first += chunk) {
     const std::size_t size = (std::min)(chunk, n - first);
     m_pool->for_each(size, 16, [&](const std::size_t i, Workspace& workspace) {
-      evaluate_edges_of(Spectral_slot(first + i), bound, workspace.kernel);
+      const Spectral_slot u = Spectral_slot(first + i);
+      m_candidates.reserve(u, m_fields.rings.number_above(u));
+      for(const Spectral_ring_entry& e : m_fields.rings[u])
+        if(u < e.vertex)
+          m_candidates.insert(u, evaluate(u, e.vertex, workspace.kernel, bound, true));
     });
     for(std::size_t u = first; u < first + size; ++u)
       m_number_of_evaluations += m_fields.rings.number_above(Spectral_slot(u));
@@ -269,7 +248,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const
   m_results.resize(m_batch.size());
   const double bound = minimiser_bound();
   m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-    m_results[i] = evaluate_for_queue(m_batch[i].u, m_batch[i].v, workspace.kernel, bound);
+    m_results[i] = evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, bound, true);
   });
   for(std::size_t i = 0; i < m_batch.size(); ++i)
     m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
@@ -293,9 +272,12 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
   m_fields.rings.merge(removed, kept, std::move(ring));
-  m_fields.rings.update_triangles(kept, triangle_in(m_fields));
+  m_fields.update_triangles(kept);
   m_candidates.merge(removed);
-  follow_around(removed, kept);
+  for(std::size_t i = 0; i < m_fields.rings[kept].size(); ++i) {
+    m_fields.rings.follow(removed, kept, i);
+    m_candidates.forget(m_fields.rings[kept][i].vertex, removed);
+  }
   if(m_crossing.is_active())
     m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
@@ -307,7 +289,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_aroun
 {
   for(const Spectral_ring_entry& e : m_fields.rings[kept])
     for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
-      m_candidates.forget((std::min)(e.vertex, f.vertex), (std::max)(e.vertex, f.vertex));
+      m_candidates.forget(e.vertex, f.vertex);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
@@ -322,9 +304,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
   m_candidates = Spectral_candidates();
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search Spectral_collapse_core::search() const
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search
+Spectral_collapse_core::search(const Spectral_slot u, const Spectral_slot v) const
 {
-  return Spectral_placement_search(m_fields, m_parameters, m_kept, weighted_shape());
+  return Spectral_placement_search(m_fields, m_parameters, weighted_shape(), u, v);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(
@@ -335,9 +318,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
   Spectral_candidate result;
   result.other = v;
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(kernel.prepare(m_fields, u, v) != Spectral_collapse_kernel::Topology::collapsible)
+  if(!kernel.prepare(m_fields, u, v))
     return result;
-  set_candidate(result, search().best_on_edge(u, v, kernel, bound, [&](const Eigen::Vector3d& point) {
+  set_candidate(result, search(u, v).best_on_edge(kernel, bound, [&](const Eigen::Vector3d& point) {
     return point != crossing && !crosses(u, v, point);
   }));
   result.at_another_point = true;
@@ -383,17 +366,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow_around(const Spectral_slot removed,
-                                                                         const Spectral_slot kept)
-{
-  Spectral_rings& rings = m_fields.rings;
-  for(std::size_t i = 0; i < rings[kept].size(); ++i) {
-    const Spectral_slot w = rings[kept][i].vertex;
-    rings.follow(removed, kept, i);
-    m_candidates.forget(w, removed);
-  }
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot kept)
 {
   const std::size_t n = m_fields.rings[kept].size() + 1;
@@ -417,16 +389,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() c
   return m_parameters.placement == Spectral_placement_strategy::on_edge && !m_parameters.exact_costs
              ? m_recent_cost
              : std::numeric_limits<double>::infinity();
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_edges_of(const Spectral_slot u,
-                                                                             const double bound,
-                                                                             Spectral_collapse_kernel& kernel)
-{
-  m_candidates.reserve(u, m_fields.rings.number_above(u));
-  for(const Spectral_ring_entry& e : m_fields.rings[u])
-    if(u < e.vertex)
-      m_candidates.insert(u, evaluate_for_queue(u, e.vertex, kernel, bound));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)

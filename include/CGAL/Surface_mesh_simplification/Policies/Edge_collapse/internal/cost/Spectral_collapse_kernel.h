@@ -52,12 +52,10 @@ class Spectral_collapse_kernel
 public:
   static constexpr int max_samples = 4;
 
-  enum class Topology { collapsible, link_condition, both_on_border };
-
-  /// Sets the edge. CGAL's link condition, and its refusal of inner edges between border vertices: both depend only on the rings of
-  /// u and v, and whenever those change CGAL costs the edge again. Unless the answer is `collapsible` nothing may be evaluated.
-  /// In time linear in the smaller ring, but for the border of the larger one.
-  Topology prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
+  /// Sets the edge and says whether it may be collapsed: CGAL's link condition, and its refusal of inner edges between border vertices.
+  /// Both depend only on the rings of u and v, and whenever those change CGAL costs the edge again. Unless it may, nothing may be
+  /// evaluated. In time linear in the smaller ring and those of its vertices, but for the border of the larger one.
+  bool prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
   {
     m_fields = &fields;
     const Spectral_rings& rings = fields.rings;
@@ -74,11 +72,9 @@ public:
     for(std::size_t j = 0; j < ring.size(); ++j) {
       const bool shares_face = (j == after && ring[o_in_c].face) || (j == before && ring[before].face);
       if(j != o_in_c && !shares_face && rings.are_adjacent(o, ring[j].vertex))
-        return Topology::link_condition;
+        return false;
     }
-    if(ring[o_in_c].face && ring[before].face && rings.is_border(c) && rings.is_border(o))
-      return Topology::both_on_border;
-    return Topology::collapsible;
+    return !(ring[o_in_c].face && ring[before].face && rings.is_border(c) && rings.is_border(o));
   }
 
   /// Fills `cost` of up to four samples; infinity where a triangle without area would arise.
@@ -102,9 +98,7 @@ public:
                 const double weight, const Eigen::Vector3d& point)
   {
     prepare(fields, u, v);
-    Spectral_sample sample;
-    sample.point = point;
-    sample.weight = weight;
+    Spectral_sample sample{point, weight};
     evaluate(&sample, 1);
     return m_change[0];
   }
@@ -182,7 +176,7 @@ private:
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
       // The row that add_link_vertex() will read: by then it has arrived.
       for(Eigen::Index k = 0; k < m_fields->R.cols(); k += spectral_padding)
-        __builtin_prefetch(m_fields->r_row(around[i].vertex) + k);
+        __builtin_prefetch(m_fields->R[around[i].vertex] + k);
 #endif
       if(!is_outer(end, i))
         continue;
@@ -403,7 +397,7 @@ private:
                                      const int count)
   {
     const bool is_new = w == null_spectral_slot;
-    const double* const start = is_new ? nullptr : m_fields->r_row(w);
+    const double* const start = is_new ? nullptr : m_fields->R[w];
     Entry *const row = m_row.data(), *const end = row + m_size, *const first_of_z = Full ? row : end - 1;
     if(count != m_count)
       for(Entry* e = row; e != end; ++e)

@@ -79,15 +79,19 @@ struct Spectral_fields
   bool voronoi = false; ///< M_lumped has mixed Voronoi areas
   /// of the operator, merged as f_w is; empty for the cotangent Laplacian
   std::vector<Spectral_geometry::internal::Point_coefficients> coefficients;
+  double conductivity = 1; ///< their mean on the input: the unit of cotangents
   /// Whether functions vanish there, on the border: its row is not in E. Empty: nowhere.
   std::vector<char> vanishing;
-  double conductivity = 1; ///< their mean on the input: the unit of cotangents
-  double area_scale = 1;   ///< 1 / area of the input, weighted by the density
+  std::vector<char>
+      kept; ///< one flag for each slot that survives with its position and its row of P, or nothing
+  double area_scale = 1; ///< 1 / area of the input, weighted by the density
   /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed, until its turn comes, for whatever else
   /// may become of it changes all of its triangles.
   std::size_t largest_degree_of_others = 256;
 
   bool is_hub(const Spectral_slot s) const { return rings[s].size() > largest_degree_of_others; }
+
+  bool is_kept(const Spectral_slot s) const { return !kept.empty() && kept[s] != 0; }
 
   /// The triangle (c; a, b), weighted by the coefficients.
   Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
@@ -97,6 +101,16 @@ struct Spectral_fields
     const Spectral_geometry::internal::Point_coefficients mean =
         (coefficients[c] + coefficients[a] + coefficients[b]) / 3;
     return spectral_triangle(points[c], points[a], points[b], &mean);
+  }
+
+  /// Fills the triangles of the ring of c.
+  void update_triangles(const Spectral_slot c)
+  {
+    Spectral_ring& ring = rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i)
+      ring[i].triangle = ring[i].face
+                             ? triangle(c, ring[i].vertex, ring[Spectral_rings::next(ring, i)].vertex)
+                             : Spectral_triangle();
   }
 
   bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }
@@ -115,7 +129,6 @@ struct Spectral_fields
   double off_diagonal_share() const { return theta / 12; }
 
   bool has_z_rows() const { return !Z.empty(); }
-  const double* r_row(const Spectral_slot s) const { return R[s]; }
 };
 
 /// The part of `Spectral_options` that the cost of a candidate depends on.

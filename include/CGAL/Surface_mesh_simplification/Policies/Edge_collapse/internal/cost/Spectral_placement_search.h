@@ -15,8 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -29,71 +27,63 @@ struct Spectral_weighted_shape
 };
 
 /*!
- * The placement of a candidate (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
- * the state and changes nothing; the kernel has been prepared for the edge.
+ * The placement of a candidate (u,v) (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
+ * the state and changes nothing; the kernel that evaluates has been prepared for the edge.
  */
 class Spectral_placement_search
 {
 public:
-  /// `kept`: one flag for each slot of the vertices that survive with their position and their row of P, or nothing.
   Spectral_placement_search(const Spectral_fields& fields, const Spectral_cost_parameters& parameters,
-                            const std::vector<char>& kept, const Spectral_weighted_shape& shape)
-    : m_fields(&fields)
-    , m_parameters(&parameters)
-    , m_kept(&kept)
+                            const Spectral_weighted_shape& shape, const Spectral_slot u,
+                            const Spectral_slot v)
+    : m_fields(fields)
+    , m_parameters(parameters)
     , m_shape(shape)
+    , m_u(u)
+    , m_v(v)
   {}
 
   /// Fills the costs of up to four samples: the change of E and, where there is a shape term, that of the weighted term. Then
   /// no change of E counts for more than `largest_loss` times what the signals have at both ends: beside needles E is
   /// larger than that by orders of magnitude, and a few folds of the input (eyes, nostrils) would never be collapsed.
-  void evaluate(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                Spectral_sample* samples, const int count) const
+  void evaluate(Spectral_collapse_kernel& kernel, Spectral_sample* samples, const int count) const
   {
     kernel.evaluate(samples, count);
     if(m_shape.term == nullptr)
       return;
-    const double largest = m_shape.largest_loss * (m_fields->mass[u] + m_fields->mass[v]);
+    const double largest = m_shape.largest_loss * (m_fields.mass[m_u] + m_fields.mass[m_v]);
     for(int s = 0; s < count; ++s)
       if(std::isfinite(samples[s].cost))
         samples[s].cost = (std::min)(samples[s].cost, largest) +
-                          m_shape.weight * m_shape.term->change(m_fields->points, u, v, samples[s].point);
+                          m_shape.weight * m_shape.term->change(m_fields.points, m_u, m_v, samples[s].point);
   }
-
-  bool is_kept(const Spectral_slot s) const { return !m_kept->empty() && (*m_kept)[s] != 0; }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
   /// an edge without length; all of it on an end that is to be kept.
-  double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  double projected_weight(const Eigen::Vector3d& point) const
   {
-    return rounded(u, v, projected_edge_weight(m_fields->points[u], m_fields->points[v], point));
+    return rounded(projected_edge_weight(m_fields.points[m_u], m_fields.points[m_v], point));
   }
 
   /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
   /// there. Where all three samples cost more than `bound`, the best of them.
-  Spectral_sample best(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                       const double bound) const
+  Spectral_sample best(Spectral_collapse_kernel& kernel, const double bound) const
   {
     Spectral_sample samples[3];
-    const Fixed_ends fixed = fixed_ends(u, v);
+    const Fixed_ends fixed = fixed_ends();
     if(fixed.u && fixed.v)
       return Spectral_sample(); // of infinite cost
-    if(fixed.u || fixed.v) {
-      samples[0] = sample_at(u, v, fixed.v ? 1. : 0.);
-      evaluate(u, v, kernel, samples, 1);
+    if(fixed.u || fixed.v || m_parameters.placement == Spectral_placement_strategy::midpoint) {
+      samples[0] = sample_at(fixed.u ? 0. : fixed.v ? 1. : 0.5);
+      evaluate(kernel, samples, 1);
       return samples[0];
     }
-    if(m_parameters->placement == Spectral_placement_strategy::midpoint) {
-      samples[0] = sample_at(u, v, 0.5);
-      evaluate(u, v, kernel, samples, 1);
-      return samples[0];
-    }
-    const bool free = m_parameters->placement == Spectral_placement_strategy::free && !fixed.on_border;
+    const bool free = m_parameters.placement == Spectral_placement_strategy::free && !fixed.on_border;
     if(free && m_shape.term != nullptr)
-      return best_by_shape(u, v, kernel);
+      return best_by_shape(kernel);
     for(int s = 0; s < 3; ++s)
-      samples[s] = sample_at(u, v, s / 2.);
-    evaluate(u, v, kernel, samples, 3);
+      samples[s] = sample_at(s / 2.);
+    evaluate(kernel, samples, 3);
     Spectral_sample best = *cheapest(samples, 3);
     if(best.cost > bound)
       return best;
@@ -103,48 +93,47 @@ public:
     const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
     const double alpha = -b / (2 * a);
     if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
-      Spectral_sample minimiser = sample_at(u, v, alpha);
-      evaluate(u, v, kernel, &minimiser, 1);
+      Spectral_sample minimiser = sample_at(alpha);
+      evaluate(kernel, &minimiser, 1);
       if(minimiser.cost < best.cost)
         best = minimiser;
     }
     if(free)
-      return best_free_sample(u, v, samples, best, kernel);
+      return best_free_sample(samples, best, kernel);
     return best;
   }
 
   /// The end of more neighbours stays where it is, which nearly always costs least at a hub. Infinite cost elsewhere.
-  Spectral_sample at_large_end(const Spectral_slot u, const Spectral_slot v,
-                               Spectral_collapse_kernel& kernel) const
+  Spectral_sample at_large_end(Spectral_collapse_kernel& kernel) const
   {
     Spectral_sample sample;
-    if((!m_fields->is_hub(u) && !m_fields->is_hub(v)) ||
-       m_parameters->placement == Spectral_placement_strategy::midpoint)
+    if((!m_fields.is_hub(m_u) && !m_fields.is_hub(m_v)) ||
+       m_parameters.placement == Spectral_placement_strategy::midpoint)
       return sample;
-    const bool more_at_u = m_fields->rings[u].size() >= m_fields->rings[v].size();
-    const Fixed_ends fixed = fixed_ends(u, v);
+    const bool more_at_u = m_fields.rings[m_u].size() >= m_fields.rings[m_v].size();
+    const Fixed_ends fixed = fixed_ends();
     if(more_at_u ? fixed.v : fixed.u)
       return sample;
-    sample = sample_at(u, v, more_at_u ? 0. : 1.);
-    evaluate(u, v, kernel, &sample, 1);
+    sample = sample_at(more_at_u ? 0. : 1.);
+    evaluate(kernel, &sample, 1);
     return sample;
   }
 
   /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true, unless it costs more than
   /// `bound`.
   template <class Allowed>
-  Spectral_sample best_on_edge(const Spectral_slot u, const Spectral_slot v, Spectral_collapse_kernel& kernel,
-                               const double bound, const Allowed& allowed) const
+  Spectral_sample best_on_edge(Spectral_collapse_kernel& kernel, const double bound,
+                               const Allowed& allowed) const
   {
-    const Fixed_ends fixed = fixed_ends(u, v);
+    const Fixed_ends fixed = fixed_ends();
     Spectral_sample samples[3];
     int count = 0;
     for(int s = 0; s < 3; ++s)
       if((!fixed.u || s == 0) && (!fixed.v || s == 2))
-        samples[count++] = sample_at(u, v, s / 2.);
+        samples[count++] = sample_at(s / 2.);
     if(count == 0)
       return Spectral_sample(); // of infinite cost
-    evaluate(u, v, kernel, samples, count);
+    evaluate(kernel, samples, count);
     for(; count > 0; --count) {
       Spectral_sample* const best = cheapest(samples, count);
       if(!std::isfinite(best->cost) || best->cost > bound)
@@ -163,92 +152,89 @@ private:
                             [](const auto& a, const auto& b) { return a.cost < b.cost; });
   }
 
-  double rounded(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  double rounded(const double alpha) const
   {
-    if(is_kept(u) || is_kept(v))
-      return is_kept(u) ? 0. : 1.;
-    if(m_fields->vanishes_at(u) != m_fields->vanishes_at(v))
-      return m_fields->vanishes_at(u) ? 0. : 1.;
-    if(!m_parameters->binary)
+    if(m_fields.is_kept(m_u) || m_fields.is_kept(m_v))
+      return m_fields.is_kept(m_u) ? 0. : 1.;
+    if(m_fields.vanishes_at(m_u) != m_fields.vanishes_at(m_v))
+      return m_fields.vanishes_at(m_u) ? 0. : 1.;
+    if(!m_parameters.binary)
       return alpha;
     if(alpha != 0.5)
       return alpha < 0.5 ? 0. : 1.;
-    if(m_fields->mass[u] != m_fields->mass[v])
-      return m_fields->mass[u] > m_fields->mass[v] ? 0. : 1.;
-    return u < v ? 0. : 1.;
+    if(m_fields.mass[m_u] != m_fields.mass[m_v])
+      return m_fields.mass[m_u] > m_fields.mass[m_v] ? 0. : 1.;
+    return m_u < m_v ? 0. : 1.;
   }
 
-  Spectral_sample sample_at(const Spectral_slot u, const Spectral_slot v, const double alpha) const
+  Spectral_sample sample_at(const double alpha) const
   {
-    Spectral_sample s;
-    const Eigen::Vector3d &pu = m_fields->points[u], &pv = m_fields->points[v];
-    s.point = alpha == 0 ? pu : alpha == 1 ? pv : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
-    if(m_parameters->single_precision_points)
-      s.point = s.point.cast<float>().cast<double>();
-    s.weight = rounded(u, v, alpha);
-    return s;
+    const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
+    return {as_stored(alpha == 0   ? pu
+                      : alpha == 1 ? pv
+                                   : Eigen::Vector3d((1 - alpha) * pu + alpha * pv)),
+            rounded(alpha)};
+  }
+
+  Spectral_sample sample_off_edge(const Eigen::Vector3d& x) const
+  {
+    const Eigen::Vector3d point = as_stored(x);
+    return {point, projected_weight(point)};
+  }
+
+  // What the mesh makes of a point.
+  Eigen::Vector3d as_stored(const Eigen::Vector3d& point) const
+  {
+    return m_parameters.single_precision_points ? point.cast<float>().cast<double>() : point;
   }
 
   // The sum of the normals around both ends, weighted by area.
-  Eigen::Vector3d normal_at_edge(const Spectral_slot u, const Spectral_slot v) const
+  Eigen::Vector3d normal_at_edge() const
   {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for(const Spectral_slot c : {u, v})
-      m_fields->rings.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
-        normal +=
-            (m_fields->points[a] - m_fields->points[c]).cross(m_fields->points[b] - m_fields->points[c]);
+    for(const Spectral_slot c : {m_u, m_v})
+      m_fields.rings.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
+        normal += (m_fields.points[a] - m_fields.points[c]).cross(m_fields.points[b] - m_fields.points[c]);
       });
     return normal;
-  }
-
-  Spectral_sample sample_off_edge(const Spectral_slot u, const Spectral_slot v, Eigen::Vector3d point) const
-  {
-    Spectral_sample s;
-    if(m_parameters->single_precision_points)
-      point = point.cast<float>().cast<double>();
-    s.point = point;
-    s.weight = projected_weight(u, v, point);
-    return s;
   }
 
   // Free placement with a shape term: its minimiser, or what is cheaper of the ends and the middle, which the kernel evaluates
   // at the same time. Where E has its least hardly matters then: ten samples around the edge and their quadric lower
   // |C|_L by 3 % and take twice as long (twelve meshes).
-  Spectral_sample best_by_shape(const Spectral_slot u, const Spectral_slot v,
-                                Spectral_collapse_kernel& kernel) const
+  Spectral_sample best_by_shape(Spectral_collapse_kernel& kernel) const
   {
-    const Eigen::Vector3d &pu = m_fields->points[u], &pv = m_fields->points[v];
+    const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
     const Eigen::Vector3d middle = (pu + pv) / 2;
     const double radius = (pv - pu).norm();
-    Eigen::Vector3d x = m_shape.term->minimiser(u, v);
+    Eigen::Vector3d x = m_shape.term->minimiser(m_u, m_v);
     const double distance = (x - middle).norm();
     if(distance > radius)
       x = middle + radius / distance * (x - middle);
     constexpr int n = Spectral_collapse_kernel::max_samples;
-    Spectral_sample samples[n] = {sample_at(u, v, 0), sample_at(u, v, 0.5), sample_at(u, v, 1),
-                                  sample_off_edge(u, v, x.allFinite() ? x : middle)};
-    evaluate(u, v, kernel, samples, n);
+    Spectral_sample samples[n] = {sample_at(0), sample_at(0.5), sample_at(1),
+                                  sample_off_edge(x.allFinite() ? x : middle)};
+    evaluate(kernel, samples, n);
     return *cheapest(samples, n);
   }
 
   // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
   // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
-  Spectral_sample best_free_sample(const Spectral_slot u, const Spectral_slot v,
-                                   const Spectral_sample* on_edge, Spectral_sample best,
+  Spectral_sample best_free_sample(const Spectral_sample* on_edge, Spectral_sample best,
                                    Spectral_collapse_kernel& kernel) const
   {
     using Quadric = Spectral_placement_quadric;
     Quadric quadric;
-    if(!quadric.set_frame(m_fields->points[u], m_fields->points[v], normal_at_edge(u, v)))
+    if(!quadric.set_frame(m_fields.points[m_u], m_fields.points[m_v], normal_at_edge()))
       return best;
     constexpr int n = Quadric::number_of_samples, first = Quadric::number_on_edge;
     Spectral_sample samples[n];
     double costs[n];
     std::copy(on_edge, on_edge + first, samples);
     for(int i = first; i < n; ++i)
-      samples[i] = sample_off_edge(u, v, quadric.point(i));
+      samples[i] = sample_off_edge(quadric.point(i));
     for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
-      evaluate(u, v, kernel, samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
+      evaluate(kernel, samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
     for(int i = 0; i < n; ++i) {
       costs[i] = samples[i].cost;
       if(costs[i] < best.cost)
@@ -256,8 +242,8 @@ private:
     }
     if(!quadric.fit(costs))
       return best;
-    Spectral_sample minimiser = sample_off_edge(u, v, quadric.minimiser());
-    evaluate(u, v, kernel, &minimiser, 1);
+    Spectral_sample minimiser = sample_off_edge(quadric.minimiser());
+    evaluate(kernel, &minimiser, 1);
     return minimiser.cost < best.cost ? minimiser : best;
   }
 
@@ -268,13 +254,13 @@ private:
   };
 
   // The ends that the merged vertex must lie on.
-  Fixed_ends fixed_ends(const Spectral_slot u, const Spectral_slot v) const
+  Fixed_ends fixed_ends() const
   {
-    Fixed_ends fixed{is_kept(u), is_kept(v), false};
-    if(m_parameters->preserve_border) {
+    Fixed_ends fixed{m_fields.is_kept(m_u), m_fields.is_kept(m_v), false};
+    if(m_parameters.preserve_border) {
       // Functions go on to vanish where the border of a hole was, when it has closed.
-      const bool border_u = m_fields->rings.is_border(u) || m_fields->vanishes_at(u),
-                 border_v = m_fields->rings.is_border(v) || m_fields->vanishes_at(v);
+      const bool border_u = m_fields.rings.is_border(m_u) || m_fields.vanishes_at(m_u),
+                 border_v = m_fields.rings.is_border(m_v) || m_fields.vanishes_at(m_v);
       fixed.on_border = border_u && border_v;
       fixed.u = fixed.u || (border_u && !border_v);
       fixed.v = fixed.v || (border_v && !border_u);
@@ -282,10 +268,10 @@ private:
     return fixed;
   }
 
-  const Spectral_fields* m_fields;
-  const Spectral_cost_parameters* m_parameters;
-  const std::vector<char>* m_kept;
+  const Spectral_fields& m_fields;
+  const Spectral_cost_parameters& m_parameters;
   Spectral_weighted_shape m_shape;
+  Spectral_slot m_u, m_v;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

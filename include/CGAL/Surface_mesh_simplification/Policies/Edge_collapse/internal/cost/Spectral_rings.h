@@ -86,7 +86,6 @@ class Spectral_rings
 {
 public:
   void resize(const std::size_t n) { m_rings.assign(n, Spectral_ring()); }
-  std::size_t size() const { return m_rings.size(); }
 
   Spectral_ring& operator[](const Spectral_slot s) { return m_rings[s]; }
   const Spectral_ring& operator[](const Spectral_slot s) const { return m_rings[s]; }
@@ -141,16 +140,8 @@ public:
       function(e.vertex);
   }
 
-  /// Fills the triangles of the ring of `c` from `triangle(c, a, b)`.
-  template <class Triangle>
-  void update_triangles(const Spectral_slot c, const Triangle& triangle)
-  {
-    for(std::size_t i = 0; i < m_rings[c].size(); ++i)
-      update_triangle(c, i, triangle);
-  }
-
   /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it, as the mesh has it.
-  /// Its triangles follow from update_triangles(), those around it from follow().
+  /// Its triangles follow from `Spectral_fields::update_triangles()`, those around it from follow().
   void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
   {
     Spectral_ring().swap(m_rings[removed]);
@@ -162,7 +153,8 @@ public:
   void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
   {
     Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
-    const std::size_t moved = replace_in_ring(ring, removed, kept), j = find(around[i].vertex, kept);
+    const std::size_t moved = replace_in_ring(around[i].vertex, removed, kept),
+                      j = find(around[i].vertex, kept);
     CGAL_assertion(j < ring.size());
     around[i].back = std::uint32_t(j);
     ring[j].back = std::uint32_t(i);
@@ -209,23 +201,13 @@ private:
     }
   }
 
-  template <class Triangle>
-  void update_triangle(const Spectral_slot c, const std::size_t i, const Triangle& triangle)
-  {
-    Spectral_ring& ring = m_rings[c];
-    ring[i].triangle =
-        ring[i].face ? triangle(c, ring[i].vertex, ring[next(ring, i)].vertex) : Spectral_triangle();
-  }
-
-  // Where removed and kept were consecutive, the triangle between them vanished and the later of the
+  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were consecutive, the triangle between them vanished and the later of the
   // two entries takes the place of both: an entry carries the face that follows it.
   // Returns the index from which on entries have moved.
-  static std::size_t replace_in_ring(Spectral_ring& ring, const Spectral_slot removed,
-                                     const Spectral_slot kept)
+  std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed, const Spectral_slot kept)
   {
-    std::size_t i = 0;
-    while(i < ring.size() && ring[i].vertex != removed)
-      ++i;
+    Spectral_ring& ring = m_rings[c];
+    const std::size_t i = find(c, removed);
     if(i == ring.size())
       return i;
     ring[i].vertex = kept;
