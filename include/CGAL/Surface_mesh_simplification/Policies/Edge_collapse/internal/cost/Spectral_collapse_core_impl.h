@@ -188,7 +188,7 @@ Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, 
 CGAL_SPECTRAL_GEOMETRY_INLINE bool
 Spectral_collapse_core::crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
 {
-  return m_crossing.is_active() && m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
+  return m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double
@@ -278,8 +278,7 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
     m_fields.rings.follow(removed, kept, i);
     m_candidates.forget(m_fields.rings[kept][i].vertex, removed);
   }
-  if(m_crossing.is_active())
-    m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
+  m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
   const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
   m_recent_cost = (std::max)(at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);

@@ -22,7 +22,8 @@ namespace CGAL::Surface_mesh_simplification::internal {
  * Tells whether a collapse would put a triangle through another one that it was not through before: ears, mouths and hooves are
  * thin sheets, and their sides are approximated apart from each other.
  *
- * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs to each.
+ * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs to each. Before set_geometry()
+ * there is none, and nothing crosses.
  *
  * `Fans`, the connectivity: `for_triangles(w, f)` calls f(a, b) for each triangle (w, a, b), `for_neighbours(w, f)` f(a) for each
  * neighbour of w.
@@ -31,8 +32,6 @@ class Spectral_crossing_guard
 {
 public:
   using Points = std::vector<Eigen::Vector3d>;
-
-  bool is_active() const { return !m_tree.is_empty(); }
 
   template <class Fans>
   void set_geometry(const Points& points, const Fans& fans)
@@ -51,6 +50,8 @@ public:
   bool crosses(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
                const Eigen::Vector3d& x)
   {
+    if(m_tree.is_empty())
+      return false;
     collect(points, fans, u, v, x);
     // Those around an end that stays where it is are not new.
     m_boxes.clear();
@@ -76,6 +77,8 @@ public:
   template <class Fans>
   void commit(const Points& points, const Fans& fans, const Spectral_slot removed, const Spectral_slot kept)
   {
+    if(m_tree.is_empty())
+      return;
     m_tree.update(removed, Box());
     m_tree.update(kept, box_of_owned(points, fans, kept));
     fans.for_neighbours(kept,
@@ -85,8 +88,6 @@ public:
 private:
   using Box = Spectral_geometry::internal::Box_tree::Box;
   using Corners = Spectral_geometry::internal::Corners;
-
-  static Box box_of(const Corners& t) { return Spectral_geometry::internal::box_of(t); }
 
   static bool triangles_intersect(const Corners& s, const Corners& t)
   {

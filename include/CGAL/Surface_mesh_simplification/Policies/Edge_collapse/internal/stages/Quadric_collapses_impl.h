@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 
@@ -69,12 +68,14 @@ public:
       add_corner(c);
     check_fans();
     if(keep_free_of_self_intersections)
-      m_crossing.set_geometry(m_points, Fans{*this});
+      m_crossing.set_geometry(m_points, *this);
   }
 
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
   {
-    collect();
+    for(int c = 0; c < int(m_vertex.size()); ++c)
+      if(m_opposite[at(c)] < c)
+        push(c);
     const std::size_t n = m_log.number_of_vertices();
     const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
     std::size_t next_report = n - (std::min)(n, step), before = n;
@@ -106,9 +107,8 @@ public:
   /// Whether two faces of the mesh as it is intersect.
   bool has_intersections() const
   {
-    Eigen::MatrixXd V(Eigen::Index(m_points.size()), 3);
-    for(std::size_t v = 0; v < m_points.size(); ++v)
-      V.row(Eigen::Index(v)) = m_points[v].transpose();
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
+        m_points.front().data(), Eigen::Index(m_points.size()), 3);
     Eigen::MatrixXi T(Eigen::Index(m_vertex.size() / 3), 3);
     Eigen::Index faces = 0;
     for(std::size_t c = 0; c < m_vertex.size(); c += 3)
@@ -117,6 +117,24 @@ public:
     T.conservativeResize(faces, 3);
     return Spectral_geometry::internal::any_self_intersecting_faces(
         V, T, [](Eigen::Index, Eigen::Index) { return true; });
+  }
+
+  /// Calls visit(a, b) for each triangle (v, a, b), as `Spectral_crossing_guard` asks for.
+  template <class Visit>
+  void for_triangles(const int v, const Visit& visit) const
+  {
+    for_outgoing(v, [&](const int c) { visit(target(c), source(previous(c))); });
+  }
+
+  /// Calls visit(w) for each neighbour of v.
+  template <class Visit>
+  void for_neighbours(const int v, const Visit& visit) const
+  {
+    for_outgoing(v, [&](const int c) {
+      visit(target(c));
+      if(is_border(previous(c)))
+        visit(source(previous(c)));
+    });
   }
 
 private:
@@ -159,36 +177,6 @@ private:
     } while(c >= 0 && c != first);
   }
 
-  template <class Visit>
-  void for_neighbours(const int v, const Visit& visit) const
-  {
-    for_outgoing(v, [&](const int c) {
-      visit(target(c));
-      if(is_border(previous(c)))
-        visit(source(previous(c)));
-    });
-  }
-
-  // What `Spectral_crossing_guard` asks for.
-  struct Fans
-  {
-    template <class Function>
-    void for_triangles(const Spectral_slot v, const Function& function) const
-    {
-      if(run.m_outgoing[v] >= 0)
-        run.for_outgoing(int(v), [&](const int c) {
-          function(Spectral_slot(run.target(c)), Spectral_slot(run.source(previous(c))));
-        });
-    }
-    template <class Function>
-    void for_neighbours(const Spectral_slot v, const Function& function) const
-    {
-      run.for_neighbours(int(v), [&](const int w) { function(Spectral_slot(w)); });
-    }
-
-    const Quadric_collapser& run;
-  };
-
   void add_corner(const int c)
   {
     const int v = source(c);
@@ -209,13 +197,6 @@ private:
               " joins several fans of faces; duplicate it "
               "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
     }
-  }
-
-  void collect()
-  {
-    for(int c = 0; c < int(m_vertex.size()); ++c)
-      if(m_opposite[at(c)] < c)
-        push(c);
   }
 
   void push(const int c) { push(c, placement(c).first); }
@@ -265,7 +246,7 @@ private:
       return;
     }
     if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) || !keeps_shape(u, v, x) ||
-       !keeps_shape(v, u, x) || crosses(u, v, x)) {
+       !keeps_shape(v, u, x) || m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
       m_state[at(c)] = refused;
       m_refused.push_back(c);
       return;
@@ -311,8 +292,7 @@ private:
   bool keeps_shape(const int u, const int v, const Eigen::Vector3d& x) const
   {
     bool result = true;
-    for_outgoing(u, [&](const int c) {
-      const int a = target(c), b = source(previous(c));
+    for_triangles(u, [&](const int a, const int b) {
       if(!result || a == v || b == v)
         return;
       const Face before(m_points[at(u)], m_points[at(a)], m_points[at(b)]),
@@ -323,12 +303,6 @@ private:
         result = !after.is_needle() && before.turns_little(after);
     });
     return result;
-  }
-
-  bool crosses(const int u, const int v, const Eigen::Vector3d& x)
-  {
-    return m_crossing.is_active() &&
-           m_crossing.crosses(m_points, Fans{*this}, Spectral_slot(u), Spectral_slot(v), x);
   }
 
   struct Face
@@ -388,8 +362,7 @@ private:
       reconsider(h);
       reconsider(previous(h));
     }
-    if(m_crossing.is_active())
-      m_crossing.commit(m_points, Fans{*this}, Spectral_slot(gone), Spectral_slot(kept));
+    m_crossing.commit(m_points, *this, Spectral_slot(gone), Spectral_slot(kept));
   }
 
   // Removes a face on the edge: its other two edges become one.
