@@ -12,6 +12,7 @@
 
 #include <CGAL/Kernel_traits.h>
 #include <CGAL/Named_function_parameters.h>
+#include <CGAL/assertions.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
@@ -24,6 +25,22 @@
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
+
+namespace internal {
+
+/// The merge that was announced, given the slot that has gone on. The loop keeps v1 in every version tried; should it keep v0, the
+/// weights change places.
+inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept,
+                                                         Spectral_geometry::Merge_forest::Merge m)
+{
+  if(kept != m.kept) {
+    CGAL_assertion(kept == m.removed);
+    m = {m.kept, m.removed, 1 - m.alpha};
+  }
+  return m;
+}
+
+} // namespace internal
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
@@ -52,7 +69,7 @@ namespace CGAL::Surface_mesh_simplification {
  * after the collapses, relocation of its vertices for instance, is not in the log. Neither are vertices that were
  * moved between two runs.
  *
- * Made by `Spectral_policies::log()`, `Restriction_visitor::log()` and `spectral_edge_collapse()`.
+ * Made by `Spectral_policies::log()`, `Restriction_visitor::log()`, `spectral_edge_collapse()` and `quadric_edge_collapse()`.
  */
 class Collapse_log
 {

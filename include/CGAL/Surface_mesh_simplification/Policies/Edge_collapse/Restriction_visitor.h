@@ -12,13 +12,12 @@
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
-#include <CGAL/assertions.h>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -47,40 +46,27 @@ public:
     require(&mesh == m_mesh, "Restriction_visitor: edge_collapse() was called with another mesh than the one "
                              "that the visitor was made for; make a visitor for that mesh.");
     m_slots.check();
-    m_open = false; // left so by an exception during a collapse
+    m_announced.reset(); // left so by an exception during a collapse
   }
 
   // Before the collapse: afterwards p1 reads the new point, and some mesh types have freed v0.
   template <class Profile, class OptionalPoint>
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
-    m_removed = m_slots.slot(profile.v0());
-    m_kept = m_slots.slot(profile.v1());
     // Without a placement CGAL leaves the kept vertex where it is.
-    m_weight = placement ? projected_edge_weight(to_vector(profile.p1()), to_vector(profile.p0()),
-                                                 to_vector(*placement))
-                         : 0.;
-    m_open = true;
+    const double weight = placement ? projected_edge_weight(to_vector(profile.p1()), to_vector(profile.p0()),
+                                                            to_vector(*placement))
+                                    : 0.;
+    m_announced = {m_slots.slot(profile.v0()), m_slots.slot(profile.v1()), weight};
   }
 
   template <class Profile>
   void on_collapsed(const Profile& profile, const vertex_descriptor kept_vertex)
   {
-    if(!m_open) { // an edge without length, collapsed before the loop
-      m_removed = m_slots.slot(profile.v0());
-      m_kept = m_slots.slot(profile.v1());
-      m_weight = 0.5;
-    }
-    m_open = false;
-    // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
-    const Eigen::Index kept = m_slots.slot(kept_vertex);
-    const Eigen::Vector3d point = to_vector(get(profile.vertex_point_map(), kept_vertex));
-    if(kept == m_kept)
-      m_log.merge(m_removed, m_kept, m_weight, point);
-    else {
-      CGAL_assertion(kept == m_removed);
-      m_log.merge(m_kept, m_removed, 1 - m_weight, point);
-    }
+    if(!m_announced) // an edge without length, collapsed before the loop
+      m_announced = {m_slots.slot(profile.v0()), m_slots.slot(profile.v1()), 0.5};
+    const Merge m = merge_into(m_slots.slot(kept_vertex), *std::exchange(m_announced, {}));
+    m_log.merge(m.removed, m.kept, m.alpha, to_vector(get(profile.vertex_point_map(), kept_vertex)));
   }
 
   void on_finished() const {}
@@ -96,12 +82,12 @@ public:
   const Collapse_log& log() const { return m_log; }
 
 private:
+  using Merge = Spectral_geometry::Merge_forest::Merge;
+
   const TriangleMesh* m_mesh;
   Slots m_slots;
   Collapse_log m_log;
-  bool m_open = false;
-  Eigen::Index m_removed = 0, m_kept = 0;
-  double m_weight = 0; // of the removed slot
+  std::optional<Merge> m_announced; // the one under way
 };
 
 } // namespace internal

@@ -32,6 +32,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -89,7 +90,10 @@ public:
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
     m_number_of_vertices = std::size_t(m_slots.size());
-    m_core.set_kept(kept_vertices(np));
+    std::vector<char> kept = kept_vertex_flags(mesh, m_options.kept_vertices, np);
+    if(!kept.empty())
+      check_kept_vertices_apart(mesh, m_slots, kept, m_fine_points);
+    m_core.set_kept(std::move(kept));
 
     Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, m_options);
     m_eigenpairs = basis.eigenpairs;
@@ -124,12 +128,13 @@ public:
   template <class Collapse>
   void collapse_by_others(const Collapse& collapse)
   {
-    read_geometry([this](auto points, auto rings) { m_core.set_input(std::move(points), std::move(rings)); });
+    auto [points, rings] = read_geometry();
+    m_core.set_input(std::move(points), std::move(rings));
     std::vector<Eigen::Index> slots;
     const Collapse_log log = collapse(slots);
     m_slots.set(slots);
     m_log_points = log.points();
-    for(const Spectral_geometry::Merge_forest::Merge& m : log.forest().merges())
+    for(const Merge& m : log.forest().merges())
       m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha);
     m_number_of_vertices = slots.size();
   }
@@ -143,10 +148,11 @@ public:
     Real_timer timer;
     timer.start();
     m_run.reset();
-    read_geometry(
-        [this](auto points, auto rings) { m_core.set_geometry(std::move(points), std::move(rings)); });
+    auto [points, rings] = read_geometry();
+    m_core.set_geometry(std::move(points), std::move(rings));
     m_positions_checked = false;
-    m_selecting = m_selection_open = m_pending.open = false;
+    m_selecting = m_selection_open = false;
+    m_announced.reset();
     m_answer = Answer();
     const bool go_on = !m_batched || m_core.evaluate_all([this](const double fraction) {
       return report(Spectral_phase::first_costs, fraction);
@@ -194,11 +200,9 @@ public:
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
     m_selection_open = false;
-    m_pending.removed = slot(profile.v0());
-    m_pending.kept = slot(profile.v1());
-    const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[m_pending.kept];
-    m_pending.weight = weight_of(m_pending.removed, m_pending.kept, point);
-    m_pending.open = true;
+    const Slot removed = slot(profile.v0()), kept = slot(profile.v1());
+    const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[kept];
+    m_announced = {Eigen::Index(removed), Eigen::Index(kept), weight_of(removed, kept, point)};
   }
 
   /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
@@ -207,21 +211,14 @@ public:
   {
     const Slot kept = slot(kept_vertex);
     Spectral_ring ring = ring_of(kept_vertex);
-    const bool in_loop = m_pending.open;
-    if(in_loop) {
-      // The loop keeps v1 in every version tried; should it keep v0, the weights change places.
-      if(kept != m_pending.kept) {
-        CGAL_assertion(kept == m_pending.removed);
-        std::swap(m_pending.kept, m_pending.removed);
-        m_pending.weight = 1 - m_pending.weight;
-      }
-    } else
-      capture_zero_length_merge(kept, ring);
-    m_pending.open = m_selecting = false;
+    const bool in_loop = m_announced.has_value();
+    const Merge m = in_loop ? merge_into(kept, *m_announced) : zero_length_merge(kept, ring);
+    m_announced.reset();
+    m_selecting = false;
     m_answer = Answer();
     --m_number_of_vertices;
     m_log_points.push_back(to_vector(get(m_vpm, kept_vertex)));
-    m_core.commit(m_pending.removed, kept, m_pending.weight, m_log_points.back(), std::move(ring));
+    m_core.commit(Slot(m.removed), kept, m.alpha, m_log_points.back(), std::move(ring));
     if(!in_loop)
       m_core.drop_candidates_around(kept);
     else if(m_batched)
@@ -407,12 +404,7 @@ private:
     const Spectral_candidate* candidate = nullptr;
   };
 
-  struct Pending
-  {
-    bool open = false;
-    Slot removed = 0, kept = 0;
-    double weight = 0; // of the removed slot
-  };
+  using Merge = Spectral_geometry::Merge_forest::Merge;
 
   static FT largest_cost()
   {
@@ -459,18 +451,8 @@ private:
     return ring;
   }
 
-  template <class NamedParameters>
-  std::vector<char> kept_vertices(const NamedParameters& np) const
-  {
-    std::vector<char> flags = kept_vertex_flags(*m_mesh, m_options.kept_vertices, np);
-    if(!flags.empty())
-      check_kept_vertices_apart(*m_mesh, m_slots, flags, m_fine_points);
-    return flags;
-  }
-
-  // Hands positions and rings of the mesh as it is on.
-  template <class Take>
-  void read_geometry(const Take& take)
+  // Positions and rings of the mesh as it is.
+  std::pair<std::vector<Eigen::Vector3d>, Spectral_rings> read_geometry()
   {
     m_slots.check();
     m_vpm = vertex_point_map();
@@ -486,7 +468,7 @@ private:
       ++m_number_of_vertices;
     }
     check_number_of_vertices(m_number_of_vertices);
-    take(std::move(points), std::move(rings));
+    return {std::move(points), std::move(rings)};
   }
 
   // The merges on record are all that has happened to the mesh.
@@ -501,20 +483,19 @@ private:
 
   // Edges without length are collapsed before the loop, announced by OnCollapsed alone. The removed vertex
   // is the one neighbour that the kept vertex has lost.
-  void capture_zero_length_merge(const Slot kept, const Spectral_ring& ring)
+  Merge zero_length_merge(const Slot kept, const Spectral_ring& ring) const
   {
-    m_pending.kept = kept;
-    m_pending.removed = null_spectral_slot;
+    Slot removed = null_spectral_slot;
     std::vector<Slot> left;
     for(const Spectral_ring_entry& e : ring)
       left.push_back(e.vertex);
     std::sort(left.begin(), left.end());
     for(const Spectral_ring_entry& old : m_core.fields().rings[kept])
       if(!std::binary_search(left.begin(), left.end(), old.vertex))
-        m_pending.removed = old.vertex;
-    CGAL_assertion(m_pending.removed != null_spectral_slot);
-    m_pending.weight =
-        m_core.projected_weight(kept, m_pending.removed, m_core.fields().points[m_pending.removed]);
+        removed = old.vertex;
+    CGAL_assertion(removed != null_spectral_slot);
+    return {Eigen::Index(removed), Eigen::Index(kept),
+            m_core.projected_weight(kept, removed, m_core.fields().points[removed])};
   }
 
   void close_selection()
@@ -557,7 +538,7 @@ private:
   std::weak_ptr<void> m_run;
   std::size_t m_number_of_runs = 0;
   Answer m_answer;
-  Pending m_pending;
+  std::optional<Merge> m_announced; // the collapse under way
   bool m_positions_checked = false;
   bool m_batched = true;
   bool m_selecting = false;      // a placement asked for now is that of the selected candidate
