@@ -13,6 +13,7 @@
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 

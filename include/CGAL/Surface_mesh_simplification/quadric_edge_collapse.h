@@ -61,12 +61,13 @@ void check_mesh_of_quadrics(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
   }
 }
 
-/// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their edges. `T` as in `mesh_matrices()`.
+/// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their edges, with what
+/// `mesh_matrices()` gives for the mesh.
 template <class TriangleMesh>
-Triangle_arrays triangle_arrays(const TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& matrices)
+Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mesh_matrices matrices)
 {
   Triangle_arrays result;
-  result.V = matrices.V;
+  result.V = std::move(matrices.V);
   const auto index = get(CGAL::dynamic_face_property_t<int>(), mesh);
   int m = 0;
   for(const auto f : faces(mesh)) {
@@ -98,19 +99,15 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
                                   const bool keep_free_of_self_intersections, const Report& report,
                                   const NamedParameters& np, std::vector<Eigen::Index>& slots_left)
 {
-  Triangle_arrays arrays;
-  {
-    const Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-    check_mesh_of_quadrics(mesh, matrices.V);
-    if(!kept.empty()) {
-      const Fine_vertex_slots<TriangleMesh> slots(mesh, "edge collapses");
-      check_kept_vertices_apart(mesh, slots, kept, matrices.V);
-    }
-    arrays = triangle_arrays(mesh, matrices);
-    using Point = typename boost::property_traits<
-        typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
-    arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
-  }
+  using Point = typename boost::property_traits<
+      typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
+  Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
+  check_mesh_of_quadrics(mesh, matrices.V);
+  if(!kept.empty())
+    check_kept_vertices_apart(mesh, Fine_vertex_slots<TriangleMesh>(mesh, "edge collapses"), kept,
+                              matrices.V);
+  Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
+  arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
   report(std::size_t(arrays.V.rows()));
   Collapse_log log = quadric_collapses(std::move(arrays), fixed_vertex_flags(mesh, kept, np), border_is_apart,
                                        keep_free_of_self_intersections, number_of_vertices, report);

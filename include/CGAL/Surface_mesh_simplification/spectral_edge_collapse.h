@@ -29,7 +29,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
@@ -41,16 +40,13 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
-/// What ended the loop before the target, if anything did.
-struct Loop_end
-{
-  bool cancelled = false, error_reached = false;
-};
+using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
-/// Runs the loop with the constraint map, filter and visitor that the user gave, if any.
+/// Runs the loop with the constraint map, filter and visitor that the user gave, if any. Returns what has ended it unless that was
+/// the target.
 template <class TriangleMesh, class Policies, class NamedParameters>
-Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
-                                    const double maximum_error, const NamedParameters& np)
+Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
+                                       const double maximum_error, const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -73,7 +69,9 @@ Loop_end run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies
       edge_collapse(mesh, stop, with_cost.filter(policies.filter()));
     else
       edge_collapse(mesh, stop, with_cost);
-    return Loop_end{stop.cancelled(), stop.error_reached()};
+    return stop.cancelled()       ? Stop_reason::cancelled
+           : stop.error_reached() ? Stop_reason::error_reached
+                                  : Stop_reason::queue_exhausted;
   };
   if constexpr(has_constraints) {
     const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
@@ -135,23 +133,18 @@ inline void set_restriction(Spectral_edge_collapse_result& result, const Pre_sim
   result.vertex_map = result.log.forest().vertex_map(slots);
 }
 
-/// Why the run ended.
+/// Why the run ended: `end` is what has ended the loop unless that was the target.
 template <class TriangleMesh>
-void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& mesh, const Loop_end& end,
+void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& mesh, const Stop_reason end,
                      const std::size_t target)
 {
-  using Reason = Spectral_edge_collapse_result::Stop_reason;
   if(result.output_vertices <= target)
     return;
-  if(end.cancelled) {
-    result.stop_reason = Reason::cancelled;
+  result.stop_reason = end;
+  if(end == Stop_reason::cancelled)
     result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) + " vertices.";
-  } else if(end.error_reached)
-    result.stop_reason = Reason::error_reached;
-  else {
-    result.stop_reason = Reason::queue_exhausted;
+  else if(end == Stop_reason::queue_exhausted)
     result.explanation = explain_exhausted_queue(mesh, result, target);
-  }
 }
 
 /// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
@@ -161,8 +154,7 @@ void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices
                       const std::vector<char>& kept, const NamedParameters& np,
                       const Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
-  using Reason = Spectral_edge_collapse_result::Stop_reason;
-  if(!has_post_process(options) || result.stop_reason == Reason::cancelled)
+  if(!has_post_process(options) || result.stop_reason == Stop_reason::cancelled)
     return;
   // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
   Eigen::SparseMatrix<double> rows_of_kept;
@@ -175,18 +167,16 @@ void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices
     rows_of_kept.resize(Eigen::Index(result.output_vertices), Eigen::Index(kept.size()));
     rows_of_kept.setFromTriplets(ones.begin(), ones.end());
   }
-  Spectral_post_process<TriangleMesh, Policies, NamedParameters>(mesh, fine, policies, options, np, result)
-      .run(rows_of_kept);
+  Spectral_post_process(mesh, fine, policies, options, np, result).run(rows_of_kept);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
-  // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
-  Eigen::SparseMatrix<double>& own = result.relocation.restriction;
-  if(result.relative_error > options.maximum_error && result.stop_reason != Reason::cancelled)
+  if(result.relative_error > options.maximum_error && result.stop_reason != Stop_reason::cancelled)
     result.warnings.push_back(
         "The collapses kept the error bound, but with what followed them the relative error is " +
         std::to_string(result.relative_error) + "; set relocate to false to keep it.");
-  const bool resampled = own.rows() == result.restriction.rows() && result.relocation.resampled;
-  if(resampled)
+  // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
+  Eigen::SparseMatrix<double>& own = result.relocation.restriction;
+  if(result.relocation.resampled)
     result.restriction =
         first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
   own.resize(0, 0);
@@ -246,14 +236,13 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   const Eigen::Index K = given.signals.size() != 0 ? given.signals.cols()
                          : given.eigenpairs        ? given.eigenpairs->size()
                                                    : given.number_of_eigenvectors;
-  std::optional<Spectral_edge_collapse_options>
-      narrowed; // no copy where there is no need: signals may be large
+  // No copy where there is no need: signals may be large.
+  std::optional<Spectral_edge_collapse_options> narrowed;
   if(std::isfinite(given.maximum_error)) {
     narrowed = given;
     narrowed->largest_loss = std::numeric_limits<double>::infinity();
-  }
-  if(given.metric_eigenvectors_by_target && given.signals.size() == 0 && given.metric_eigenvectors == 0 &&
-     !std::isfinite(given.maximum_error) && metric_eigenvectors_for(target, K) < K) {
+  } else if(given.metric_eigenvectors_by_target && given.signals.size() == 0 &&
+            given.metric_eigenvectors == 0 && metric_eigenvectors_for(target, K) < K) {
     narrowed = given;
     narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
   }
@@ -278,7 +267,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   collapse_ahead_by_quadrics(mesh, policies, target, options, np, result);
   Real_timer timer;
   timer.start();
-  Loop_end end;
+  Stop_reason end = Stop_reason::queue_exhausted;
   // An edge that was given up because of another sheet is not asked for again when that sheet changes: once more, while that
   // removes a hundredth of the vertices.
   bool again = true;
@@ -286,13 +275,13 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
         before = state.number_of_vertices()) {
       end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
-      again = !end.cancelled && !end.error_reached && state.core().number_of_crossings() != 0 &&
+      again = end == Stop_reason::queue_exhausted && state.core().number_of_crossings() != 0 &&
               state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
     }
   } catch(const Spectral_geometry::Cancelled&) {
     if(state.core().forest().number_of_merges() == 0)
       throw;
-    end.cancelled = true; // while first costs were evaluated, after collapses
+    end = Stop_reason::cancelled; // while first costs were evaluated, after collapses
   }
   result.seconds_collapse = timer.time();
   result.evaluations = state.core().number_of_evaluations();
@@ -313,7 +302,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   run_post_process(mesh, fine, options, policies, kept, np, first, result);
 }
 
-/// Both stages of a run whose first one has been done. Once the mesh has changed, to cancel is to return what was done.
+/// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to return what was done.
 template <class TriangleMesh, class NamedParameters>
 void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                            Spectral_edge_collapse_options options, const NamedParameters& np,
@@ -335,7 +324,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
   } catch(const Spectral_geometry::Cancelled&) {
     result.output_vertices = result.pre_simplified_vertices = first.slots.size();
     result.collapses = result.input_vertices - result.output_vertices;
-    result.stop_reason = Spectral_edge_collapse_result::Stop_reason::cancelled;
+    result.stop_reason = Stop_reason::cancelled;
     result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
                          " vertices, before the first spectral collapse.";
     std::vector<Eigen::Index> slots(first.slots.size());
@@ -403,8 +392,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
  *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
  *         mesh that the spectral cost refuses (a needle, a vertex without area)
- * @throws Spectral_geometry::Cancelled when the run is cancelled while eigenpairs or first costs are computed, before any collapse; later a
- *         cancelled run returns what was done
+ * @throws Spectral_geometry::Cancelled when the run is cancelled before the mesh changes, while collapses by quadrics, eigenpairs or
+ *         first costs are computed; later a cancelled run returns what was done
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,

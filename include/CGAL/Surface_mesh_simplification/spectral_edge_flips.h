@@ -11,8 +11,6 @@
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>
-#include <CGAL/boost/graph/helpers.h>
-#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
 #include <Eigen/Core>
@@ -31,7 +29,8 @@ namespace internal {
 
 /// The constrained edges, by positions of their ends in `vertices(mesh)`.
 template <class TriangleMesh, class NamedParameters>
-std::vector<std::pair<int, int>> constrained_edges(const TriangleMesh& mesh, const NamedParameters& np)
+std::vector<std::pair<int, int>> constrained_edges([[maybe_unused]] const TriangleMesh& mesh,
+                                                   [[maybe_unused]] const NamedParameters& np)
 {
   std::vector<std::pair<int, int>> result;
   if constexpr(!parameters::is_default_parameter<NamedParameters,
@@ -45,8 +44,6 @@ std::vector<std::pair<int, int>> constrained_edges(const TriangleMesh& mesh, con
       if(get(is_constrained, e))
         result.emplace_back(get(index, source(e, mesh)), get(index, target(e, mesh)));
   }
-  (void)mesh;
-  (void)np;
   return result;
 }
 
@@ -83,9 +80,8 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   Spectral_geometry::Edge_flip_result result = Spectral_geometry::flip_edges(
       coarse.V, coarse.T, P, F, Z, op, internal::constrained_edges(mesh, np), options);
-  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles;
-  for(const auto v : vertices(mesh))
-    handles.push_back(v);
+  const std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles(
+      vertices(mesh).begin(), vertices(mesh).end());
   for(const Spectral_geometry::Edge_flip& flip : result.flips) {
     const auto h = halfedge(handles[std::size_t(flip.from[0])], handles[std::size_t(flip.from[1])], mesh);
     CGAL_assertion(h.second);
