@@ -39,8 +39,8 @@ public:
     : m_state(std::move(state))
   {}
 
-  /// returns the cost of collapsing to the point `placement`; the largest finite number where there is no point, or a cost that is
-  /// not finite.
+  /// returns the cost of collapsing to the point `placement`; the largest finite number where there is no point, where it would move a
+  /// vertex that is to be kept, or where the cost is more than a `float` can hold.
   template <class Profile, class OptionalPoint>
   auto operator()(const Profile& profile, const OptionalPoint& placement) const
   {

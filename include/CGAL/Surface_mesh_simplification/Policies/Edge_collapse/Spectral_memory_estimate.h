@@ -6,7 +6,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_MEMORY_ESTIMATE_H
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 

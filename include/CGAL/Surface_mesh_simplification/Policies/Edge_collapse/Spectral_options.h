@@ -183,8 +183,9 @@ struct Spectral_options
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
-  /// cancels: until the first costs are computed `Spectral_geometry::Cancelled` is thrown and the mesh is untouched; afterwards `spectral_edge_collapse()` stops between two collapses and returns a
-  /// valid mesh with the P of what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
+  /// cancels: before the mesh changes `Spectral_geometry::Cancelled` is thrown; afterwards `spectral_edge_collapse()` stops between two
+  /// collapses and returns a valid mesh with the P of what was done. The same holds for `edge_collapse()` with
+  /// `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
 
   /// Cancels as the callback does, from another thread or a signal handler, when it becomes true; it is looked at between

@@ -49,13 +49,10 @@ public:
   bool operator()(const Cost&, const Profile&, const std::size_t initial_edge_count,
                   const std::size_t current_edge_count) const
   {
-    const bool one_collapse = m_counted && initial_edge_count == m_initial_edges &&
-                              current_edge_count < m_edges && m_edges - current_edge_count <= 3;
-    const bool nothing_happened =
-        m_counted && initial_edge_count == m_initial_edges && current_edge_count == m_edges;
-    if(one_collapse)
-      --m_vertices;
-    else if(!nothing_happened) {
+    const bool same_run = m_counted && initial_edge_count == m_initial_edges;
+    if(same_run && current_edge_count < m_edges && m_edges - current_edge_count <= 3)
+      --m_vertices; // one collapse
+    else if(!same_run || current_edge_count != m_edges) {
       m_vertices = std::size_t(std::distance(vertices(*m_mesh).begin(), vertices(*m_mesh).end()));
       m_counted = true;
     }

@@ -7,7 +7,6 @@
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
-#include <CGAL/use.h>
 
 #include <CGAL/Spectral_geometry/internal/require.h>
 
@@ -26,12 +25,11 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
 {
   std::vector<char> flags;
   bool any = !indices.empty();
-  for(const auto v : vertices(mesh)) {
+  for([[maybe_unused]] const auto v : vertices(mesh)) {
     bool kept = false;
     if constexpr(!parameters::is_default_parameter<NamedParameters,
                                                    internal_np::vertex_is_constrained_t>::value)
       kept = get(parameters::get_parameter(np, internal_np::vertex_is_constrained), v);
-    CGAL_USE(v);
     any = any || kept;
     flags.push_back(kept);
   }
@@ -45,7 +43,7 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
 
 /// The vertices that must be left where they are: those to keep and the ends of constrained edges. Empty, or one flag for each.
 template <class TriangleMesh, class NamedParameters>
-std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector<char>& kept,
+std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh, const std::vector<char>& kept,
                                      const NamedParameters& np)
 {
   std::vector<char> fixed = kept;
@@ -61,8 +59,7 @@ std::vector<char> fixed_vertex_flags(const TriangleMesh& mesh, const std::vector
           fixed[i] = fixed[i] || get(constrained, edge(h, mesh));
       ++i;
     }
-  } else
-    CGAL_USE(mesh);
+  }
   return fixed;
 }
 

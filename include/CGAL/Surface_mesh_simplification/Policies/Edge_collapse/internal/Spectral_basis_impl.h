@@ -187,17 +187,6 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   return basis;
 }
 
-/// The pairs that the metric sees, from the first.
-inline Eigen::Index number_in_metric(const Spectral_options& options,
-                                     const Spectral_geometry::Laplace_operator& op,
-                                     const Spectral_geometry::Eigenpairs& pairs)
-{
-  if(options.metric_eigenvectors == 0)
-    return pairs.size();
-  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
-  return (std::min)(zeros + options.metric_eigenvectors, pairs.size());
-}
-
 inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
                                           const Spectral_options& options,
                                           std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
@@ -207,7 +196,9 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
   const Eigen::VectorXd weights = spectral_weights(options, pairs->size());
   const Eigen::VectorXd residuals =
       options.eigenpairs ? checked_residuals(*pairs, op, options.mass) : pairs->residuals;
-  const Eigen::Index seen = number_in_metric(options, op, *pairs);
+  Eigen::Index seen = pairs->size(); // by the metric, from the first
+  if(options.metric_eigenvectors != 0)
+    seen = (std::min)(seen, Spectral_geometry::number_of_zero_eigenvalues(op) + options.metric_eigenvectors);
   basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
   basis.lambda = area * pairs->values.head(seen);
   basis.sum_of_squares = weights.head(seen).dot(basis.lambda.cwiseAbs2());

@@ -29,7 +29,7 @@ namespace CGAL::Surface_mesh_simplification::internal {
 struct Spectral_candidate
 {
   Spectral_slot other = null_spectral_slot;
-  std::uint32_t version = 0; ///< the number of commits that it has seen
+  std::uint32_t version = 0; ///< the number of merges and of new runs that it has seen
   bool collapsible = false;
   bool deferred = false;         ///< something near has changed, but it cost too much to be worth a look
   bool at_another_point = false; ///< its best one would put a face through another

@@ -8,7 +8,6 @@
 #include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 
 #if defined(CGAL_SPECTRAL_DISPATCH) && defined(__has_builtin)

@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
 #include <cstddef>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <vector>
