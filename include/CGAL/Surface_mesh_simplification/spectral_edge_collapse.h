@@ -50,8 +50,6 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  constexpr bool has_filter =
-      !parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value;
   constexpr bool has_constraints =
       !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
 
@@ -63,10 +61,11 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
   const auto run = [&](const auto& placement, const auto& with_placement) {
     const Spectral_stop_predicate stop(policies, target, maximum_error, placement);
     const auto with_cost = with_placement.get_cost(policies.get_cost()).get_placement(placement);
-    if constexpr(has_filter)
-      edge_collapse(mesh, stop, with_cost.filter(policies.filter(get_parameter(np, internal_np::filter))));
-    else if constexpr(has_constraints)
-      edge_collapse(mesh, stop, with_cost.filter(policies.filter()));
+    if constexpr(has_constraints ||
+                 !parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value)
+      edge_collapse(mesh, stop,
+                    with_cost.filter(policies.filter(
+                        choose_parameter(get_parameter(np, internal_np::filter), Dummy_filter()))));
     else
       edge_collapse(mesh, stop, with_cost);
     return stop.cancelled()       ? Stop_reason::cancelled

@@ -101,10 +101,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry
                                                          const Eigen::MatrixXd& F)
 {
   Eigen::MatrixXd Z = op.L * F;
-  if(op.theta == 0) {
-    Z = op.mass.cwiseInverse().asDiagonal() * Z;
-    return Z;
-  }
+  if(op.theta == 0)
+    return op.mass.cwiseInverse().asDiagonal() * Z;
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(op.B);
   solver.setTolerance(1e-13);
   for(Eigen::Index k = 0; k < Z.cols(); ++k) {

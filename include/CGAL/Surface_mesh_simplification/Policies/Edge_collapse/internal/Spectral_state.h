@@ -111,8 +111,7 @@ public:
     parameters.exact_costs = m_options.exact_costs;
     parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
-    m_core.set_basis(basis.F, basis.Z.size() == 0 ? basis.lambda : Eigen::VectorXd(), basis.Z, basis.op,
-                     1 / basis.area, parameters);
+    m_core.set_basis(basis.F, basis.lambda, basis.Z, basis.op, 1 / basis.area, parameters);
     m_options.signals.resize(0, 0); // n x K numbers that are in F now
     m_seconds_basis = timer.time();
   }
@@ -154,10 +153,9 @@ public:
     m_selecting = m_selection_open = false;
     m_announced.reset();
     m_answer = Answer();
-    const bool go_on = !m_batched || m_core.evaluate_all([this](const double fraction) {
-      return report(Spectral_phase::first_costs, fraction);
-    });
-    if(!go_on)
+    if(m_batched && !m_core.evaluate_all([this](const double fraction) {
+         return report(Spectral_phase::first_costs, fraction);
+       }))
       throw Spectral_geometry::Cancelled();
     m_seconds_first_costs = timer.time();
     std::shared_ptr<void> token = std::make_shared<int>(0);

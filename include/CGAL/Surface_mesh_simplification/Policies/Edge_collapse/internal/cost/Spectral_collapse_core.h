@@ -48,7 +48,7 @@ public:
   Spectral_collapse_core(Spectral_collapse_core&&);
   ~Spectral_collapse_core();
 
-  /// `op` has n coefficients or none. `F` is n x K. `lambda` has K entries if Z = F Lambda; otherwise it is empty and `Z` is n x K.
+  /// `op` has n coefficients or none. `F` is n x K, and so is `Z`, or empty: then Z = F Lambda, and `lambda` has K entries.
   void set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& Z,
                  const Spectral_geometry::Local_operator& op, const double area_scale,
                  const Spectral_cost_parameters& parameters);
@@ -213,7 +213,6 @@ private:
   Spectral_candidates m_candidates;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;
-  std::vector<Spectral_candidate> m_results;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
   std::unique_ptr<Pool> m_pool;

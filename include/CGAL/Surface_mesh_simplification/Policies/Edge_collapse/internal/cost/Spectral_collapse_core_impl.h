@@ -49,10 +49,10 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
 {
   m_number_of_signals = F.cols();
   m_fields.F.assign(F);
-  if(lambda.size() != 0)
-    m_fields.lambda.assign(lambda.transpose());
-  else
+  if(Z.size() != 0)
     m_fields.Z.assign(Z);
+  else
+    m_fields.lambda.assign(lambda.transpose());
   m_fields.theta = op.theta;
   m_fields.voronoi = op.voronoi;
   const Spectral_geometry::Operator_coefficients& c = op.coefficients;
@@ -245,13 +245,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const
 {
   defer_around(kept);
   m_number_of_evaluations += m_batch.size();
-  m_results.resize(m_batch.size());
   const double bound = minimiser_bound();
   m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-    m_results[i] = evaluate(m_batch[i].u, m_batch[i].v, workspace.kernel, bound, true);
+    const Edge& e = m_batch[i];
+    m_candidates.put(e.u, e.place, evaluate(e.u, e.v, workspace.kernel, bound, true));
   });
-  for(std::size_t i = 0; i < m_batch.size(); ++i)
-    m_candidates.put(m_batch[i].u, m_batch[i].place, m_results[i]);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void

@@ -53,12 +53,6 @@ public:
     if(m_tree.is_empty())
       return false;
     collect(points, fans, u, v, x);
-    // Those around an end that stays where it is are not new.
-    m_boxes.clear();
-    for(const Corners& t : m_new) {
-      const Spectral_slot end = std::size_t(&t - m_new.data()) < m_new_of_u ? u : v;
-      m_boxes.push_back(x == points[end] ? Box() : box_of(t));
-    }
     const bool fan = fan_intersects(m_new.data(), m_new.size());
     if((!fan || old_intersect()) && !meet_others(points, fans, u, v, m_new, m_old))
       return false;
@@ -163,14 +157,14 @@ private:
     return box;
   }
 
-  // The triangles of both ends: all as they are, and those that are left as they would be.
+  // The triangles of both ends: all as they are, and those that are left as they would be, with their boxes.
   template <class Fans>
   void collect(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
                const Eigen::Vector3d& x)
   {
     m_old.clear();
     m_new.clear();
-    m_old_of_u = m_new_of_u = 0;
+    m_boxes.clear();
     constexpr std::size_t merged = (std::numeric_limits<std::size_t>::max)();
     for(const Spectral_slot c : {u, v}) {
       fans.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
@@ -178,13 +172,14 @@ private:
         if(shared && c == v)
           return;
         m_old.push_back(Corners{{{c, points[c]}, {a, points[a]}, {b, points[b]}}});
-        if(!shared)
-          m_new.push_back(Corners{{{merged, x}, {a, points[a]}, {b, points[b]}}});
+        if(shared)
+          return;
+        m_new.push_back(Corners{{{merged, x}, {a, points[a]}, {b, points[b]}}});
+        // Around an end that stays where it is none is new.
+        m_boxes.push_back(x == points[c] ? Box() : box_of(m_new.back()));
       });
-      if(c == u) {
+      if(c == u)
         m_old_of_u = m_old.size();
-        m_new_of_u = m_new.size();
-      }
     }
   }
 
@@ -220,7 +215,7 @@ private:
   std::vector<Box> m_boxes;   // of the triangles that are looked at, empty for those that are not
   // Scratch: the triangles around u, then those of v alone; what is left of them.
   std::vector<Corners> m_old, m_new;
-  std::size_t m_old_of_u = 0, m_new_of_u = 0;
+  std::size_t m_old_of_u = 0;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

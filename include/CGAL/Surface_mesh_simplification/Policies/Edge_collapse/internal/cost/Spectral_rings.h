@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -153,31 +154,23 @@ public:
   void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
   {
     Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
-    const std::size_t moved = replace_in_ring(around[i].vertex, removed, kept),
-                      j = find(around[i].vertex, kept);
-    CGAL_assertion(j < ring.size());
-    around[i].back = std::uint32_t(j);
-    ring[j].back = std::uint32_t(i);
+    const std::size_t moved = replace_in_ring(around[i].vertex, removed, kept), j = link(kept, i);
     // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
     ring[prev(ring, j)].triangle = around[i].triangle.from_first();
     ring[j].triangle = around[prev(around, i)].triangle.from_second();
-    link_back(around[i].vertex, moved);
+    for(std::size_t k = moved; k < ring.size(); ++k)
+      link(around[i].vertex, k);
   }
 
   /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is looked for in the smaller of two
   /// rings. May run side by side for several c.
   void find_back(const Spectral_slot c)
   {
-    Spectral_ring& ring = m_rings[c];
+    const Spectral_ring& ring = m_rings[c];
     for(std::size_t i = 0; i < ring.size(); ++i) {
       const Spectral_slot w = ring[i].vertex;
-      Spectral_ring& other = m_rings[w];
-      if(other.size() > ring.size() || (other.size() == ring.size() && w < c))
-        continue; // left to w
-      const std::size_t j = find(w, c);
-      CGAL_assertion(j < other.size());
-      ring[i].back = std::uint32_t(j);
-      other[j].back = std::uint32_t(i);
+      if(m_rings[w].size() < ring.size() || (m_rings[w].size() == ring.size() && c < w)) // else left to w
+        link(c, i);
     }
   }
 
@@ -189,16 +182,15 @@ public:
   }
 
 private:
-  // Sets `back` on both sides of the entries of the ring of c from index `first` on.
-  void link_back(const Spectral_slot c, const std::size_t first)
+  // Sets `back` on both sides of the i-th entry of the ring of c, and returns what it is there.
+  std::size_t link(const Spectral_slot c, const std::size_t i)
   {
-    Spectral_ring& ring = m_rings[c];
-    for(std::size_t i = first; i < ring.size(); ++i) {
-      const std::size_t j = find(ring[i].vertex, c);
-      CGAL_assertion(j < m_rings[ring[i].vertex].size());
-      ring[i].back = std::uint32_t(j);
-      m_rings[ring[i].vertex][j].back = std::uint32_t(i);
-    }
+    Spectral_ring_entry& e = m_rings[c][i];
+    const std::size_t j = find(e.vertex, c);
+    CGAL_assertion(j < m_rings[e.vertex].size());
+    e.back = std::uint32_t(j);
+    m_rings[e.vertex][j].back = std::uint32_t(i);
+    return j;
   }
 
   // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were consecutive, the triangle between them vanished and the later of the
