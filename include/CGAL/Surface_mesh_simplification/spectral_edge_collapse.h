@@ -155,18 +155,7 @@ void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices
 {
   if(!has_post_process(options) || result.stop_reason == Stop_reason::cancelled)
     return;
-  // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
-  Eigen::SparseMatrix<double> rows_of_kept;
-  if(!kept.empty()) {
-    const std::vector<std::size_t> map = policies.vertex_map();
-    std::vector<Eigen::Triplet<double>> ones;
-    for(std::size_t v = 0; v < kept.size(); ++v)
-      if(kept[v])
-        ones.emplace_back(int(map[v]), int(v), 1.);
-    rows_of_kept.resize(Eigen::Index(result.output_vertices), Eigen::Index(kept.size()));
-    rows_of_kept.setFromTriplets(ones.begin(), ones.end());
-  }
-  Spectral_post_process(mesh, fine, policies, options, np, result).run(rows_of_kept);
+  Spectral_post_process(mesh, fine, policies, options, np, result).run(kept);
   result.seconds_flips = result.flips.seconds;
   result.seconds_relocation = result.relocation.seconds;
   if(result.relative_error > options.maximum_error && result.stop_reason != Stop_reason::cancelled)

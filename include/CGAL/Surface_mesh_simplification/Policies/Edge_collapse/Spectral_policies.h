@@ -103,12 +103,7 @@ public:
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Spectral_policies(Triangle_mesh& mesh, const Spectral_options& options = Spectral_options(),
                              const NamedParameters& np = parameters::default_values())
-    : m_state(std::make_shared<State>(
-          mesh, options,
-          parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                       get_property_map(vertex_point, mesh)),
-          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)),
-          np))
+    : m_state(std::make_shared<State>(mesh, options, np))
   {}
 
   /// The cost that `edge_collapse()` must get, a model of `GetCost`.

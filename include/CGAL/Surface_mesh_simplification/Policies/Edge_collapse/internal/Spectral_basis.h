@@ -23,7 +23,6 @@ struct Spectral_basis
 {
   Eigen::MatrixXd F, Z;
   Eigen::VectorXd lambda;
-  Spectral_geometry::Local_operator op;
   double area = 1; ///< of the input, weighted by the density
   /// || Z ||_B^2; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
   double sum_of_squares = 0;

@@ -241,7 +241,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   const double rounding = 1e-14 * double(V.rows());
   if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
     basis.sum_of_squares = 0;
-  basis.op = local_operator(options);
   basis.area = area;
   return basis;
 }

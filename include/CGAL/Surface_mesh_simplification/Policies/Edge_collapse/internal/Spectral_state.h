@@ -72,16 +72,17 @@ public:
 
   /// @}
 
-  /// Reads the mesh, finds the basis. Throws `std::invalid_argument` for a mesh, an option or a basis that
+  /// Reads the mesh, finds the basis. `np` as of `Spectral_policies`. Throws `std::invalid_argument` for a mesh, an option or a basis that
   /// cannot be used (the first offender is named), `Spectral_geometry::Cancelled` where the progress
   /// callback asks for it.
   template <class NamedParameters>
-  Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const Vertex_point_map& vpm,
-                 const Geom_traits& traits, const NamedParameters& np)
+  Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const NamedParameters& np)
     : m_mesh(&mesh)
-    , m_vpm(vpm)
+    , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                         get_property_map(vertex_point, mesh)))
     , m_has_own_points(parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
-    , m_traits(traits)
+    , m_traits(
+          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)))
     , m_options(options)
     , m_slots(mesh, "Spectral_policies")
   {
@@ -111,7 +112,7 @@ public:
     parameters.exact_costs = m_options.exact_costs;
     parameters.sum_of_squares = basis.sum_of_squares;
     parameters.threads = m_options.threads;
-    m_core.set_basis(basis.F, basis.lambda, basis.Z, basis.op, 1 / basis.area, parameters);
+    m_core.set_basis(basis.F, basis.lambda, basis.Z, local_operator(m_options), 1 / basis.area, parameters);
     m_options.signals.resize(0, 0); // n x K numbers that are in F now
     m_seconds_basis = timer.time();
   }

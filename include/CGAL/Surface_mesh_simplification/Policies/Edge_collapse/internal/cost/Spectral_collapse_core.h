@@ -200,7 +200,6 @@ private:
   Spectral_fields m_fields;
   Spectral_cost_parameters m_parameters;
   Spectral_shape_term m_shape;
-  double m_surface_scale = 0; // 1 / area of the input
   bool m_dirichlet = false;
   Spectral_crossing_guard m_crossing;
   std::size_t m_number_of_vertices = 0;

@@ -71,15 +71,17 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
                                                                      Spectral_rings rings)
 {
+  const bool is_later = !m_fields.points.empty();
   m_fields.points = std::move(points);
   m_fields.rings = std::move(rings);
-  if(m_dirichlet && m_fields.vanishing.empty())
+  if(is_later)
+    return; // merged vertices keep their quadrics, and 0 where they have it
+  if(m_dirichlet)
     for(std::size_t w = 0; w < m_fields.points.size(); ++w)
       m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
-  if(m_surface_scale == 0)
-    m_surface_scale = m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area();
   if(m_parameters.shape > 0)
-    m_shape.set_geometry(m_fields.points, m_fields.rings, m_surface_scale);
+    m_shape.set_geometry(m_fields.points, m_fields.rings,
+                         m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area());
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void

@@ -32,12 +32,10 @@ class Spectral_shape_term
 public:
   bool is_empty() const { return m_quadrics.empty(); }
 
-  /// The planes of a mesh as its rings have it, unless those of an earlier state are there: merged vertices keep theirs.
+  /// The planes of a mesh as its rings have it.
   void set_geometry(const std::vector<Eigen::Vector3d>& points, const Spectral_rings& rings,
                     const double area_scale)
   {
-    if(!is_empty() || points.empty())
-      return;
     m_origin = points.front();
     m_scale = area_scale * area_scale;
     m_quadrics.resize(points.size());

@@ -59,8 +59,8 @@ public:
     , m_P(policies.restriction())
   {}
 
-  /// `kept`: what P has in the rows of vertices that must stay, or empty.
-  void run(const SpMat& kept)
+  /// `kept`: one flag for each vertex of `fine` that must stay, or empty.
+  void run(const std::vector<char>& kept)
   {
     if(m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none)
       change(kept);
@@ -70,7 +70,7 @@ public:
 
 private:
   // Flips and relocation.
-  void change(const SpMat& kept)
+  void change(const std::vector<char>& kept)
   {
     using namespace Spectral_geometry;
     Eigen::MatrixXd F, Z;
@@ -177,7 +177,7 @@ private:
     set_error(m_P, F, Z);
   }
 
-  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const SpMat& kept)
+  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const std::vector<char>& kept)
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
       m_result.warnings.push_back(
@@ -187,15 +187,24 @@ private:
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
-    if(kept.rows() != 0) {
-      const Eigen::VectorXd ones = kept * Eigen::VectorXd::Ones(kept.cols());
-      stays.assign(ones.data(), ones.data() + ones.size());
+    std::vector<Eigen::Triplet<double>> ones; // what P has in their rows
+    if(!kept.empty()) {
+      // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
+      const std::vector<std::size_t> map = m_state.vertex_map();
+      stays.resize(std::size_t(m_P.rows()));
+      for(std::size_t v = 0; v < kept.size(); ++v)
+        if(kept[v]) {
+          stays[map[v]] = true;
+          ones.emplace_back(int(map[v]), int(v), 1.);
+        }
     }
     m_result.relocation = relocate_mesh(m_mesh, m_P, m_fine, F, Z, local_operator(), relocation, stays, m_np);
     SpMat& own = m_result.relocation.restriction;
     if(m_result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
       own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
-      own += kept;
+      SpMat rows(m_P.rows(), m_P.cols());
+      rows.setFromTriplets(ones.begin(), ones.end());
+      own += rows;
     }
     if(m_result.relocation.resampled &&
        m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
