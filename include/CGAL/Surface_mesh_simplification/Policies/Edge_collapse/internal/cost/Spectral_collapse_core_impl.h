@@ -75,7 +75,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector
   m_fields.points = std::move(points);
   m_fields.rings = std::move(rings);
   if(is_later)
-    return; // merged vertices keep their quadrics, and 0 where they have it
+    return; // quadrics and the border are those of the input
   if(m_dirichlet)
     for(std::size_t w = 0; w < m_fields.points.size(); ++w)
       m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));

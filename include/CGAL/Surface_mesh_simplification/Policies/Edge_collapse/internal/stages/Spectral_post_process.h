@@ -187,39 +187,32 @@ private:
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
-    std::vector<Eigen::Triplet<double>> ones; // what P has in their rows
     if(!kept.empty()) {
       // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
       const std::vector<std::size_t> map = m_state.vertex_map();
       stays.resize(std::size_t(m_P.rows()));
       for(std::size_t v = 0; v < kept.size(); ++v)
-        if(kept[v]) {
+        if(kept[v])
           stays[map[v]] = true;
-          ones.emplace_back(int(map[v]), int(v), 1.);
-        }
     }
     m_result.relocation = relocate_mesh(m_mesh, m_P, m_fine, F, Z, local_operator(), relocation, stays, m_np);
     SpMat& own = m_result.relocation.restriction;
-    if(m_result.relocation.resampled && !stays.empty()) { // where the input has several points in one place
-      own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !stays[std::size_t(row)]; });
-      SpMat rows(m_P.rows(), m_P.cols());
-      rows.setFromTriplets(ones.begin(), ones.end());
-      own += rows;
-    }
+    if(m_result.relocation.resampled && !stays.empty()) // where the input has several points in one place
+      keep_rows(own, stays);
+    // A vertex of the border whose closest point is an inner one goes on having 0.
     if(m_result.relocation.resampled &&
        m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-      keep_border_rows(own);
+      keep_rows(own, Spectral_geometry::internal::border_vertices(coarse().T, m_P.rows()));
     set_error(own, F, Z);
   }
 
-  // A vertex of the border whose closest point is an inner one goes on having 0.
-  void keep_border_rows(SpMat& own) const
+  // What the collapses have left in the rows that are flagged.
+  template <class Flags>
+  void keep_rows(SpMat& own, const Flags& kept) const
   {
-    const std::vector<char> border = Spectral_geometry::internal::border_vertices(coarse().T, m_P.rows());
     SpMat carried = m_P;
-    carried.prune(
-        [&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] != 0; });
-    own.prune([&](const Eigen::Index row, Eigen::Index, double) { return border[std::size_t(row)] == 0; });
+    carried.prune([&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
+    own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
     own += carried;
   }
 
