@@ -99,6 +99,18 @@ struct Spectral_edge_collapse_result
 
 /// @}
 
+namespace internal {
+
+/// `rest` of the sentence that says so.
+inline void set_cancelled(Spectral_edge_collapse_result& result, const std::string& rest = "")
+{
+  result.stop_reason = Spectral_edge_collapse_result::Stop_reason::cancelled;
+  result.explanation =
+      "The run was cancelled at " + std::to_string(result.output_vertices) + " vertices" + rest + ".";
+}
+
+} // namespace internal
+
 } // namespace CGAL::Surface_mesh_simplification
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_RESULT_H

@@ -141,7 +141,7 @@ void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& 
     return;
   result.stop_reason = end;
   if(end == Stop_reason::cancelled)
-    result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) + " vertices.";
+    set_cancelled(result);
   else if(end == Stop_reason::queue_exhausted)
     result.explanation = explain_exhausted_queue(mesh, result, target);
 }
@@ -312,9 +312,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
   } catch(const Spectral_geometry::Cancelled&) {
     result.output_vertices = result.pre_simplified_vertices = first.slots.size();
     result.collapses = result.input_vertices - result.output_vertices;
-    result.stop_reason = Stop_reason::cancelled;
-    result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
-                         " vertices, before the first spectral collapse.";
+    set_cancelled(result, ", before the first spectral collapse");
     std::vector<Eigen::Index> slots(first.slots.size());
     std::iota(slots.begin(), slots.end(), 0);
     set_restriction(result, first, Collapse_log(Eigen::Index(slots.size())), slots);

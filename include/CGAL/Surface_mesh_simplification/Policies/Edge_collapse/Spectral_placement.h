@@ -18,7 +18,7 @@ namespace CGAL::Surface_mesh_simplification {
 /*!
  * A handle on the state of `Spectral_policies`: the point on the edge where the cost is least (section 3.4 of the paper), its
  * midpoint, or a point near the edge (appendix A). No point where every position makes a triangle without
- * area, or where the collapse is topologically impossible.
+ * area, moves a vertex that is to be kept or puts a face through another, or where the collapse is topologically impossible.
  *
  * \cgalModels{GetPlacement}
  *

@@ -112,23 +112,17 @@ public:
   /// The placement that `edge_collapse()` must get, a model of `GetPlacement`; it may be wrapped.
   Get_placement get_placement() const { return Get_placement(shared_state()); }
 
-  /// The visitor that `edge_collapse()` must get.
-  Spectral_visitor<State> visitor() const { return Spectral_visitor<State>(shared_state()); }
-
-  /// The same, which also calls yours; `std::ref(v)` is called itself, anything else is copied.
-  template <class Visitor>
-  Spectral_visitor<State, Visitor> visitor(Visitor user_visitor) const
+  /// The visitor that `edge_collapse()` must get. It also calls yours, if any; `std::ref(v)` is called itself, anything else is copied.
+  template <class Visitor = internal::Dummy_visitor>
+  Spectral_visitor<State, Visitor> visitor(Visitor user_visitor = Visitor()) const
   {
     return Spectral_visitor<State, Visitor>(shared_state(), std::move(user_visitor));
   }
 
-  /// Where there are vertices to keep and the placement is wrapped, in `Constrained_placement` for instance: the
-  /// filter that `edge_collapse()` must get.
-  Spectral_filter<State> filter() const { return Spectral_filter<State>(shared_state()); }
-
-  /// The same, which also asks yours; it is copied.
-  template <class Filter>
-  Spectral_filter<State, Filter> filter(Filter user_filter) const
+  /// Where the placement is wrapped, in `Constrained_placement` for instance, and there are vertices to keep, or no face is to go
+  /// through another: the filter that `edge_collapse()` must get. It also asks yours, if any, which is copied.
+  template <class Filter = internal::Dummy_filter>
+  Spectral_filter<State, Filter> filter(Filter user_filter = Filter()) const
   {
     return Spectral_filter<State, Filter>(shared_state(), std::move(user_filter));
   }

@@ -23,7 +23,7 @@ namespace CGAL::Surface_mesh_simplification {
 /*!
  * Ends a run at a number of vertices, at an error, or when the user cancels it,
  * whichever comes first, and calls `Spectral_options::progress` about a hundred times. What
- * `spectral_edge_collapse()` uses; with `edge_collapse()` the only place where a run can be cancelled, because the mesh is
+ * `spectral_edge_collapse()` uses; with `edge_collapse()` the only place where its collapses can be cancelled, because the mesh is
  * valid here.
  *
  * \cgalModels{StopPredicate}
@@ -109,9 +109,8 @@ private:
   double m_bound;
   Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
-  mutable std::size_t m_run = 0,
-                      m_begin =
-                          0; // the run that the rest is of, and its number of vertices at the first call
+  // The run that the rest is of, and its number of vertices at the first call.
+  mutable std::size_t m_run = 0, m_begin = 0;
   mutable double m_next_report = 0, m_fraction = 0;
   mutable bool m_reached = false, m_error_reached = false, m_cancelled = false;
 };

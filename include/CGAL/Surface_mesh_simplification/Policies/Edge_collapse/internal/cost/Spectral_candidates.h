@@ -31,7 +31,7 @@ struct Spectral_candidate
   Spectral_slot other = null_spectral_slot;
   std::uint32_t version = 0; ///< the number of merges and of new runs that it has seen
   bool collapsible = false;
-  bool deferred = false;         ///< something near has changed, but it cost too much to be worth a look
+  bool deferred = false; ///< of before a change nearby, or of fewer samples: evaluated when its turn comes
   bool at_another_point = false; ///< its best one would put a face through another
   double cost = std::numeric_limits<double>::infinity();
   double weight = 0; ///< f_x = (1 - weight) f_u + weight f_other

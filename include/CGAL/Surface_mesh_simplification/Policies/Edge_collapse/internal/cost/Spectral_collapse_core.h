@@ -38,8 +38,8 @@ struct Spectral_weighted_shape;
  * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
  *
  * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them; set_geometry()
- * at the start of each run; then, in any order, candidate(), cost_at() or evaluate_around(), which read, and commit(), which
- * follows one collapse.
+ * at the start of each run; then, in any order, candidate(), cost_at() or evaluate_around(), which change nothing but candidates and
+ * counts, and commit(), which follows one collapse.
  */
 class Spectral_collapse_core
 {

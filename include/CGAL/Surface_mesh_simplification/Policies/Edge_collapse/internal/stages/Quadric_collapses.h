@@ -45,8 +45,8 @@ struct Triangle_arrays
  * @param border_is_apart whether a vertex of the border takes its values from vertices of the border alone
  * @param keep_free_of_self_intersections whether no collapse may put a face through another, see `Spectral_crossing_guard`: where
  *        faces intersect in the end, all is done once more with an eye on it
- * @param progress is called with the number of vertices left, each time a hundredth of the collapses is done; what it throws comes
- *        through
+ * @param progress is called with the number of vertices left, each time a hundredth of the collapses is done and before refused
+ *        edges are looked at again; what it throws comes through
  * @throws std::invalid_argument that names the first vertex where several fans of faces meet
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */

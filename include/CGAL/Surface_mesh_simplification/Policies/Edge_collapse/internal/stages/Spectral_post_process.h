@@ -84,9 +84,7 @@ private:
       if(m_options.relocate && allows("The vertices were not relocated: ", true))
         relocate(F, Z, kept);
     } catch(const Cancelled&) {
-      m_result.stop_reason = Result::Stop_reason::cancelled;
-      m_result.explanation = "The run was cancelled at " + std::to_string(m_result.output_vertices) +
-                             " vertices, which are " + where + ".";
+      set_cancelled(m_result, std::string(", which are ") + where);
     }
   }
 
@@ -115,9 +113,7 @@ private:
       options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
       m_result.fitted = fit_operators(coarse_operator(), P, fine, *pairs, options);
     } catch(const Cancelled&) {
-      m_result.stop_reason = Result::Stop_reason::cancelled;
-      m_result.explanation = "The run was cancelled at " + std::to_string(m_result.output_vertices) +
-                             " vertices, before operators were fitted to them.";
+      set_cancelled(m_result, ", before operators were fitted to them");
     } catch(const std::runtime_error& error) {
       m_result.warnings.push_back(consequence + std::string(error.what()));
     }
