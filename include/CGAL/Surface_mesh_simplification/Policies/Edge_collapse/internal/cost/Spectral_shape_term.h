@@ -39,8 +39,18 @@ public:
     m_origin = points.front();
     m_scale = area_scale * area_scale;
     m_quadrics.resize(points.size());
-    for(std::size_t w = 0; w < points.size(); ++w)
-      add_ring(points, rings[Spectral_slot(w)], Spectral_slot(w));
+    for(std::size_t w = 0; w < points.size(); ++w) {
+      // Angles and lengths are taken from the vertex itself: far from the origin nothing is lost.
+      const Eigen::Vector3d p = points[w] - m_origin;
+      const Spectral_ring& ring = rings[Spectral_slot(w)];
+      for(std::size_t i = 0; i < ring.size(); ++i) {
+        if(!ring[i].face)
+          continue;
+        const std::size_t before = Spectral_rings::prev(ring, i), after = Spectral_rings::next(ring, i);
+        m_quadrics[w].add_corner(p, points[ring[i].vertex] - points[w], !ring[before].face,
+                                 points[ring[after].vertex] - points[w], !ring[after].face);
+      }
+    }
   }
 
   /// What a collapse of (u,v) to x adds.
@@ -66,19 +76,6 @@ public:
   }
 
 private:
-  // Angles and lengths are taken from the vertex itself: far from the origin nothing is lost.
-  void add_ring(const std::vector<Eigen::Vector3d>& points, const Spectral_ring& ring, const Spectral_slot w)
-  {
-    const Eigen::Vector3d p = points[w] - m_origin;
-    for(std::size_t i = 0; i < ring.size(); ++i) {
-      if(!ring[i].face)
-        continue;
-      const std::size_t before = Spectral_rings::prev(ring, i), after = Spectral_rings::next(ring, i);
-      m_quadrics[w].add_corner(p, points[ring[i].vertex] - points[w], !ring[before].face,
-                               points[ring[after].vertex] - points[w], !ring[after].face);
-    }
-  }
-
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
   double m_scale = 1;
   std::vector<Spectral_quadric> m_quadrics;
