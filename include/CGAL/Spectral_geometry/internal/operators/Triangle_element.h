@@ -16,28 +16,22 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// What the edges of a triangle say of it: `p`, then `q` from where that ends, and `sum` = p + q.
-template <class Number>
-struct Triangle_products
-{
-  Number at_start, between, at_end; ///< at each corner, the product of the edges that leave it
-  Number twice_area_squared;        ///< |p x q|^2
-};
-
-/// `Number` is a double, or several for as many triangles (`Spectral_lanes`). Edges are whatever has three coordinates.
+/// Of a triangle with the edges p, then q from where that ends, and `sum` = p + q: at each corner the product of the edges that leave it,
+/// and |p x q|^2. A `Number` is a double, or several for as many triangles (`Spectral_lanes`); edges are whatever has three coordinates.
 template <class Number, class Edge, class Other_edge>
-CGAL_SPECTRAL_INLINE void set_triangle_products(Triangle_products<Number>& t, const Edge& p,
-                                                const Other_edge& q, const Edge& sum)
+CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, const Edge& sum,
+                                            Number& at_start, Number& between, Number& at_end,
+                                            Number& twice_area_squared)
 {
   const auto dot = [](Number& result, const auto& a, const auto& b) {
     result = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
   const Number n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-  dot(t.twice_area_squared, n, n);
-  dot(t.at_start, p, sum);
-  dot(t.between, p, q);
-  t.between = -t.between;
-  dot(t.at_end, q, sum);
+  dot(twice_area_squared, n, n);
+  dot(at_start, p, sum);
+  dot(between, p, q);
+  between = -between;
+  dot(at_end, q, sum);
 }
 
 /*!
@@ -66,16 +60,13 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
       longest = k;
   }
   const int a = (longest + 1) % 3, b = (longest + 2) % 3;
-  Triangle_products<double> products;
-  set_triangle_products<double>(products, edge[a], edge[b], Eigen::Vector3d(-edge[longest]));
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   Triangle_element t;
-  t.dot[b] = products.at_start;
-  t.dot[longest] = products.between;
-  t.dot[a] = products.at_end;
-  t.twice_area = products.twice_area_squared > rounding * rounding * square[a] * square[b]
-                     ? std::sqrt(products.twice_area_squared)
-                     : 0.;
+  double twice_area_squared;
+  triangle_products(edge[a], edge[b], Eigen::Vector3d(-edge[longest]), t.dot[b], t.dot[longest], t.dot[a],
+                    twice_area_squared);
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  t.twice_area =
+      twice_area_squared > rounding * rounding * square[a] * square[b] ? std::sqrt(twice_area_squared) : 0.;
   return t;
 }
 

@@ -202,16 +202,13 @@ private:
     const Eigen::Vector3d ab = pb - pa;
     const Lanes a[3] = {pa[0] - m_point[0], pa[1] - m_point[1], pa[2] - m_point[2]};
     const Lanes b[3] = {pb[0] - m_point[0], pb[1] - m_point[1], pb[2] - m_point[2]};
-    Spectral_geometry::internal::Triangle_products<Lanes> products;
-    Spectral_geometry::internal::set_triangle_products(products, a, ab, b);
-    const Lanes sum =
-        products.at_start + products.between + products.at_end; // of the cotangents, times twice the area
+    Lanes at_x, at_a, at_b, square, inverse;
+    Spectral_geometry::internal::triangle_products(a, ab, b, at_x, at_a, at_b, square);
+    const Lanes sum = at_x + at_a + at_b; // of the cotangents, times twice the area
     constexpr double limit = Spectral_triangle::degenerate_cotangent;
     const Lanes bound = sum * sum * (1 / (limit * limit));
-    Lanes inverse;
-    spectral_inverse_sqrt(inverse, products.twice_area_squared, bound, failed);
-    t = Triangles{products.at_start * inverse, products.between * inverse, products.at_end * inverse,
-                  products.twice_area_squared * inverse * 0.5};
+    spectral_inverse_sqrt(inverse, square, bound, failed);
+    t = Triangles{at_x * inverse, at_a * inverse, at_b * inverse, square * inverse * 0.5};
   }
 
   Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
