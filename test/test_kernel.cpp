@@ -120,9 +120,9 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
   CHECK((core.fields().E - E).cwiseAbs().maxCoeff() < 1e-9 * E.sum());
   CHECK(relative_difference(core.total(), E.sum()) < 1e-9);
 
-  const std::vector<Eigen::Index> slots = core.forest().kept_slots();
-  const Eigen::SparseMatrix<double> P = core.forest().restriction(slots);
-  CHECK(fault_of_restriction(P, core.forest().vertex_map(slots), binary) == "");
+  const std::vector<Eigen::Index> slots = core.log().forest().kept_slots();
+  const Eigen::SparseMatrix<double> P = core.log().forest().restriction(slots);
+  CHECK(fault_of_restriction(P, core.log().forest().vertex_map(slots), binary) == "");
   const Eigen::MatrixXd PF = P * basis.F, PV = P * input.V;
   double worst_f = 0, worst_slow = 0, worst_v = 0;
   for(std::size_t i = 0; i < slots.size(); ++i) {

@@ -267,7 +267,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
               state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
     }
   } catch(const Spectral_geometry::Cancelled&) {
-    if(state.core().forest().number_of_merges() == 0)
+    if(state.log().points().empty())
       throw;
     end = Stop_reason::cancelled; // while first costs were evaluated, after collapses
   }

@@ -90,7 +90,6 @@ public:
     timer.start();
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
-    m_number_of_vertices = std::size_t(m_slots.size());
     std::vector<char> kept = kept_vertex_flags(mesh, m_options.kept_vertices, np);
     if(!kept.empty())
       check_kept_vertices_apart(mesh, m_slots, kept, m_fine_points);
@@ -133,10 +132,10 @@ public:
     std::vector<Eigen::Index> slots;
     const Collapse_log log = collapse(slots);
     m_slots.set(slots);
-    m_log_points = log.points();
-    for(const Merge& m : log.forest().merges())
-      m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha);
-    m_number_of_vertices = slots.size();
+    for(std::size_t i = 0; i < log.points().size(); ++i) {
+      const Merge& m = log.forest().merges()[i];
+      m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha, log.points()[i]);
+    }
   }
 
   /// Starts a run. It lasts as long as somebody holds the token that is returned, so that an
@@ -206,18 +205,19 @@ public:
 
   /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
   template <class Profile>
-  void on_collapsed(const Profile&, const vertex_descriptor kept_vertex)
+  void on_collapsed(const Profile& profile, const vertex_descriptor kept_vertex)
   {
     const Slot kept = slot(kept_vertex);
-    Spectral_ring ring = ring_of(kept_vertex);
     const bool in_loop = m_announced.has_value();
-    const Merge m = in_loop ? merge_into(kept, *m_announced) : zero_length_merge(kept, ring);
-    m_announced.reset();
+    if(!in_loop) { // an edge without length, collapsed before the loop
+      const Slot u = slot(profile.v0()), v = slot(profile.v1());
+      m_announced = {Eigen::Index(u), Eigen::Index(v),
+                     m_core.projected_weight(v, u, m_core.fields().points[u])};
+    }
+    const Merge m = merge_into(kept, *std::exchange(m_announced, {}));
     m_selecting = false;
     m_answer = Answer();
-    --m_number_of_vertices;
-    m_log_points.push_back(to_vector(get(m_vpm, kept_vertex)));
-    m_core.commit(Slot(m.removed), kept, m.alpha, m_log_points.back(), std::move(ring));
+    m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
     if(!in_loop)
       m_core.drop_candidates_around(kept);
     else if(m_batched)
@@ -313,7 +313,7 @@ public:
   {
     const std::vector<Eigen::Index> slots = current_slots();
     check_number_of_vertices(slots.size());
-    return m_core.forest().restriction(slots);
+    return m_core.log().forest().restriction(slots);
   }
 
   /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
@@ -321,11 +321,11 @@ public:
   {
     const std::vector<Eigen::Index> slots = current_slots();
     check_number_of_vertices(slots.size());
-    return m_core.forest().vertex_map(slots);
+    return m_core.log().forest().vertex_map(slots);
   }
 
   /// The merges so far and where each left its vertex.
-  Collapse_log log() const { return Collapse_log(m_core.forest(), m_log_points); }
+  const Collapse_log& log() const { return m_core.log(); }
 
   /// The slots of `vertices(mesh)`, in that order.
   std::vector<Eigen::Index> current_slots() const { return m_slots.current(); }
@@ -359,7 +359,7 @@ public:
     return all;
   }
   /// Of the mesh as it is now.
-  std::size_t number_of_vertices() const { return m_number_of_vertices; }
+  std::size_t number_of_vertices() const { return log().number_of_vertices_left(); }
   /// Runs that were started so far.
   std::size_t number_of_runs() const { return m_number_of_runs; }
   /// Of the input, in its own unit, weighted by the density of the operator.
@@ -388,7 +388,7 @@ public:
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_phase phase, const double fraction) const
   {
-    return report_progress(m_options, phase, fraction, m_number_of_vertices);
+    return report_progress(m_options, phase, fraction, number_of_vertices());
   }
 
   /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
@@ -459,42 +459,24 @@ private:
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
     Spectral_rings rings;
     rings.resize(n);
-    m_number_of_vertices = 0;
+    std::size_t number_of_vertices = 0;
     for(const vertex_descriptor v : vertices(*m_mesh)) {
       const Slot s = slot(v);
       points[s] = to_vector(get(m_vpm, v));
       rings[s] = ring_of(v);
-      ++m_number_of_vertices;
+      ++number_of_vertices;
     }
-    check_number_of_vertices(m_number_of_vertices);
+    check_number_of_vertices(number_of_vertices);
     return {std::move(points), std::move(rings)};
   }
 
   // The merges on record are all that has happened to the mesh.
   void check_number_of_vertices(const std::size_t number_of_vertices) const
   {
-    if(number_of_vertices + std::size_t(m_core.forest().number_of_merges()) !=
-       std::size_t(m_fine_points.rows()))
+    if(number_of_vertices != log().number_of_vertices_left())
       throw std::logic_error(
           "Spectral_policies: vertices of the mesh have been removed without the visitor of the "
           "policies; make new policies for the mesh as it is.");
-  }
-
-  // Edges without length are collapsed before the loop, announced by OnCollapsed alone. The removed vertex
-  // is the one neighbour that the kept vertex has lost.
-  Merge zero_length_merge(const Slot kept, const Spectral_ring& ring) const
-  {
-    Slot removed = null_spectral_slot;
-    std::vector<Slot> left;
-    for(const Spectral_ring_entry& e : ring)
-      left.push_back(e.vertex);
-    std::sort(left.begin(), left.end());
-    for(const Spectral_ring_entry& old : m_core.fields().rings[kept])
-      if(!std::binary_search(left.begin(), left.end(), old.vertex))
-        removed = old.vertex;
-    CGAL_assertion(removed != null_spectral_slot);
-    return {Eigen::Index(removed), Eigen::Index(kept),
-            m_core.projected_weight(kept, removed, m_core.fields().points[removed])};
   }
 
   void close_selection()
@@ -530,9 +512,7 @@ private:
   Eigen::MatrixXd m_fine_points;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
   Spectral_collapse_core m_core;
-  std::vector<Eigen::Vector3d> m_log_points; // where each merge left its vertex
   double m_area = 0, m_sum_of_squares = 0;
-  std::size_t m_number_of_vertices = 0;
 
   std::weak_ptr<void> m_run;
   std::size_t m_number_of_runs = 0;

@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
@@ -14,7 +15,6 @@
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
-#include <CGAL/Spectral_geometry/restriction.h>
 
 #include <Eigen/Core>
 
@@ -57,8 +57,9 @@ public:
   /// first run, unless the mesh is another one then.
   void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
-  /// Follows a collapse outside of a run: F, Z, coefficients, P, quadrics and what is kept. The geometry is set afterwards.
-  void follow(const Spectral_slot removed, const Spectral_slot kept, const double weight);
+  /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The geometry is set afterwards.
+  void follow(const Spectral_slot removed, const Spectral_slot kept, const double weight,
+              const Eigen::Vector3d& point);
 
   /// Takes positions and rings of the mesh as it is and computes R, M, E. Slots that are gone have an empty ring.
   void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
@@ -72,7 +73,7 @@ public:
 
   const Spectral_fields& fields() const { return m_fields; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
-  const Spectral_geometry::Merge_forest& forest() const { return m_forest; }
+  const Collapse_log& log() const { return m_log; }
   const Spectral_shape_term& shape() const { return m_shape; }
   const Spectral_candidates& candidates() const { return m_candidates; }
 
@@ -125,7 +126,7 @@ public:
   /// Forgets the candidates of the edges whose H met the last commit.
   void drop_candidates_around(const Spectral_slot kept);
 
-  /// Gives back the memory of what only collapses need. Results stay: the forest, total(), counts.
+  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts.
   void release();
 
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
@@ -202,13 +203,12 @@ private:
   Spectral_shape_term m_shape;
   bool m_dirichlet = false;
   Spectral_crossing_guard m_crossing;
-  std::size_t m_number_of_vertices = 0;
   Eigen::Index m_number_of_signals = 0;
   std::vector<Edge> m_batch; // those around a vertex that are not put off
 
   Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point
-  Spectral_geometry::Merge_forest m_forest;
+  Collapse_log m_log;
   Spectral_candidates m_candidates;
   std::vector<std::size_t> m_marks;
   std::size_t m_mark = 0;

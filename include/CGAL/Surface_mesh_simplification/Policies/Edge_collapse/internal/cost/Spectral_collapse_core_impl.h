@@ -64,7 +64,7 @@ Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorX
   m_parameters = parameters;
   m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
   m_pool = std::make_unique<Pool>(parameters.threads);
-  m_forest = Spectral_geometry::Merge_forest(F.rows());
+  m_log = Collapse_log(F.rows());
   m_candidates.resize(std::size_t(F.rows()));
 }
 
@@ -84,11 +84,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector
                          m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area());
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::follow(const Spectral_slot removed, const Spectral_slot kept, const double weight)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow(const Spectral_slot removed,
+                                                                  const Spectral_slot kept,
+                                                                  const double weight,
+                                                                  const Eigen::Vector3d& point)
 {
   m_shape.merge(removed, kept);
-  m_forest.merge(removed, kept, weight);
+  m_log.merge(removed, kept, weight, point);
   if(m_fields.is_kept(removed))
     m_fields.kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
   merge_rows(m_fields.F, removed, kept, weight);
@@ -115,9 +117,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_fields.update_triangles(Spectral_slot(w));
     update_row(Spectral_slot(w), workspace.row);
   });
-  m_number_of_vertices = 0;
-  for(std::size_t w = 0; w < std::size_t(n); ++w)
-    m_number_of_vertices += m_fields.rings[Spectral_slot(w)].empty() ? 0 : 1;
   if(m_parameters.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
@@ -266,8 +265,7 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   const Spectral_candidate* const candidate = m_candidates.find(removed, kept);
   const bool at_another_point =
       candidate != nullptr && candidate->at_another_point && candidate->point == point;
-  --m_number_of_vertices;
-  follow(removed, kept, weight);
+  follow(removed, kept, weight, point);
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
@@ -332,7 +330,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_weighted_shape Spectral_collapse_core::we
   if(!m_shape.is_empty()) {
     const double scale = m_parameters.sum_of_squares > 0 ? m_parameters.sum_of_squares : 1.;
     shape.term = &m_shape;
-    shape.weight = m_parameters.shape * scale * double(m_number_of_vertices);
+    shape.weight = m_parameters.shape * scale * double(m_log.number_of_vertices_left());
     shape.largest_loss = m_parameters.largest_loss * scale;
   }
   return shape;
