@@ -30,7 +30,7 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 using Core = SMS::internal::Spectral_collapse_core;
 using Core_kernel = SMS::internal::Spectral_collapse_kernel;
 using Candidate = SMS::internal::Spectral_candidate;
-using Parameters = SMS::internal::Spectral_cost_parameters;
+using Parameters = SMS::Spectral_options;
 using Rings = SMS::internal::Spectral_rings;
 using Slot = SMS::internal::Spectral_slot;
 
@@ -39,12 +39,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 enum class Z_rows { from_lambda, stored };
 
 inline Core make_core(const Slow_mesh& mesh, const Basis& basis, const Z_rows z,
-                      const Parameters& parameters = {})
+                      const Parameters& parameters = Parameters::paper(),
+                      const std::size_t largest_degree_of_others = 256)
 {
   const bool stored = z == Z_rows::stored;
   Core core;
-  core.set_basis(basis.F, stored ? Eigen::VectorXd() : basis.lambda, stored ? basis.Z : Eigen::MatrixXd(),
-                 basis.local, 1 / basis.area, parameters);
+  core.set_basis({basis.F, stored ? basis.Z : Eigen::MatrixXd(), stored ? Eigen::VectorXd() : basis.lambda,
+                  basis.area, basis.lambda.squaredNorm(), nullptr},
+                 basis.local, parameters, false);
+  core.set_largest_degree_of_others(largest_degree_of_others);
   std::vector<Eigen::Vector3d> points;
   Rings rings;
   rings.resize(std::size_t(mesh.V.rows()));
@@ -76,12 +79,12 @@ inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& 
     for(int k = 0; k < 12; ++k) {
       const Edge e = edges[random() % edges.size()];
       const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
-      if(c.collapsible && c.cost < best.cost) {
+      if(c.collapsible() && c.cost < best.cost) {
         best = c;
         edge = e;
       }
     }
-    if(best.collapsible) {
+    if(best.collapsible()) {
       commit(core, mesh, edge, best, random() % 2 == 0);
       ++done;
     }

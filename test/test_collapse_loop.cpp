@@ -439,7 +439,7 @@ TEST_CASE("After many collapses the candidates on record weigh the vertices that
     const auto* c = core.candidates().find(u, v);
     REQUIRE(c != nullptr);
     CHECK(c->other == v);
-    if(!c->collapsible)
+    if(!c->collapsible())
       continue;
     ++recorded;
     const Eigen::Vector3d expected =

@@ -73,7 +73,7 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
   const shapes::Matrices input = wavy_grid_matrices(12, 11);
   const Basis basis = eigenbasis(input, GENERATE(0., 0.5), 8);
   Slow_mesh mesh(input, basis);
-  Parameters parameters;
+  Parameters parameters = Parameters::paper();
   parameters.placement = Spectral_placement_strategy::free;
   Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
   std::mt19937 random(12);
@@ -87,7 +87,7 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
   for(const Edge& e : mesh.edge_list()) {
     const Slot u = Slot(e.first), v = Slot(e.second);
     const Candidate candidate = core.evaluate(u, v, kernel), d = on_edge_core.evaluate(u, v, kernel);
-    if(!candidate.collapsible)
+    if(!candidate.collapsible())
       continue;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for(const Eigen::Vector3i& t : mesh.triangles)

@@ -31,7 +31,7 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
   const shapes::Matrices input = bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, 10);
   Slow_mesh mesh(input, basis);
-  Parameters parameters;
+  Parameters parameters = Parameters::paper();
   parameters.placement = placement;
   parameters.threads = 2;
   Core core = make_core(mesh, basis, z, parameters);

@@ -134,10 +134,10 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
   const Basis basis = eigenbasis(input, GENERATE(0., 0.5), 8);
   Slow_mesh mesh(input, basis);
   std::vector<Planes> planes = planes_of(input);
-  Parameters parameters;
+  Parameters parameters = Parameters::paper();
   parameters.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
   parameters.shape = GENERATE(0.5, 300.);
-  parameters.sum_of_squares = basis.lambda.squaredNorm();
+  const double sum_of_squares = basis.lambda.squaredNorm();
   Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
   std::mt19937 random(5);
   Core_kernel kernel;
@@ -149,7 +149,7 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
       if(random() % 8 != 0)
         continue;
       const Candidate candidate = core.evaluate(Slot(e.first), Slot(e.second), kernel);
-      if(!candidate.collapsible)
+      if(!candidate.collapsible())
         continue;
       const Eigen::Vector3d x = candidate.point;
       const Planes &at_u = planes[std::size_t(e.first)], &at_v = planes[std::size_t(e.second)];
@@ -157,10 +157,10 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
                             quadric(at_v, on_edge(mesh, e, 1));
       const double loss =
           mesh.energy_after(e, core.projected_weight(Slot(e.first), Slot(e.second), x), x) - before;
-      const double bound = 10 * parameters.sum_of_squares *
+      const double bound = 10 * sum_of_squares *
                            (vertex_mass(mesh, e.first, basis.area) + vertex_mass(mesh, e.second, basis.area));
-      const double slow = (std::min)(loss, bound) + parameters.shape * parameters.sum_of_squares * double(n) *
-                                                        change / (basis.area * basis.area);
+      const double slow = (std::min)(loss, bound) +
+                          parameters.shape * sum_of_squares * double(n) * change / (basis.area * basis.area);
       ++counts[loss > bound];
       CHECK(std::abs(candidate.cost - slow) < 1e-8 * (std::abs(slow) + before + std::abs(loss)));
     }
@@ -169,7 +169,7 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
       const std::vector<Edge> edges = mesh.edge_list();
       const Edge e = edges[random() % edges.size()];
       const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
-      if(!c.collapsible)
+      if(!c.collapsible())
         continue;
       commit(core, mesh, e, c, true);
       Planes& kept = planes[std::size_t(e.first)];

@@ -83,36 +83,22 @@ public:
     , m_has_own_points(parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
     , m_traits(
           parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)))
-    , m_options(options)
     , m_slots(mesh, "Spectral_policies")
   {
     Real_timer timer;
     timer.start();
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
-    std::vector<char> kept = kept_vertex_flags(mesh, m_options.kept_vertices, np);
+    std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
     if(!kept.empty())
       check_kept_vertices_apart(mesh, m_slots, kept, m_fine_points);
     m_core.set_kept(std::move(kept));
 
-    Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, m_options);
+    Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, options);
     m_eigenpairs = basis.eigenpairs;
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
-    Spectral_cost_parameters parameters;
-    parameters.placement = m_options.placement;
-    parameters.binary = m_options.binary;
-    parameters.preserve_border =
-        m_options.preserve_border || m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet;
-    parameters.single_precision_points = std::is_same<FT, float>::value;
-    parameters.shape = m_options.shape;
-    parameters.largest_loss = m_options.largest_loss;
-    parameters.keep_free_of_self_intersections = m_options.keep_free_of_self_intersections;
-    parameters.exact_costs = m_options.exact_costs;
-    parameters.sum_of_squares = basis.sum_of_squares;
-    parameters.threads = m_options.threads;
-    m_core.set_basis(basis.F, basis.lambda, basis.Z, local_operator(m_options), 1 / basis.area, parameters);
-    m_options.signals.resize(0, 0); // n x K numbers that are in F now
+    m_core.set_basis(basis, local_operator(options), options, std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
   }
 
@@ -236,8 +222,8 @@ public:
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Spectral_candidate& c = answer(u, v);
     m_placement_asked = true;
-    m_placement_found = c.collapsible;
-    if(!c.collapsible)
+    m_placement_found = c.collapsible();
+    if(!c.collapsible())
       return Optional_point();
     // An end stays what it is, whatever its number type.
     if(c.point == m_core.fields().points[u])
@@ -262,7 +248,7 @@ public:
     if(m_core.moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
     const Spectral_candidate& c = answer(u, v);
-    const double value = c.collapsible && c.point == point ? c.cost : m_core.cost_at(u, v, point);
+    const double value = c.collapsible() && c.point == point ? c.cost : m_core.cost_at(u, v, point);
     if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
     return Optional_cost(FT(value));
@@ -301,7 +287,7 @@ public:
     if(m_core.moves_kept_vertex(u, v, point))
       return false;
     const Spectral_candidate& own = answer(u, v); // which has been looked at
-    return (own.collapsible && own.point == point) || !m_core.crosses(u, v, point);
+    return (own.collapsible() && own.point == point) || !m_core.crosses(u, v, point);
   }
 
   /// @}
@@ -309,26 +295,25 @@ public:
   /// @{
 
   /// P, rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const
-  {
-    const std::vector<Eigen::Index> slots = current_slots();
-    check_number_of_vertices(slots.size());
-    return m_core.log().forest().restriction(slots);
-  }
+  Eigen::SparseMatrix<double> restriction() const { return log().forest().restriction(current_slots()); }
 
   /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
-  std::vector<std::size_t> vertex_map() const
-  {
-    const std::vector<Eigen::Index> slots = current_slots();
-    check_number_of_vertices(slots.size());
-    return m_core.log().forest().vertex_map(slots);
-  }
+  std::vector<std::size_t> vertex_map() const { return log().forest().vertex_map(current_slots()); }
 
   /// The merges so far and where each left its vertex.
   const Collapse_log& log() const { return m_core.log(); }
 
-  /// The slots of `vertices(mesh)`, in that order.
-  std::vector<Eigen::Index> current_slots() const { return m_slots.current(); }
+  /// The slots of `vertices(mesh)`, in that order. Throws `std::logic_error` where the merges on record are not all that has
+  /// happened to the mesh.
+  std::vector<Eigen::Index> current_slots() const
+  {
+    std::vector<Eigen::Index> slots = m_slots.current();
+    if(slots.size() != number_of_vertices())
+      throw std::logic_error(
+          "Spectral_policies: vertices of the mesh have been removed without the visitor of the "
+          "policies; make new policies for the mesh as it is.");
+    return slots;
+  }
 
   /// The mesh as it is now.
   const Triangle_mesh& mesh() const { return *m_mesh; }
@@ -383,12 +368,12 @@ public:
   /// @}
 
   /// Whether `Spectral_options::cancel` asks to stop.
-  bool is_cancelled() const { return internal::is_cancelled(m_options); }
+  bool is_cancelled() const { return internal::is_cancelled(m_core.options()); }
 
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_phase phase, const double fraction) const
   {
-    return report_progress(m_options, phase, fraction, number_of_vertices());
+    return report_progress(m_core.options(), phase, fraction, number_of_vertices());
   }
 
   /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
@@ -426,7 +411,7 @@ private:
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
     const Spectral_candidate* c = m_core.candidates().find(removed, kept);
-    if(c != nullptr && c->collapsible && c->point == point)
+    if(c != nullptr && c->collapsible() && c->point == point)
       return c->other == removed ? c->weight : 1 - c->weight;
     return m_core.projected_weight(kept, removed, point);
   }
@@ -453,30 +438,19 @@ private:
   // Positions and rings of the mesh as it is.
   std::pair<std::vector<Eigen::Vector3d>, Spectral_rings> read_geometry()
   {
-    m_slots.check();
+    const std::vector<Eigen::Index> slots = current_slots();
     m_vpm = vertex_point_map();
     const std::size_t n = std::size_t(m_fine_points.rows());
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
     Spectral_rings rings;
     rings.resize(n);
-    std::size_t number_of_vertices = 0;
+    std::size_t i = 0;
     for(const vertex_descriptor v : vertices(*m_mesh)) {
-      const Slot s = slot(v);
+      const Slot s = Slot(slots[i++]);
       points[s] = to_vector(get(m_vpm, v));
       rings[s] = ring_of(v);
-      ++number_of_vertices;
     }
-    check_number_of_vertices(number_of_vertices);
     return {std::move(points), std::move(rings)};
-  }
-
-  // The merges on record are all that has happened to the mesh.
-  void check_number_of_vertices(const std::size_t number_of_vertices) const
-  {
-    if(number_of_vertices != log().number_of_vertices_left())
-      throw std::logic_error(
-          "Spectral_policies: vertices of the mesh have been removed without the visitor of the "
-          "policies; make new policies for the mesh as it is.");
   }
 
   void close_selection()
@@ -506,7 +480,6 @@ private:
   Vertex_point_map m_vpm;
   bool m_has_own_points; // of the mesh, not a map of the user's
   Geom_traits m_traits;
-  Spectral_options m_options;
   Fine_vertex_slots<Triangle_mesh> m_slots;
 
   Eigen::MatrixXd m_fine_points;

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -22,20 +23,26 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
+/// A way to collapse an edge (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.
+struct Spectral_sample
+{
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double weight = 0;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
 /// The best way found to collapse an edge (u, other) with u < other.
 ///
 /// The weight belongs to the slot `other`, never to an end of a halfedge: the direction in which CGAL
 /// presents the same edge can change after a collapse nearby.
-struct Spectral_candidate
+struct Spectral_candidate : Spectral_sample
 {
   Spectral_slot other = null_spectral_slot;
   std::uint32_t version = 0; ///< the number of merges and of new runs that it has seen
-  bool collapsible = false;
   bool deferred = false; ///< of before a change nearby, or of fewer samples: evaluated when its turn comes
   bool at_another_point = false; ///< its best one would put a face through another
-  double cost = std::numeric_limits<double>::infinity();
-  double weight = 0; ///< f_x = (1 - weight) f_u + weight f_other
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+
+  bool collapsible() const { return std::isfinite(cost); }
 };
 
 /// The candidates of all edges, each kept with the smaller of its slots: a lookup runs through about
@@ -69,46 +76,25 @@ public:
     return i < list.entries.size() ? &list.entries[i] : nullptr;
   }
 
-  /// The place of the candidate of an edge among those of u, its smaller slot. Where there is none yet an empty one is put
-  /// in, to be evaluated when somebody asks for it. A place holds until a candidate of u is forgotten.
-  std::size_t place(const Spectral_slot u, const Spectral_slot other)
+  /// Keeps the candidate of an edge, u being its smaller slot, as it is if it costs more than `bound`, and says whether it does. Where
+  /// there is none yet an empty one is put in, to be evaluated when somebody asks for it.
+  bool defer(const Spectral_slot u, const Spectral_slot other, const double bound)
   {
-    CGAL_precondition(u < other);
-    List& list = m_lists[u];
-    const std::size_t i = list.find(other);
-    if(i == list.entries.size()) {
-      Spectral_candidate& c = list.add(other);
-      c.version = m_version - 1;
-      c.deferred = true;
-    }
-    return i;
-  }
-
-  /// Keeps the candidate at a place as it is if it costs more than `bound`, and says whether it does.
-  bool defer(const Spectral_slot u, const std::size_t place, const double bound)
-  {
-    Spectral_candidate& c = m_lists[u].entries[place];
-    if(!c.collapsible || !(c.cost > bound))
+    Spectral_candidate& c = find_or_add(u, other);
+    if(!c.collapsible() || !(c.cost > bound))
       return false;
     c.version = m_version;
     return c.deferred = true;
   }
 
-  /// Replaces the candidate at a place.
-  const Spectral_candidate& put(const Spectral_slot u, const std::size_t place,
-                                const Spectral_candidate& candidate)
+  /// Puts in or replaces the candidate of the edge (u, candidate.other), u being the smaller slot. May run side by side for edges
+  /// that have one.
+  const Spectral_candidate& insert(const Spectral_slot u, const Spectral_candidate& candidate)
   {
-    Spectral_candidate& c = m_lists[u].entries[place];
-    CGAL_precondition(c.other == candidate.other);
+    Spectral_candidate& c = find_or_add(u, candidate.other);
     c = candidate;
     c.version = m_version;
     return c;
-  }
-
-  /// Puts in or replaces the candidate of the edge (u, candidate.other), u being the smaller slot.
-  const Spectral_candidate& insert(const Spectral_slot u, const Spectral_candidate& candidate)
-  {
-    return put(u, place(u, candidate.other), candidate);
   }
 
   /// Room for n candidates of u.
@@ -176,6 +162,19 @@ private:
       entries.pop_back();
     }
   };
+
+  Spectral_candidate& find_or_add(const Spectral_slot u, const Spectral_slot other)
+  {
+    CGAL_precondition(u < other);
+    List& list = m_lists[u];
+    const std::size_t i = list.find(other);
+    if(i < list.entries.size())
+      return list.entries[i];
+    Spectral_candidate& c = list.add(other);
+    c.version = m_version - 1;
+    c.deferred = true;
+    return c;
+  }
 
   std::vector<List> m_lists;
   std::uint32_t m_version = 0;

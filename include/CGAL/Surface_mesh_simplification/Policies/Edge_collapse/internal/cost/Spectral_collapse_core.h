@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
@@ -31,7 +32,6 @@ namespace CGAL::Surface_mesh_simplification::internal {
 class Spectral_collapse_kernel;
 class Spectral_placement_search;
 struct Spectral_row_entry;
-struct Spectral_weighted_shape;
 
 /*!
  * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
@@ -48,10 +48,13 @@ public:
   Spectral_collapse_core(Spectral_collapse_core&&);
   ~Spectral_collapse_core();
 
-  /// `op` has n coefficients or none. `F` is n x K, and so is `Z`, or empty: then Z = F Lambda, and `lambda` has K entries.
-  void set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& Z,
-                 const Spectral_geometry::Local_operator& op, const double area_scale,
-                 const Spectral_cost_parameters& parameters);
+  /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as `float`. Signals and coefficients of the
+  /// options are not read.
+  void set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
+                 const Spectral_options& options, const bool single_precision);
+
+  /// See `Spectral_fields`.
+  void set_largest_degree_of_others(const std::size_t degree) { m_fields.largest_degree_of_others = degree; }
 
   /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. What set_geometry() does in the
   /// first run, unless the mesh is another one then.
@@ -71,6 +74,8 @@ public:
   /// where functions vanish.
   bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
 
+  /// Those of set_basis(), without their signals and coefficients.
+  const Spectral_options& options() const { return m_options; }
   const Spectral_fields& fields() const { return m_fields; }
   Eigen::Index number_of_signals() const { return m_number_of_signals; }
   const Collapse_log& log() const { return m_log; }
@@ -146,13 +151,6 @@ private:
   struct Workspace; // the scratch memory of one thread
   using Pool = Spectral_geometry::internal::Thread_pool<Workspace>;
 
-  // An edge and the place of its candidate among those of u; u < v.
-  struct Edge
-  {
-    Spectral_slot u, v;
-    std::size_t place;
-  };
-
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
   // E that it has seen, and a needle makes an E that dwarfs the rest for a while.
   class Sum
@@ -177,10 +175,6 @@ private:
   Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v, const Eigen::Vector3d& crossing,
                                     const double bound);
 
-  // What makes `Spectral_options::shape` a number without unit: both terms of the cost grow with the scale of E, and the shape
-  // term, a squared distance times an area, is compared with 1 / n, the area that a vertex stands for.
-  Spectral_weighted_shape weighted_shape() const;
-
   // Of the mesh as it is, whatever the density.
   double surface_area() const;
 
@@ -199,12 +193,12 @@ private:
   double minimiser_bound() const;
 
   Spectral_fields m_fields;
-  Spectral_cost_parameters m_parameters;
+  Spectral_options m_options;
   Spectral_shape_term m_shape;
-  bool m_dirichlet = false;
   Spectral_crossing_guard m_crossing;
   Eigen::Index m_number_of_signals = 0;
-  std::vector<Edge> m_batch; // those around a vertex that are not put off
+  std::vector<std::pair<Spectral_slot, Spectral_slot>>
+      m_batch; // edges around a vertex that are not put off, the smaller slot first
 
   Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point

@@ -21,16 +21,6 @@ struct alignas(cache_line) Spectral_collapse_core::Workspace
   std::vector<Spectral_row_entry> row;
 };
 
-inline void set_candidate(Spectral_candidate& c, const Spectral_sample& sample)
-{
-  if(!std::isfinite(sample.cost))
-    return;
-  c.collapsible = true;
-  c.cost = sample.cost;
-  c.weight = sample.weight;
-  c.point = sample.point;
-}
-
 inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
                        const double weight)
 {
@@ -43,29 +33,33 @@ Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = defau
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() = default;
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::set_basis(const Eigen::MatrixXd& F, const Eigen::VectorXd& lambda,
-                                  const Eigen::MatrixXd& Z, const Spectral_geometry::Local_operator& op,
-                                  const double area_scale, const Spectral_cost_parameters& parameters)
+Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
+                                  const Spectral_options& options, const bool single_precision)
 {
-  m_number_of_signals = F.cols();
-  m_fields.F.assign(F);
-  if(Z.size() != 0)
-    m_fields.Z.assign(Z);
+  m_options = options;
+  m_options.signals.resize(0, 0); // large, and in F now
+  m_options.coefficients.resize(0, 7);
+  m_options.boundary = op.boundary;
+  if(op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+    m_options.preserve_border = true;
+  m_number_of_signals = basis.F.cols();
+  m_fields.F.assign(basis.F);
+  if(basis.Z.size() != 0)
+    m_fields.Z.assign(basis.Z);
   else
-    m_fields.lambda.assign(lambda.transpose());
+    m_fields.lambda.assign(basis.lambda.transpose());
   m_fields.theta = op.theta;
   m_fields.voronoi = op.voronoi;
   const Spectral_geometry::Operator_coefficients& c = op.coefficients;
   for(Eigen::Index v = 0; v < c.rows(); ++v)
     m_fields.coefficients.push_back(c.row(v).transpose());
   m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
-  m_fields.area_scale = area_scale;
-  m_fields.largest_degree_of_others = parameters.largest_degree_of_others;
-  m_parameters = parameters;
-  m_dirichlet = op.boundary == Spectral_geometry::Boundary_condition::dirichlet;
-  m_pool = std::make_unique<Pool>(parameters.threads);
-  m_log = Collapse_log(F.rows());
-  m_candidates.resize(std::size_t(F.rows()));
+  m_fields.area_scale = 1 / basis.area;
+  m_fields.single_precision = single_precision;
+  m_shape.set_weights(options, basis.sum_of_squares);
+  m_pool = std::make_unique<Pool>(options.threads);
+  m_log = Collapse_log(basis.F.rows());
+  m_candidates.resize(std::size_t(basis.F.rows()));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
@@ -76,10 +70,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector
   m_fields.rings = std::move(rings);
   if(is_later)
     return; // quadrics and the border are those of the input
-  if(m_dirichlet)
+  if(m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
     for(std::size_t w = 0; w < m_fields.points.size(); ++w)
       m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
-  if(m_parameters.shape > 0)
+  if(m_options.shape > 0)
     m_shape.set_geometry(m_fields.points, m_fields.rings,
                          m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area());
 }
@@ -117,7 +111,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_fields.update_triangles(Spectral_slot(w));
     update_row(Spectral_slot(w), workspace.row);
   });
-  if(m_parameters.keep_free_of_self_intersections)
+  if(m_options.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
   m_total.add(m_fields.E.sum());
@@ -156,12 +150,13 @@ Spectral_collapse_core::evaluate(Spectral_slot u, Spectral_slot v, Spectral_coll
   if(!kernel.prepare(m_fields, u, v))
     return result;
   const Spectral_placement_search search = this->search(u, v);
-  if(for_queue && !m_parameters.exact_costs)
-    set_candidate(result, search.at_large_end(kernel));
-  result.deferred = result.collapsible;
-  if(!result.collapsible) {
-    set_candidate(result, search.best(kernel, bound));
-    result.deferred = result.collapsible && result.cost > bound;
+  Spectral_sample& sample = result;
+  if(for_queue && !m_options.exact_costs)
+    sample = search.at_large_end(kernel);
+  result.deferred = result.collapsible();
+  if(!result.deferred) {
+    sample = search.best(kernel, bound);
+    result.deferred = result.collapsible() && result.cost > bound;
   }
   return result;
 }
@@ -177,11 +172,11 @@ Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, 
         &m_candidates.insert((std::min)(u, v), any_version ? evaluate(u, v, kernel)
                                                            : evaluate(u, v, kernel, minimiser_bound(), true));
   }
-  if(any_version && found->collapsible && crosses(u, v, found->point)) {
+  if(any_version && found->collapsible() && crosses(u, v, found->point)) {
     ++m_number_of_evaluations;
     const double bound = crossing_factor * (std::max)(found->cost, m_recent_cost);
     found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v, found->point, bound));
-    m_number_of_crossings += !found->collapsible;
+    m_number_of_crossings += !found->collapsible();
   }
   return *found;
 }
@@ -248,8 +243,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const
   m_number_of_evaluations += m_batch.size();
   const double bound = minimiser_bound();
   m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-    const Edge& e = m_batch[i];
-    m_candidates.put(e.u, e.place, evaluate(e.u, e.v, workspace.kernel, bound, true));
+    const auto [u, v] = m_batch[i];
+    m_candidates.insert(u, evaluate(u, v, workspace.kernel, bound, true));
   });
 }
 
@@ -258,10 +253,8 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
                                const Eigen::Vector3d& point, Spectral_ring ring)
 {
   const double before = total();
-  const Spectral_weighted_shape shape = weighted_shape();
-  const double shape_cost =
-      shape.term ? shape.weight * shape.term->change(m_fields.points, removed, kept, point) : 0.;
-  const double largest_loss = shape.largest_loss * (m_fields.mass[removed] + m_fields.mass[kept]);
+  const double shape_cost = m_shape.cost(m_fields.points, removed, kept, point);
+  const double largest_loss = m_shape.largest_loss() * (m_fields.mass[removed] + m_fields.mass[kept]);
   const Spectral_candidate* const candidate = m_candidates.find(removed, kept);
   const bool at_another_point =
       candidate != nullptr && candidate->at_another_point && candidate->point == point;
@@ -278,7 +271,7 @@ Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot 
   }
   m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
-  const double loss = shape.term ? (std::min)(total() - before, largest_loss) : total() - before;
+  const double loss = (std::min)(total() - before, largest_loss);
   m_recent_cost = (std::max)(at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);
 }
 
@@ -304,7 +297,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search
 Spectral_collapse_core::search(const Spectral_slot u, const Spectral_slot v) const
 {
-  return Spectral_placement_search(m_fields, m_parameters, weighted_shape(), u, v);
+  return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(
@@ -317,23 +310,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluat
   Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
   if(!kernel.prepare(m_fields, u, v))
     return result;
-  set_candidate(result, search(u, v).best_on_edge(kernel, bound, [&](const Eigen::Vector3d& point) {
-    return point != crossing && !crosses(u, v, point);
-  }));
+  static_cast<Spectral_sample&>(result) =
+      search(u, v).best_on_edge(kernel, bound, [&](const Eigen::Vector3d& point) {
+        return point != crossing && !crosses(u, v, point);
+      });
   result.at_another_point = true;
   return result;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_weighted_shape Spectral_collapse_core::weighted_shape() const
-{
-  Spectral_weighted_shape shape;
-  if(!m_shape.is_empty()) {
-    const double scale = m_parameters.sum_of_squares > 0 ? m_parameters.sum_of_squares : 1.;
-    shape.term = &m_shape;
-    shape.weight = m_parameters.shape * scale * double(m_log.number_of_vertices_left());
-    shape.largest_loss = m_parameters.largest_loss * scale;
-  }
-  return shape;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w,
@@ -383,7 +365,7 @@ Spectral_collapse_core::kept_or_neighbor(const Spectral_slot kept, const std::si
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() const
 {
-  return m_parameters.placement == Spectral_placement_strategy::on_edge && !m_parameters.exact_costs
+  return m_options.placement == Spectral_placement_strategy::on_edge && !m_options.exact_costs
              ? m_recent_cost
              : std::numeric_limits<double>::infinity();
 }
@@ -401,13 +383,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Sp
       const bool inner = m_marks[e.vertex] == m_mark;
       if(inner && e.vertex < neighbor.vertex)
         continue;
-      const Spectral_slot u = (std::min)(neighbor.vertex, e.vertex),
-                          v = (std::max)(neighbor.vertex, e.vertex);
-      const std::size_t place = m_candidates.place(u, v);
+      const auto [u, v] = std::minmax(neighbor.vertex, e.vertex);
+      const bool at_once = m_options.exact_costs || e.vertex == kept;
       const double factor = inner ? inner_deferral_factor : outer_deferral_factor;
-      if(m_parameters.exact_costs || e.vertex == kept ||
-         !m_candidates.defer(u, place, factor * m_recent_cost))
-        m_batch.push_back(Edge{u, v, place});
+      if(!m_candidates.defer(u, v,
+                             at_once ? std::numeric_limits<double>::infinity() : factor * m_recent_cost))
+        m_batch.emplace_back(u, v);
     }
 }
 

@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
@@ -20,14 +21,6 @@
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
-
-/// A way to collapse a candidate (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.
-struct Spectral_sample
-{
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double weight = 0;
-  double cost = std::numeric_limits<double>::infinity();
-};
 
 /*!
  * The local cost of collapsing one edge: cost = sum over H of E_w after - sum over H of E_w before,

@@ -84,7 +84,8 @@ struct Spectral_fields
   std::vector<char> vanishing;
   std::vector<char>
       kept; ///< one flag for each slot that survives with its position and its row of P, or nothing
-  double area_scale = 1; ///< 1 / area of the input, weighted by the density
+  double area_scale = 1;         ///< 1 / area of the input, weighted by the density
+  bool single_precision = false; ///< whether the mesh stores its points as `float`
   /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed, until its turn comes, for whatever else
   /// may become of it changes all of its triangles.
   std::size_t largest_degree_of_others = 256;
@@ -129,22 +130,6 @@ struct Spectral_fields
   double off_diagonal_share() const { return theta / 12; }
 
   bool has_z_rows() const { return !Z.empty(); }
-};
-
-/// The part of `Spectral_options` that the cost of a candidate depends on.
-struct Spectral_cost_parameters
-{
-  Spectral_placement_strategy placement = Spectral_placement_strategy::on_edge;
-  bool binary = false;
-  bool preserve_border = false;
-  bool single_precision_points = false; ///< the mesh stores its points as float
-  bool keep_free_of_self_intersections = false;
-  bool exact_costs = false;  ///< see `Spectral_options::exact_costs`
-  double shape = 0;          ///< see `Spectral_options::shape`
-  double largest_loss = 10;  ///< see `Spectral_options::largest_loss`
-  double sum_of_squares = 1; ///< || Z ||_B^2, E when everything is lost
-  int threads = 1;
-  std::size_t largest_degree_of_others = Spectral_fields().largest_degree_of_others;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

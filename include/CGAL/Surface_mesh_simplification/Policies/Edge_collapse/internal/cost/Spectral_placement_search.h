@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
@@ -18,14 +19,6 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// The shape term and what it weighs beside E; `term` is null where there is none.
-struct Spectral_weighted_shape
-{
-  const Spectral_shape_term* term = nullptr;
-  double weight = 0;
-  double largest_loss = 0; ///< of E, for each unit of mass at the ends of an edge
-};
-
 /*!
  * The placement of a candidate (u,v) (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
  * the state and changes nothing; the kernel that evaluates has been prepared for the edge.
@@ -33,29 +26,24 @@ struct Spectral_weighted_shape
 class Spectral_placement_search
 {
 public:
-  Spectral_placement_search(const Spectral_fields& fields, const Spectral_cost_parameters& parameters,
-                            const Spectral_weighted_shape& shape, const Spectral_slot u,
-                            const Spectral_slot v)
+  Spectral_placement_search(const Spectral_fields& fields, const Spectral_options& options,
+                            const Spectral_shape_term& shape, const Spectral_slot u, const Spectral_slot v)
     : m_fields(fields)
-    , m_parameters(parameters)
+    , m_options(options)
     , m_shape(shape)
     , m_u(u)
     , m_v(v)
   {}
 
-  /// Fills the costs of up to four samples: the change of E and, where there is a shape term, that of the weighted term. Then
-  /// no change of E counts for more than `largest_loss` times what the signals have at both ends: beside needles E is
-  /// larger than that by orders of magnitude, and a few folds of the input (eyes, nostrils) would never be collapsed.
+  /// Fills the costs of up to four samples: the change of E and what the shape term adds.
   void evaluate(Spectral_collapse_kernel& kernel, Spectral_sample* samples, const int count) const
   {
     kernel.evaluate(samples, count);
-    if(m_shape.term == nullptr)
-      return;
-    const double largest = m_shape.largest_loss * (m_fields.mass[m_u] + m_fields.mass[m_v]);
+    const double largest = m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v]);
     for(int s = 0; s < count; ++s)
       if(std::isfinite(samples[s].cost))
-        samples[s].cost = (std::min)(samples[s].cost, largest) +
-                          m_shape.weight * m_shape.term->change(m_fields.points, m_u, m_v, samples[s].point);
+        samples[s].cost =
+            (std::min)(samples[s].cost, largest) + m_shape.cost(m_fields.points, m_u, m_v, samples[s].point);
   }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
@@ -73,13 +61,13 @@ public:
     const Fixed_ends fixed = fixed_ends();
     if(fixed.u && fixed.v)
       return Spectral_sample(); // of infinite cost
-    if(fixed.u || fixed.v || m_parameters.placement == Spectral_placement_strategy::midpoint) {
+    if(fixed.u || fixed.v || m_options.placement == Spectral_placement_strategy::midpoint) {
       samples[0] = sample_at(fixed.u ? 0. : fixed.v ? 1. : 0.5);
       evaluate(kernel, samples, 1);
       return samples[0];
     }
-    const bool free = m_parameters.placement == Spectral_placement_strategy::free && !fixed.on_border;
-    if(free && m_shape.term != nullptr)
+    const bool free = m_options.placement == Spectral_placement_strategy::free && !fixed.on_border;
+    if(free && !m_shape.is_empty())
       return best_by_shape(kernel);
     for(int s = 0; s < 3; ++s)
       samples[s] = sample_at(s / 2.);
@@ -108,7 +96,7 @@ public:
   {
     Spectral_sample sample;
     if((!m_fields.is_hub(m_u) && !m_fields.is_hub(m_v)) ||
-       m_parameters.placement == Spectral_placement_strategy::midpoint)
+       m_options.placement == Spectral_placement_strategy::midpoint)
       return sample;
     const bool more_at_u = m_fields.rings[m_u].size() >= m_fields.rings[m_v].size();
     const Fixed_ends fixed = fixed_ends();
@@ -158,7 +146,7 @@ private:
       return m_fields.is_kept(m_u) ? 0. : 1.;
     if(m_fields.vanishes_at(m_u) != m_fields.vanishes_at(m_v))
       return m_fields.vanishes_at(m_u) ? 0. : 1.;
-    if(!m_parameters.binary)
+    if(!m_options.binary)
       return alpha;
     if(alpha != 0.5)
       return alpha < 0.5 ? 0. : 1.;
@@ -185,7 +173,7 @@ private:
   // What the mesh makes of a point.
   Eigen::Vector3d as_stored(const Eigen::Vector3d& point) const
   {
-    return m_parameters.single_precision_points ? point.cast<float>().cast<double>() : point;
+    return m_fields.single_precision ? point.cast<float>().cast<double>() : point;
   }
 
   // The sum of the normals around both ends, weighted by area.
@@ -207,7 +195,7 @@ private:
     const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
     const Eigen::Vector3d middle = (pu + pv) / 2;
     const double radius = (pv - pu).norm();
-    Eigen::Vector3d x = m_shape.term->minimiser(m_u, m_v);
+    Eigen::Vector3d x = m_shape.minimiser(m_u, m_v);
     const double distance = (x - middle).norm();
     if(distance > radius)
       x = middle + radius / distance * (x - middle);
@@ -257,7 +245,7 @@ private:
   Fixed_ends fixed_ends() const
   {
     Fixed_ends fixed{m_fields.is_kept(m_u), m_fields.is_kept(m_v), false};
-    if(m_parameters.preserve_border) {
+    if(m_options.preserve_border) {
       // Functions go on to vanish where the border of a hole was, when it has closed.
       const bool border_u = m_fields.rings.is_border(m_u) || m_fields.vanishes_at(m_u),
                  border_v = m_fields.rings.is_border(m_v) || m_fields.vanishes_at(m_v);
@@ -269,8 +257,8 @@ private:
   }
 
   const Spectral_fields& m_fields;
-  const Spectral_cost_parameters& m_parameters;
-  Spectral_weighted_shape m_shape;
+  const Spectral_options& m_options;
+  const Spectral_shape_term& m_shape;
   Spectral_slot m_u, m_v;
 };
 

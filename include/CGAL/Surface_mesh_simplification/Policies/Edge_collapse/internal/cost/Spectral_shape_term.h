@@ -5,12 +5,14 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_SHAPE_TERM_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_SHAPE_TERM_H
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -26,11 +28,29 @@ namespace CGAL::Surface_mesh_simplification::internal {
  * evenly. Weights are areas, so that the resolution of the input does not matter.
  *
  * Before set_geometry() it is empty and costs nothing. Reads may run on several threads.
+ *
+ * With the shape term no change of E counts for more than `Spectral_options::largest_loss` times what the signals have at both ends:
+ * beside needles E is larger than that by orders of magnitude, and a few folds of the input (eyes, nostrils) would never be collapsed.
  */
 class Spectral_shape_term
 {
 public:
   bool is_empty() const { return m_quadrics.empty(); }
+
+  /// What makes `Spectral_options::shape` a number without unit: both terms of the cost grow with the scale of E, and the shape
+  /// term, a squared distance times an area, is compared with 1 / n, the area that a vertex stands for.
+  void set_weights(const Spectral_options& options, const double sum_of_squares)
+  {
+    const double scale = sum_of_squares > 0 ? sum_of_squares : 1.;
+    m_weight = options.shape * scale;
+    m_largest_loss = options.largest_loss * scale;
+  }
+
+  /// For each unit of mass at the ends of an edge.
+  double largest_loss() const
+  {
+    return is_empty() ? std::numeric_limits<double>::infinity() : m_largest_loss;
+  }
 
   /// The planes of a mesh as its rings have it.
   void set_geometry(const std::vector<Eigen::Vector3d>& points, const Spectral_rings& rings,
@@ -39,6 +59,7 @@ public:
     m_origin = points.front();
     m_scale = area_scale * area_scale;
     m_quadrics.resize(points.size());
+    m_number_of_vertices = points.size();
     for(std::size_t w = 0; w < points.size(); ++w) {
       // Angles and lengths are taken from the vertex itself: far from the origin nothing is lost.
       const Eigen::Vector3d p = points[w] - m_origin;
@@ -53,7 +74,14 @@ public:
     }
   }
 
-  /// What a collapse of (u,v) to x adds.
+  /// What a collapse of (u,v) to x costs beside E.
+  double cost(const std::vector<Eigen::Vector3d>& points, const Spectral_slot u, const Spectral_slot v,
+              const Eigen::Vector3d& x) const
+  {
+    return is_empty() ? 0. : m_weight * double(m_number_of_vertices) * change(points, u, v, x);
+  }
+
+  /// The same without its weight.
   double change(const std::vector<Eigen::Vector3d>& points, const Spectral_slot u, const Spectral_slot v,
                 const Eigen::Vector3d& x) const
   {
@@ -71,13 +99,16 @@ public:
   /// Follows the collapse of `removed` into `kept`.
   void merge(const Spectral_slot removed, const Spectral_slot kept)
   {
-    if(!is_empty())
-      m_quadrics[kept] += m_quadrics[removed];
+    if(is_empty())
+      return;
+    m_quadrics[kept] += m_quadrics[removed];
+    --m_number_of_vertices;
   }
 
 private:
   Eigen::Vector3d m_origin = Eigen::Vector3d::Zero();
-  double m_scale = 1;
+  double m_scale = 1, m_weight = 0, m_largest_loss = 0;
+  std::size_t m_number_of_vertices = 0;
   std::vector<Spectral_quadric> m_quadrics;
 };
 
