@@ -48,8 +48,8 @@ TEST_CASE("The quadric of a free placement has its least value at the minimiser,
     double costs[10];
     for(int s = 0; s < 10; ++s)
       costs[s] = value(quadric.point(s));
-    REQUIRE(quadric.fit(costs));
-    const Eigen::Vector3d best = quadric.minimiser(), y = axes.inverse() * (best - quadric.point(1));
+    const Eigen::Vector3d best = quadric.minimiser(costs).value(),
+                          y = axes.inverse() * (best - quadric.point(1));
     CHECK(y.norm() < 1 + 1e-9);
     if(y.norm() < 0.99) {
       ++inside;
@@ -63,7 +63,7 @@ TEST_CASE("The quadric of a free placement has its least value at the minimiser,
     }
     CHECK(value(best) < least + 1e-9);
     costs[4] = infinity;
-    CHECK_FALSE(quadric.fit(costs));
+    CHECK_FALSE(quadric.minimiser(costs));
   }
   CHECK(inside > 5);
 }
@@ -104,8 +104,8 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
     double costs[10], best = d.cost;
     for(int s = 0; s < 10; ++s)
       best = (std::min)(best, costs[s] = slow(quadric.point(s)));
-    if(quadric.fit(costs)) {
-      const double least = slow(quadric.minimiser());
+    if(const auto x = quadric.minimiser(costs)) {
+      const double least = slow(*x);
       quadric_won += least < best;
       best = (std::min)(best, least);
     }

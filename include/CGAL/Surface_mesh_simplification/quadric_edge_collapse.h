@@ -103,9 +103,7 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
   Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
   check_mesh_of_quadrics(mesh, matrices.V);
-  if(!kept.empty())
-    check_kept_vertices_apart(mesh, Fine_vertex_slots<TriangleMesh>(mesh, "edge collapses"), kept,
-                              matrices.V);
+  check_kept_vertices_apart(kept, matrices.V, matrices.T);
   Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
   report(std::size_t(arrays.V.rows()));

@@ -8,9 +8,11 @@
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
 
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <algorithm>
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <iterator>
 #include <vector>
@@ -64,32 +66,28 @@ std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh, 
 }
 
 /// Throws where two vertices to be kept are joined by edges without length: `edge_collapse()` merges their ends before
-/// it asks for a cost. `slots.slot(v)` is the index of the vertex v among the flags and the rows of V.
-template <class TriangleMesh, class Slots, class Points>
-void check_kept_vertices_apart(const TriangleMesh& mesh, const Slots& slots, const std::vector<char>& kept,
-                               const Points& V)
+/// it asks for a cost. `kept`: empty, or one flag for each row of V.
+inline void check_kept_vertices_apart(const std::vector<char>& kept, const Eigen::MatrixXd& V,
+                                      const Eigen::MatrixXi& T)
 {
-  using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
-  std::vector<vertex_descriptor> reached;
-  for(const vertex_descriptor start : vertices(mesh)) {
-    const std::size_t i_start = std::size_t(slots.slot(start));
-    if(!kept[i_start])
-      continue;
-    reached.assign(1, start);
-    for(std::size_t i = 0; i < reached.size(); ++i) {
-      if(halfedge(reached[i], mesh) == boost::graph_traits<TriangleMesh>::null_halfedge())
-        continue;
-      for(const vertex_descriptor w : vertices_around_target(halfedge(reached[i], mesh), mesh)) {
-        const std::size_t i_w = std::size_t(slots.slot(w));
-        if(V.row(i_w) != V.row(i_start) || std::find(reached.begin(), reached.end(), w) != reached.end())
-          continue;
-        require(!kept[i_w], "Spectral_options: the vertices ", i_start, " and ", i_w,
-                " are both to be kept, but edges without length join them and are collapsed before anything "
-                "else; keep one of the two.");
-        reached.push_back(w);
-      }
+  if(kept.empty())
+    return;
+  const std::vector<Eigen::Index> place =
+      Spectral_geometry::internal::connected_components(V.rows(), [&](const auto& join) {
+        for(Eigen::Index f = 0; f < T.rows(); ++f)
+          for(int k = 0; k < 3; ++k)
+            if(V.row(T(f, k)) == V.row(T(f, (k + 1) % 3)))
+              join(T(f, k), T(f, (k + 1) % 3));
+      });
+  std::vector<Eigen::Index> kept_at(kept.size(), -1);
+  for(std::size_t v = 0; v < kept.size(); ++v)
+    if(kept[v]) {
+      Eigen::Index& first = kept_at[std::size_t(place[v])];
+      require(first < 0, "Spectral_options: the vertices ", first, " and ", v,
+              " are both to be kept, but edges without length join them and are collapsed before anything "
+              "else; keep one of the two.");
+      first = Eigen::Index(v);
     }
-  }
 }
 
 } // namespace CGAL::Surface_mesh_simplification::internal

@@ -90,8 +90,7 @@ public:
     Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
     m_fine_points = std::move(matrices.V);
     std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
-    if(!kept.empty())
-      check_kept_vertices_apart(mesh, m_slots, kept, m_fine_points);
+    check_kept_vertices_apart(kept, m_fine_points, matrices.T);
     m_core.set_kept(std::move(kept));
 
     Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, options);
@@ -164,7 +163,7 @@ public:
     close_selection();
     m_selecting = m_selection_open = true;
     m_answer = Answer();
-    m_placement_asked = m_placement_found = false;
+    m_placement_found.reset();
   }
 
   /// \copydoc on_finished()
@@ -174,7 +173,7 @@ public:
   template <class Profile>
   void on_non_collapsable(const Profile&)
   {
-    ++(m_placement_asked ? m_refusals.filter : m_refusals.topology);
+    ++(m_placement_found ? m_refusals.filter : m_refusals.topology);
     m_selection_open = false;
   }
 
@@ -221,7 +220,6 @@ public:
     check_ready(profile);
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Spectral_candidate& c = answer(u, v);
-    m_placement_asked = true;
     m_placement_found = c.collapsible();
     if(!c.collapsible())
       return Optional_point();
@@ -260,10 +258,9 @@ public:
   template <class Profile, class GetPlacement>
   double relative_error_after(const Profile& profile, const GetPlacement& get_placement)
   {
-    const bool asked = m_placement_asked, found = m_placement_found;
+    const std::optional<bool> found = m_placement_found;
     const auto placement = get_placement(profile);
-    m_placement_asked = asked; // CGAL itself has not asked yet
-    m_placement_found = found;
+    m_placement_found = found; // CGAL itself has not asked yet
     if(!placement)
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
@@ -279,7 +276,7 @@ public:
   bool lets_through(const Profile& profile, const OptionalPoint& placement)
   {
     // CGAL has got as far as to ask, whether or not a wrapper has asked our own placement.
-    m_placement_asked = m_placement_found = true;
+    m_placement_found = true;
     if(!placement)
       return false;
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
@@ -456,7 +453,7 @@ private:
   void close_selection()
   {
     if(m_selection_open)
-      ++(m_placement_found || !m_placement_asked ? m_refusals.geometry : m_refusals.placement);
+      ++(m_placement_found.value_or(true) ? m_refusals.geometry : m_refusals.placement);
     m_selection_open = false;
   }
 
@@ -493,10 +490,10 @@ private:
   std::optional<Merge> m_announced; // the collapse under way
   bool m_positions_checked = false;
   bool m_batched = true;
-  bool m_selecting = false;      // a placement asked for now is that of the selected candidate
-  bool m_selection_open = false; // selected, and nothing has become of it yet
-  bool m_placement_asked = false, m_placement_found = false;
-  Spectral_refusals m_refusals; // but for `crossing`
+  bool m_selecting = false;              // a placement asked for now is that of the selected candidate
+  bool m_selection_open = false;         // selected, and nothing has become of it yet
+  std::optional<bool> m_placement_found; // whether there was one for it; none: not asked yet
+  Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
 };
 

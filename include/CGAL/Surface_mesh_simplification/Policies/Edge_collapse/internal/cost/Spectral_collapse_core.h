@@ -94,8 +94,9 @@ public:
                               const bool for_queue = false) const;
 
   /// The candidate of an edge, evaluated if need be. A candidate of an older version is good enough
-  /// where the edge was selected: it is what CGAL's queue holds.
-  const Spectral_candidate& candidate(const Spectral_slot u, const Spectral_slot v, const bool any_version);
+  /// where the edge was selected: it is what CGAL's queue holds. Where its placement would cross another sheet, then: the cheapest of the
+  /// ends and the middle that does not.
+  const Spectral_candidate& candidate(Spectral_slot u, Spectral_slot v, const bool any_version);
 
   /// Whether a collapse of (u,v) to a point would put a face through another, where that is guarded.
   bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
@@ -170,11 +171,6 @@ private:
 
   Spectral_placement_search search(Spectral_slot u, Spectral_slot v) const;
 
-  // What is left for an edge whose best placement, `crossing`, would cross another sheet: the cheapest of its ends and its middle that
-  // does not, at a cost of at most `bound`.
-  Spectral_candidate evaluate_apart(Spectral_slot u, Spectral_slot v, const Eigen::Vector3d& crossing,
-                                    const double bound);
-
   // Of the mesh as it is, whatever the density.
   double surface_area() const;
 
@@ -204,8 +200,6 @@ private:
   double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point
   Collapse_log m_log;
   Spectral_candidates m_candidates;
-  std::vector<std::size_t> m_marks;
-  std::size_t m_mark = 0;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
   std::unique_ptr<Pool> m_pool;

@@ -162,20 +162,27 @@ Spectral_collapse_core::evaluate(Spectral_slot u, Spectral_slot v, Spectral_coll
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
-Spectral_collapse_core::candidate(const Spectral_slot u, const Spectral_slot v, const bool any_version)
+Spectral_collapse_core::candidate(Spectral_slot u, Spectral_slot v, const bool any_version)
 {
+  if(v < u)
+    std::swap(u, v);
+  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
   const Spectral_candidate* found = m_candidates.find(u, v);
   if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
     ++m_number_of_evaluations;
-    Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-    found =
-        &m_candidates.insert((std::min)(u, v), any_version ? evaluate(u, v, kernel)
-                                                           : evaluate(u, v, kernel, minimiser_bound(), true));
+    found = &m_candidates.insert(u, any_version ? evaluate(u, v, kernel)
+                                                : evaluate(u, v, kernel, minimiser_bound(), true));
   }
   if(any_version && found->collapsible() && crosses(u, v, found->point)) {
     ++m_number_of_evaluations;
-    const double bound = crossing_factor * (std::max)(found->cost, m_recent_cost);
-    found = &m_candidates.insert((std::min)(u, v), evaluate_apart(u, v, found->point, bound));
+    Spectral_candidate apart;
+    apart.other = v;
+    apart.at_another_point = kernel.prepare(m_fields, u, v);
+    if(apart.at_another_point)
+      static_cast<Spectral_sample&>(apart) = search(u, v).best_on_edge(
+          kernel, crossing_factor * (std::max)(found->cost, m_recent_cost),
+          [&](const Eigen::Vector3d& point) { return point != found->point && !crosses(u, v, point); });
+    found = &m_candidates.insert(u, apart);
     m_number_of_crossings += !found->collapsible();
   }
   return *found;
@@ -300,24 +307,6 @@ Spectral_collapse_core::search(const Spectral_slot u, const Spectral_slot v) con
   return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate Spectral_collapse_core::evaluate_apart(
-    Spectral_slot u, Spectral_slot v, const Eigen::Vector3d& crossing, const double bound)
-{
-  if(v < u)
-    std::swap(u, v);
-  Spectral_candidate result;
-  result.other = v;
-  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(!kernel.prepare(m_fields, u, v))
-    return result;
-  static_cast<Spectral_sample&>(result) =
-      search(u, v).best_on_edge(kernel, bound, [&](const Eigen::Vector3d& point) {
-        return point != crossing && !crosses(u, v, point);
-      });
-  result.at_another_point = true;
-  return result;
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w,
                                                                       std::vector<Spectral_row_entry>& row)
 {
@@ -373,14 +362,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() c
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)
 {
   m_batch.clear();
-  m_marks.resize(m_fields.points.size(), 0);
-  ++m_mark;
-  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
-    m_marks[neighbor.vertex] = m_mark;
   // An edge between two neighbours is in both of their rings.
   for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
     for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex]) {
-      const bool inner = m_marks[e.vertex] == m_mark;
+      const bool inner = e.vertex != kept && m_fields.rings.are_adjacent(kept, e.vertex);
       if(inner && e.vertex < neighbor.vertex)
         continue;
       const auto [u, v] = std::minmax(neighbor.vertex, e.vertex);

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -46,8 +47,9 @@ public:
   /// x of sample i.
   Eigen::Vector3d point(const int i) const { return at(coordinates(i)); }
 
-  /// Takes the ten costs; false unless all are finite.
-  bool fit(const double* costs)
+  /// x that minimises the quadric through these ten costs in the ellipsoid of the samples, outside of which they tell nothing: four of
+  /// five quadrics have no minimum elsewhere. None unless all costs are finite.
+  std::optional<Eigen::Vector3d> minimiser(const double* costs) const
   {
     const double c = costs[1];
     const double plus[3] = {costs[2], costs[3], costs[5]}, minus[3] = {costs[0], costs[4], costs[6]};
@@ -62,14 +64,10 @@ public:
       for(int j = i + 1; j < 3; ++j)
         A(i, j) = A(j, i) = costs[sample++] - c - (b[i] + b[j]) / std::sqrt(2.) - (A(i, i) + A(j, j)) / 2;
     if(!A.allFinite() || !b.allFinite())
-      return false;
-    minimise(A, b);
-    return m_y.allFinite();
+      return {};
+    const Eigen::Vector3d y = minimiser_in_ball(A, b);
+    return y.allFinite() ? std::optional<Eigen::Vector3d>(at(y)) : std::nullopt;
   }
-
-  /// x that minimises the quadric in the ellipsoid of the samples, outside of which they tell nothing. Four of five
-  /// quadrics have no minimum elsewhere.
-  Eigen::Vector3d minimiser() const { return at(m_y); }
 
 private:
   // Of half the edge. On spot, cheburashka, homer and rocker-arm 0.1 and 0.25 give away half of what 0.5 gains.
@@ -77,7 +75,7 @@ private:
 
   // The y of |y| <= 1 with (A + mu I) y = -b / 2, where mu >= 0 makes the matrix positive definite and is 0 if |y| < 1.
   // |y| falls as mu grows.
-  void minimise(const Eigen::Matrix3d& A, const Eigen::Vector3d& b)
+  static Eigen::Vector3d minimiser_in_ball(const Eigen::Matrix3d& A, const Eigen::Vector3d& b)
   {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(A);
@@ -93,7 +91,7 @@ private:
       const double middle = (low + high) / 2;
       (y(middle).squaredNorm() <= 1 ? high : low) = middle;
     }
-    m_y = solver.eigenvectors() * y(high);
+    return solver.eigenvectors() * y(high);
   }
 
   Eigen::Vector3d at(const Eigen::Vector3d& y) const { return m_middle + m_axes * y; }
@@ -106,7 +104,7 @@ private:
     return Eigen::Vector3d(y[i][0], y[i][1], y[i][2]);
   }
 
-  Eigen::Vector3d m_middle, m_y;
+  Eigen::Vector3d m_middle;
   Eigen::Matrix3d m_axes;
 };
 

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -228,9 +229,10 @@ private:
       if(costs[i] < best.cost)
         best = samples[i];
     }
-    if(!quadric.fit(costs))
+    const std::optional<Eigen::Vector3d> x = quadric.minimiser(costs);
+    if(!x)
       return best;
-    Spectral_sample minimiser = sample_off_edge(quadric.minimiser());
+    Spectral_sample minimiser = sample_off_edge(*x);
     evaluate(kernel, &minimiser, 1);
     return minimiser.cost < best.cost ? minimiser : best;
   }
