@@ -145,7 +145,7 @@ TEST_CASE("Time and memory are linear in the degree")
 TEST_CASE("Candidates are found in long lists as in short ones")
 {
   SMS::internal::Spectral_candidates candidates;
-  candidates.resize(500);
+  candidates.reset(500);
   for(Slot v = 1; v < 500; ++v) {
     Candidate c;
     c.other = v;

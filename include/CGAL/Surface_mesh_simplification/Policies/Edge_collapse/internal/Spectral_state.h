@@ -243,7 +243,7 @@ public:
       return Optional_cost(largest_cost());
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
-    if(m_core.moves_kept_vertex(u, v, point))
+    if(m_core.fields().moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
     const Spectral_candidate& c = answer(u, v);
     const double value = c.collapsible() && c.point == point ? c.cost : m_core.cost_at(u, v, point);
@@ -265,7 +265,7 @@ public:
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
-    if(m_core.moves_kept_vertex(u, v, point) || !std::isfinite(m_core.cost_at(u, v, point)))
+    if(m_core.fields().moves_kept_vertex(u, v, point) || !std::isfinite(m_core.cost_at(u, v, point)))
       return relative_error();
     return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
@@ -281,7 +281,7 @@ public:
       return false;
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
-    if(m_core.moves_kept_vertex(u, v, point))
+    if(m_core.fields().moves_kept_vertex(u, v, point))
       return false;
     const Spectral_candidate& own = answer(u, v); // which has been looked at
     return (own.collapsible() && own.point == point) || !m_core.crosses(u, v, point);

@@ -50,18 +50,10 @@ struct Spectral_candidate : Spectral_sample
 class Spectral_candidates
 {
 public:
-  void resize(const std::size_t n)
+  /// None yet, for n slots.
+  void reset(const std::size_t n)
   {
-    m_lists.clear();
-    m_lists.resize(n);
-  }
-
-  void clear()
-  {
-    for(List& list : m_lists) {
-      list.entries.clear();
-      list.index.reset();
-    }
+    m_lists = std::vector<List>(n);
     ++m_version;
   }
 

@@ -35,7 +35,7 @@ struct Spectral_row_entry;
 
 /*!
  * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
- * candidates and the merge forest, all in slots. It is told what the mesh does and never looks at it.
+ * candidates and the log of merges, all in slots. It is told what the mesh does and never looks at it.
  *
  * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them; set_geometry()
  * at the start of each run; then, in any order, candidate(), cost_at() or evaluate_around(), which change nothing but candidates and
@@ -69,10 +69,6 @@ public:
 
   /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
   void set_kept(std::vector<char> kept) { m_fields.kept = std::move(kept); }
-
-  /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
-  /// where functions vanish.
-  bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
 
   /// Those of set_basis(), without their signals and coefficients.
   const Spectral_options& options() const { return m_options; }
@@ -180,8 +176,6 @@ private:
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift.
   void refresh_around(const Spectral_slot kept);
-
-  Spectral_slot kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const;
 
   // A candidate that costs more than the collapses of late gets the minimiser of section 3.4 when its turn comes, and the
   // best of the three samples till then. Measured on 60 runs, 30 in each mass: |C|_L times 1.007 and 0.991, within

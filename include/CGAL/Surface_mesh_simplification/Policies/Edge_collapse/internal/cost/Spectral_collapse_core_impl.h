@@ -59,7 +59,6 @@ Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_ge
   m_shape.set_weights(options, basis.sum_of_squares);
   m_pool = std::make_unique<Pool>(options.threads);
   m_log = Collapse_log(basis.F.rows());
-  m_candidates.resize(std::size_t(basis.F.rows()));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
@@ -115,7 +114,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
   m_total = Sum();
   m_total.add(m_fields.E.sum());
-  m_candidates.clear();
+  m_candidates.reset(std::size_t(n));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
@@ -126,17 +125,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() cons
       sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
     });
   return sum / 3; // each triangle from its three corners
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE bool
-Spectral_collapse_core::moves_kept_vertex(const Spectral_slot u, const Spectral_slot v,
-                                          const Eigen::Vector3d& point) const
-{
-  const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
-    return m_fields.is_kept(kept) && (m_fields.is_kept(other) || point != m_fields.points[kept] ||
-                                      (m_fields.vanishes_at(other) && !m_fields.vanishes_at(kept)));
-  };
-  return would_move(u, v) || would_move(v, u);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate
@@ -291,11 +279,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_aroun
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 {
-  m_fields.R = Spectral_rows();
-  m_fields.F = Spectral_rows(); // not in one assignment, which would copy to F and keep its memory
-  // Z stays: it tells whether signals have rows of their own.
-  m_fields.points = std::vector<Eigen::Vector3d>();
-  m_fields.rings = Spectral_rings();
+  const Spectral_rows lambda = m_fields.lambda; // stays: it tells whether signals have rows of their own
+  m_fields = Spectral_fields();
+  m_fields.lambda = lambda;
   m_shape = Spectral_shape_term();
   m_crossing = Spectral_crossing_guard();
   m_candidates = Spectral_candidates();
@@ -336,20 +322,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot kept)
 {
-  const std::size_t n = m_fields.rings[kept].size() + 1;
+  const Spectral_ring& ring = m_fields.rings[kept];
+  const std::size_t n = ring.size() + 1;
+  const auto slot = [&](const std::size_t i) { return i == 0 ? kept : ring[i - 1].vertex; };
   for(std::size_t i = 0; i < n; ++i)
-    m_total.add(-m_fields.E[kept_or_neighbor(kept, i)]);
-  m_pool->for_each(n, 1, [this, kept](const std::size_t i, Workspace& workspace) {
-    update_row(kept_or_neighbor(kept, i), workspace.row);
-  });
+    m_total.add(-m_fields.E[slot(i)]);
+  m_pool->for_each(
+      n, 1, [this, &slot](const std::size_t i, Workspace& workspace) { update_row(slot(i), workspace.row); });
   for(std::size_t i = 0; i < n; ++i)
-    m_total.add(m_fields.E[kept_or_neighbor(kept, i)]);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_slot
-Spectral_collapse_core::kept_or_neighbor(const Spectral_slot kept, const std::size_t i) const
-{
-  return i == 0 ? kept : m_fields.rings[kept][i - 1].vertex;
+    m_total.add(m_fields.E[slot(i)]);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() const

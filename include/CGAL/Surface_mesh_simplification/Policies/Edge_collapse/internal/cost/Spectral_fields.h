@@ -94,6 +94,17 @@ struct Spectral_fields
 
   bool is_kept(const Spectral_slot s) const { return !kept.empty() && kept[s] != 0; }
 
+  /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
+  /// where functions vanish.
+  bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  {
+    const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
+      return is_kept(kept) &&
+             (is_kept(other) || point != points[kept] || (vanishes_at(other) && !vanishes_at(kept)));
+    };
+    return would_move(u, v) || would_move(v, u);
+  }
+
   /// The triangle (c; a, b), weighted by the coefficients.
   Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
   {
@@ -129,7 +140,7 @@ struct Spectral_fields
   double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
   double off_diagonal_share() const { return theta / 12; }
 
-  bool has_z_rows() const { return !Z.empty(); }
+  bool has_z_rows() const { return lambda.empty(); }
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal
