@@ -46,25 +46,23 @@ public:
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
-    , m_single_precision(mesh.single_precision)
-    , m_vertex(std::move(mesh.vertex))
-    , m_opposite(std::move(mesh.opposite))
+    , m_mesh(std::move(mesh))
     , m_border_is_apart(border_is_apart)
     , m_fixed(std::move(fixed))
-    , m_state(m_vertex.size(), none)
+    , m_state(m_mesh.vertex.size(), none)
   {
-    const std::size_t n = std::size_t(mesh.V.rows());
+    const std::size_t n = m_log.number_of_vertices();
     m_fixed.resize(n, false);
     m_points.resize(n);
     for(std::size_t v = 0; v < n; ++v)
-      m_points[v] = mesh.V.row(Eigen::Index(v)).transpose() - m_origin;
-    mesh.V.resize(0, 3);
+      m_points[v] = m_mesh.V.row(Eigen::Index(v)).transpose() - m_origin;
+    m_mesh.V.resize(0, 3);
     m_quadrics.resize(n);
     m_degree.assign(n, 0);
     m_outgoing.assign(n, -1);
     m_changed.assign(n, 0);
     m_mark.assign(n, 0);
-    for(int c = 0; c < int(m_vertex.size()); ++c)
+    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
       add_corner(c);
     check_fans();
     if(keep_free_of_self_intersections)
@@ -73,8 +71,8 @@ public:
 
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
   {
-    for(int c = 0; c < int(m_vertex.size()); ++c)
-      if(m_opposite[at(c)] < c)
+    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
+      if(m_mesh.opposite[at(c)] < c)
         push(c);
     const std::size_t n = m_log.number_of_vertices();
     const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
@@ -88,7 +86,7 @@ public:
         progress(before);
         m_largest_degree = stuck ? unlimited : (std::min)(4 * m_largest_degree, unlimited);
         for(const int c : std::exchange(m_refused, {}))
-          if(m_vertex[at(c)] != removed && m_state[at(c)] == refused)
+          if(m_mesh.vertex[at(c)] != removed && m_state[at(c)] == refused)
             push(c);
         continue;
       }
@@ -109,11 +107,11 @@ public:
   {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
         m_points.front().data(), Eigen::Index(m_points.size()), 3);
-    Eigen::MatrixXi T(Eigen::Index(m_vertex.size() / 3), 3);
+    Eigen::MatrixXi T(Eigen::Index(m_mesh.vertex.size() / 3), 3);
     Eigen::Index faces = 0;
-    for(std::size_t c = 0; c < m_vertex.size(); c += 3)
-      if(m_vertex[c] != removed)
-        T.row(faces++) << m_vertex[c], m_vertex[c + 1], m_vertex[c + 2];
+    for(std::size_t c = 0; c < m_mesh.vertex.size(); c += 3)
+      if(m_mesh.vertex[c] != removed)
+        T.row(faces++) << m_mesh.vertex[c], m_mesh.vertex[c + 1], m_mesh.vertex[c + 2];
     T.conservativeResize(faces, 3);
     return Spectral_geometry::internal::any_self_intersecting_faces(
         V, T, [](Eigen::Index, Eigen::Index) { return true; });
@@ -159,9 +157,9 @@ private:
   static int next(const int c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static int previous(const int c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
-  int source(const int c) const { return m_vertex[at(c)]; }
-  int target(const int c) const { return m_vertex[at(next(c))]; }
-  bool is_border(const int c) const { return m_opposite[at(c)] < 0; }
+  int source(const int c) const { return m_mesh.vertex[at(c)]; }
+  int target(const int c) const { return m_mesh.vertex[at(next(c))]; }
+  bool is_border(const int c) const { return m_mesh.opposite[at(c)] < 0; }
   bool is_border_vertex(const int v) const { return is_border(m_outgoing[at(v)]); }
 
   // Starts with the halfedge on the border, if there is one, and turns from there.
@@ -171,7 +169,7 @@ private:
     const int first = m_outgoing[at(v)];
     int c = first;
     do {
-      const int beyond = m_opposite[at(previous(c))];
+      const int beyond = m_mesh.opposite[at(previous(c))];
       visit(c);
       c = beyond;
     } while(c >= 0 && c != first);
@@ -221,7 +219,7 @@ private:
     if(!x.allFinite())
       x = (p + q) / 2;
     x = x + m_origin;
-    if(m_single_precision)
+    if(m_mesh.single_precision)
       x = x.cast<float>().cast<double>();
     x = (x - m_origin).eval(); // what the mesh will hold
     return {float((std::max)(m_cost_scale * sum(x), 0.)), x};
@@ -229,7 +227,7 @@ private:
 
   void handle(const Entry& entry)
   {
-    const int c = entry.halfedge, opposite = m_opposite[at(c)];
+    const int c = entry.halfedge, opposite = m_mesh.opposite[at(c)];
     if(source(c) == removed)
       return;
     const int computed = std::exchange(m_state[at(c)], none);
@@ -267,7 +265,7 @@ private:
   // The link condition.
   bool keeps_manifold(const int c)
   {
-    const int u = source(c), v = target(c), opposite = m_opposite[at(c)];
+    const int u = source(c), v = target(c), opposite = m_mesh.opposite[at(c)];
     if(opposite >= 0 && is_border_vertex(u) && is_border_vertex(v))
       return false;
     int faces = 0;
@@ -336,7 +334,7 @@ private:
 
     std::vector<int>& ring = m_ring; // what is left of both
     ring.clear();
-    const int opposite = m_opposite[at(c)];
+    const int opposite = m_mesh.opposite[at(c)];
     const auto is_left = [&](const int h) {
       return h / 3 != c / 3 && (opposite < 0 || h / 3 != opposite / 3);
     };
@@ -354,7 +352,7 @@ private:
     m_changed[at(kept)] = number_of_collapses();
     m_outgoing[at(kept)] = ring.front();
     for(const int h : ring) {
-      m_vertex[at(h)] = kept;
+      m_mesh.vertex[at(h)] = kept;
       if(is_border(h))
         m_outgoing[at(kept)] = h;
     }
@@ -369,18 +367,18 @@ private:
   void close(const int side, const int kept)
   {
     const int apex = source(previous(side));
-    const int a = m_opposite[at(next(side))], b = m_opposite[at(previous(side))];
+    const int a = m_mesh.opposite[at(next(side))], b = m_mesh.opposite[at(previous(side))];
     const bool was_queued = m_state[at(next(side))] != none || m_state[at(previous(side))] != none;
     if(a >= 0)
-      m_opposite[at(a)] = b;
+      m_mesh.opposite[at(a)] = b;
     if(b >= 0)
-      m_opposite[at(b)] = a;
+      m_mesh.opposite[at(b)] = a;
     if(m_outgoing[at(apex)] == previous(side))
       m_outgoing[at(apex)] = a;
     --m_degree[at(apex)];
     --m_degree[at(kept)];
     for(const int h : {side, next(side), previous(side)})
-      m_vertex[at(h)] = removed;
+      m_mesh.vertex[at(h)] = removed;
     // An entry of the edge that is left, if only one of the removed sides had one.
     const int left = a >= 0 ? a : b;
     if(was_queued && m_state[at(left)] == none && (b < 0 || m_state[at(b)] == none))
@@ -391,7 +389,7 @@ private:
   {
     if(m_state[at(h)] == refused)
       push(h);
-    const int opposite = m_opposite[at(h)];
+    const int opposite = m_mesh.opposite[at(h)];
     if(opposite >= 0 && m_state[at(opposite)] == refused)
       push(opposite);
   }
@@ -399,8 +397,7 @@ private:
   Eigen::Vector3d m_origin;
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
-  bool m_single_precision;
-  std::vector<int> m_vertex, m_opposite; // of each corner
+  Triangle_arrays m_mesh; // but for positions
   bool m_border_is_apart;
   std::vector<char> m_fixed;             // of each vertex, as what follows
   std::vector<Eigen::Vector3d> m_points; // from the origin
