@@ -33,8 +33,7 @@ public:
   /// T refers to n vertices.
   Flip_connectivity(const Eigen::MatrixXi& T, const Eigen::Index n)
     : m_T(T)
-    , m_twin(std::size_t(3 * T.rows()), -1)
-    , m_edge(std::size_t(3 * T.rows()), -1)
+    , m_edge(std::size_t(3 * T.rows()))
     , m_faces(std::size_t(n))
   {
     std::map<std::pair<int, int>, int> slot_of; // by directed edge
@@ -46,29 +45,27 @@ public:
     }
     for(const auto& [ends, s] : slot_of) {
       const auto found = slot_of.find({ends.second, ends.first});
-      const int twin = found == slot_of.end() ? -1 : found->second, e = number_of_edges();
-      m_twin[std::size_t(s)] = twin;
-      if(twin >= 0 && ends.second < ends.first)
-        continue; // the twin has made the edge
+      const bool is_inner = found != slot_of.end();
+      if(is_inner && ends.second < ends.first)
+        continue; // the other side has made the edge
+      const int e = number_of_edges();
       m_edge[std::size_t(s)] = e;
-      if(twin >= 0)
-        m_edge[std::size_t(twin)] = e;
-      m_slot.push_back(s);
+      if(is_inner)
+        m_edge[std::size_t(found->second)] = e;
+      m_sides.push_back({s, is_inner ? found->second : -1});
     }
   }
 
   const Eigen::MatrixXi& triangles() const { return m_T; }
-  int number_of_edges() const { return int(m_slot.size()); }
+  int number_of_edges() const { return int(m_sides.size()); }
   const std::vector<int>& faces_of(const int v) const { return m_faces[std::size_t(v)]; }
 
-  bool is_on_boundary(const int e) const { return m_twin[std::size_t(m_slot[std::size_t(e)])] < 0; }
-
-  bool has_boundary() const { return std::find(m_twin.begin(), m_twin.end(), -1) != m_twin.end(); }
+  bool is_on_boundary(const int e) const { return m_sides[std::size_t(e)][1] < 0; }
 
   /// Of an edge that is not on the boundary.
   Quad quad(const int e) const
   {
-    const int s = m_slot[std::size_t(e)], t = m_twin[std::size_t(s)];
+    const auto [s, t] = m_sides[std::size_t(e)];
     return {corner(s, 1), corner(s, 2), corner(s, 0), corner(t, 0), s / 3, t / 3};
   }
 
@@ -82,7 +79,7 @@ public:
 
   std::pair<int, int> ends(const int e) const
   {
-    const int s = m_slot[std::size_t(e)];
+    const int s = m_sides[std::size_t(e)][0];
     return {corner(s, 1), corner(s, 2)};
   }
 
@@ -103,16 +100,21 @@ public:
   void flip(const int e)
   {
     const Quad q = quad(e);
-    const int s = m_slot[std::size_t(e)], t = m_twin[std::size_t(s)];
-    const Side jc = side(s, 1), ci = side(s, 2), id = side(t, 1), dj = side(t, 2);
+    const auto [s, t] = m_sides[std::size_t(e)];
+    const int from[4] = {side(t, 1), side(s, 2), side(s, 1), side(t, 2)}; // id, ci, jc, dj
+    const int to[4] = {3 * q.f, 3 * q.f + 2, 3 * q.g, 3 * q.g + 2};
+    int moved[4];
+    for(int k = 0; k < 4; ++k)
+      moved[k] = m_edge[std::size_t(from[k])];
+    for(int k = 0; k < 4; ++k) {
+      std::array<int, 2>& sides = m_sides[std::size_t(moved[k])];
+      sides = {to[k], sides[sides[0] == from[k]]};
+      m_edge[std::size_t(to[k])] = moved[k];
+    }
+    m_sides[std::size_t(e)] = {3 * q.g + 1, 3 * q.f + 1};
+    m_edge[std::size_t(3 * q.f + 1)] = m_edge[std::size_t(3 * q.g + 1)] = e;
     m_T.row(q.f) << q.c, q.i, q.d;
     m_T.row(q.g) << q.d, q.j, q.c;
-    set_side(3 * q.f, id);
-    set_side(3 * q.f + 2, ci);
-    set_side(3 * q.g, jc);
-    set_side(3 * q.g + 2, dj);
-    set_side(3 * q.f + 1, {3 * q.g + 1, e});
-    set_side(3 * q.g + 1, {3 * q.f + 1, e});
     remove_face(q.j, q.f);
     remove_face(q.i, q.g);
     m_faces[std::size_t(q.c)].push_back(q.g);
@@ -120,29 +122,9 @@ public:
   }
 
 private:
-  // What lies beyond a side, and the edge.
-  struct Side
-  {
-    int twin, edge;
-  };
-
-  // The k-th corner after the one opposite to a slot.
+  // The k-th corner after the one opposite to a slot, and the slot opposite to it.
   int corner(const int slot, const int k) const { return m_T(slot / 3, (slot + k) % 3); }
-
-  Side side(const int slot, const int k) const
-  {
-    const std::size_t s = std::size_t(3 * (slot / 3) + (slot + k) % 3);
-    return {m_twin[s], m_edge[s]};
-  }
-
-  void set_side(const int slot, const Side& side)
-  {
-    m_twin[std::size_t(slot)] = side.twin;
-    m_edge[std::size_t(slot)] = side.edge;
-    m_slot[std::size_t(side.edge)] = slot;
-    if(side.twin >= 0)
-      m_twin[std::size_t(side.twin)] = slot;
-  }
+  static int side(const int slot, const int k) { return slot - slot % 3 + (slot + k) % 3; }
 
   void remove_face(const int v, const int f)
   {
@@ -151,8 +133,8 @@ private:
   }
 
   Eigen::MatrixXi m_T;
-  std::vector<int> m_twin, m_edge; // by slot
-  std::vector<int> m_slot;         // by edge, one of its two
+  std::vector<int> m_edge;                 // by slot
+  std::vector<std::array<int, 2>> m_sides; // by edge, its slots; the second is -1 on the boundary
   std::vector<std::vector<int>> m_faces;
 };
 

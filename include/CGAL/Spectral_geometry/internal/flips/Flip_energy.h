@@ -34,6 +34,12 @@ public:
     Triangle_cotangents shape, weighted;
   };
 
+  /// The faces f and g, and what would be in their places after the flip.
+  struct Flip : Flip_connectivity::Quad
+  {
+    std::array<Triangle, 2> before, after;
+  };
+
   /// F and Z: the restricted signals, one row for each vertex; `op` has coefficients for the vertices, or none.
   Flip_energy(const Eigen::MatrixXd& V, const Flip_connectivity& mesh, Rows F, Rows Z,
               const Local_operator& op)
@@ -51,36 +57,35 @@ public:
     for(Eigen::Index f = 0; f < T.rows(); ++f)
       m_triangles.push_back(triangle({T(f, 0), T(f, 1), T(f, 2)}));
     for(int v = 0; v < int(V.rows()); ++v)
-      m_E(v) = term(v, nullptr, nullptr);
+      m_E(v) = term(v);
   }
 
   /// E.
   double value() const { return m_E.sum(); }
 
-  const Triangle& triangle(const int f) const { return m_triangles[std::size_t(f)]; }
-
-  /// The two triangles that a flip would make, the first in the place of face f.
-  std::array<Triangle, 2> flipped(const Flip_connectivity::Quad& q) const
+  Flip flip(const Flip_connectivity::Quad& q) const
   {
-    return {triangle({q.c, q.i, q.d}), triangle({q.d, q.j, q.c})};
+    return {q,
+            {m_triangles[std::size_t(q.f)], m_triangles[std::size_t(q.g)]},
+            {triangle({q.c, q.i, q.d}), triangle({q.d, q.j, q.c})}};
   }
 
   /// E after the flip less E before; infinity if a vertex would have no mass.
-  double cost(const Flip_connectivity::Quad& q, const std::array<Triangle, 2>& flipped)
+  double cost(const Flip& flip)
   {
     double change = 0;
-    for(const int v : q.vertices())
-      change += term(v, &q, &flipped) - m_E(v);
+    for(const int v : flip.vertices())
+      change += term(v, &flip) - m_E(v);
     return change;
   }
 
   /// After `Flip_connectivity::flip()`.
-  void update(const Flip_connectivity::Quad& before, const std::array<Triangle, 2>& flipped)
+  void update(const Flip& done)
   {
-    m_triangles[std::size_t(before.f)] = flipped[0];
-    m_triangles[std::size_t(before.g)] = flipped[1];
-    for(const int v : before.vertices())
-      m_E(v) = term(v, nullptr, nullptr);
+    m_triangles[std::size_t(done.f)] = done.after[0];
+    m_triangles[std::size_t(done.g)] = done.after[1];
+    for(const int v : done.vertices())
+      m_E(v) = term(v);
   }
 
 private:
@@ -90,18 +95,18 @@ private:
     return {corners, local_cotangents(m_V, t, {}), local_cotangents(m_V, t, m_op.coefficients)};
   }
 
-  // E_w as it is, or with two triangles in the place of those of a quad.
-  double term(const int w, const Flip_connectivity::Quad* without, const std::array<Triangle, 2>* with)
+  // E_w as it is, or after a flip.
+  double term(const int w, const Flip* flip = nullptr)
   {
     if(!m_border.empty() && m_border[std::size_t(w)] != 0)
       return 0;
     m_R.setZero();
     double mass = 0;
     for(const int f : m_mesh.faces_of(w))
-      if(without == nullptr || (f != without->f && f != without->g))
-        add(w, triangle(f), mass);
-    if(with != nullptr)
-      for(const Triangle& t : *with)
+      if(!flip || (f != flip->f && f != flip->g))
+        add(w, m_triangles[std::size_t(f)], mass);
+    if(flip)
+      for(const Triangle& t : flip->after)
         add(w, t, mass);
     return mass > 0 ? m_R.squaredNorm() / mass : std::numeric_limits<double>::infinity();
   }

@@ -9,6 +9,7 @@
 #include <CGAL/Spectral_geometry/internal/search/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/flips/Flip_connectivity.h>
 #include <CGAL/Spectral_geometry/internal/flips/Flip_energy.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 
 #include <Eigen/Core>
@@ -27,7 +28,7 @@ namespace CGAL::Spectral_geometry::internal {
 class Flip_guards
 {
 public:
-  using Quad = Flip_connectivity::Quad;
+  using Flip = Flip_energy::Flip;
   using Triangle = Flip_energy::Triangle;
 
   Flip_guards(const Eigen::MatrixXd& V, const Flip_connectivity& mesh, const Edge_flip_options& options)
@@ -36,6 +37,7 @@ public:
     , m_angle_ratio(options.smallest_angle_ratio)
     , m_cosine((std::min)(std::cos(options.largest_turn), 1 - 1e-12)) // rounding is no turn
     , m_tolerance(options.size_tolerance)
+    , m_closed(boundary_edges(mesh.triangles()).empty())
   {
     const Eigen::MatrixXi& T = mesh.triangles();
     for(Eigen::Index f = 0; f < T.rows(); ++f) {
@@ -45,7 +47,6 @@ public:
                                .cross(Eigen::Vector3d(V.row(T(f, 2)) - V.row(0)))) /
                   6;
     }
-    m_closed = !mesh.has_boundary();
     if(!options.keep_free_of_self_intersections)
       return;
     std::vector<Box_tree::Box> boxes;
@@ -55,16 +56,16 @@ public:
   }
 
   /// Angles and normals.
-  bool keeps_shape(const Quad& q, const std::array<Triangle, 2>& before,
-                   const std::array<Triangle, 2>& after) const
+  bool keeps_shape(const Flip& flip) const
   {
-    for(const Triangle& t : after)
+    for(const Triangle& t : flip.after)
       if(!(t.shape.area > 0) || !(t.shape.cot.cwiseAbs().maxCoeff() <= largest_cotangent))
         return false;
-    if(smallest_angle(after) < m_angle_ratio * smallest_angle(before))
+    if(smallest_angle(flip.after) < m_angle_ratio * smallest_angle(flip.before))
       return false;
-    const Eigen::Vector3d old_normals[2] = {normal({q.c, q.i, q.j}), normal({q.d, q.j, q.i})};
-    const Eigen::Vector3d new_normals[2] = {normal(after[0].corners), normal(after[1].corners)};
+    const Eigen::Vector3d old_normals[2] = {normal({flip.c, flip.i, flip.j}),
+                                            normal({flip.d, flip.j, flip.i})};
+    const Eigen::Vector3d new_normals[2] = {normal(flip.after[0].corners), normal(flip.after[1].corners)};
     for(const Eigen::Vector3d& m : new_normals)
       for(const Eigen::Vector3d& n : old_normals) // a triangle without area has no side
         if(!(m.dot(n) >= m_cosine * m.norm() * n.norm()))
@@ -72,21 +73,21 @@ public:
     return true;
   }
 
-  bool keeps_size(const Quad& q, const std::array<Triangle, 2>& before,
-                  const std::array<Triangle, 2>& after) const
+  bool keeps_size(const Flip& flip) const
   {
-    return std::abs(m_area_change + area_change(before, after)) <= m_tolerance * m_area &&
-           (!m_closed || std::abs(m_volume_change + volume_change(q)) <= m_tolerance * std::abs(m_volume));
+    return std::abs(m_area_change + area_change(flip)) <= m_tolerance * m_area &&
+           (!m_closed || std::abs(m_volume_change + volume_change(flip)) <= m_tolerance * std::abs(m_volume));
   }
 
-  bool stays_free(const Quad& q, const std::array<Triangle, 2>& after) const
+  bool stays_free(const Flip& flip) const
   {
     if(m_tree.is_empty())
       return true;
-    const Corners both[2] = {corners_of_face(m_V, after[0].corners), corners_of_face(m_V, after[1].corners)};
+    const Corners both[2] = {corners_of_face(m_V, flip.after[0].corners),
+                             corners_of_face(m_V, flip.after[1].corners)};
     for(const Corners& t : both) {
       const auto meets = [&](const std::size_t f) {
-        return f != std::size_t(q.f) && f != std::size_t(q.g) &&
+        return f != std::size_t(flip.f) && f != std::size_t(flip.g) &&
                triangles_intersect(t, corners_of_face(m_V, m_mesh.triangles().row(Eigen::Index(f))));
       };
       if(m_tree.any(box_of(t), meets))
@@ -95,13 +96,13 @@ public:
     return !triangles_intersect(both[0], both[1]);
   }
 
-  void update(const Quad& q, const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after)
+  void update(const Flip& flip)
   {
-    m_area_change += area_change(before, after);
-    m_volume_change += volume_change(q);
+    m_area_change += area_change(flip);
+    m_volume_change += volume_change(flip);
     if(!m_tree.is_empty()) {
-      m_tree.update(std::size_t(q.f), box_of(corners_of_face(m_V, after[0].corners)));
-      m_tree.update(std::size_t(q.g), box_of(corners_of_face(m_V, after[1].corners)));
+      m_tree.update(std::size_t(flip.f), box_of(corners_of_face(m_V, flip.after[0].corners)));
+      m_tree.update(std::size_t(flip.g), box_of(corners_of_face(m_V, flip.after[1].corners)));
     }
   }
 
@@ -120,15 +121,16 @@ private:
     return (std::min)(of(both[0]), of(both[1]));
   }
 
-  static double area_change(const std::array<Triangle, 2>& before, const std::array<Triangle, 2>& after)
+  static double area_change(const Flip& flip)
   {
-    return after[0].shape.area + after[1].shape.area - before[0].shape.area - before[1].shape.area;
+    return flip.after[0].shape.area + flip.after[1].shape.area - flip.before[0].shape.area -
+           flip.before[1].shape.area;
   }
 
   // The tetrahedron between the old triangles (c,i,j), (d,j,i) and the new ones (c,i,d), (d,j,c).
-  double volume_change(const Quad& q) const
+  double volume_change(const Flip& flip) const
   {
-    const Eigen::Vector3d c = m_V.row(q.c), i = m_V.row(q.i), j = m_V.row(q.j), d = m_V.row(q.d);
+    const Eigen::Vector3d c = m_V.row(flip.c), i = m_V.row(flip.i), j = m_V.row(flip.j), d = m_V.row(flip.d);
     return (i - c).cross(d - c).dot(j - c) / -6;
   }
 

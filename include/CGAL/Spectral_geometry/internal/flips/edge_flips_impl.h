@@ -41,7 +41,7 @@ inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& 
 class Edge_flipper
 {
 public:
-  using Quad = Flip_connectivity::Quad;
+  using Flip = Flip_energy::Flip;
   using Triangle = Flip_energy::Triangle;
 
   /// F and Z: the restricted signals.
@@ -104,46 +104,40 @@ private:
 
   bool is_delaunay() const { return m_options.criterion == Edge_flips::delaunay; }
 
-  std::array<Triangle, 2> faces(const Quad& q) const
-  {
-    return {m_energy.triangle(q.f), m_energy.triangle(q.g)};
-  }
-
   // Puts the edge into the queue if its flip is wanted and legal.
   void push(const int e)
   {
     const int version = ++m_version[std::size_t(e)];
     if(m_stays[std::size_t(e)])
       return;
-    const Quad q = m_mesh.quad(e);
+    const Flip_connectivity::Quad q = m_mesh.quad(e);
     if(m_mesh.are_adjacent(q.c, q.d))
       return;
-    const std::array<Triangle, 2> before = faces(q), after = m_energy.flipped(q);
-    if(!m_guards.keeps_shape(q, before, after))
+    const Flip flip = m_energy.flip(q);
+    if(!m_guards.keeps_shape(flip))
       return;
-    const double key =
-        is_delaunay() ? cotangent_at(before[0], q.c) + cotangent_at(before[1], q.d) : m_energy.cost(q, after);
+    const double key = is_delaunay() ? cotangent_at(flip.before[0], q.c) + cotangent_at(flip.before[1], q.d)
+                                     : m_energy.cost(flip);
     if(key < -m_smallest_gain)
       m_queue.push({key, e, version});
   }
 
   void flip(const Candidate& candidate, Edge_flip_result& result)
   {
-    const Quad q = m_mesh.quad(candidate.edge);
-    const std::array<Triangle, 2> before = faces(q), after = m_energy.flipped(q);
-    if(!m_guards.keeps_size(q, before, after)) {
+    const Flip flip = m_energy.flip(m_mesh.quad(candidate.edge));
+    if(!m_guards.keeps_size(flip)) {
       ++result.refused_for_size;
       return;
     }
-    if(!m_guards.stays_free(q, after)) {
+    if(!m_guards.stays_free(flip)) {
       ++result.refused_for_intersections;
       return;
     }
-    result.flips.push_back({{q.i, q.j}, {q.c, q.d}, m_energy.cost(q, after)});
+    result.flips.push_back({{flip.i, flip.j}, {flip.c, flip.d}, m_energy.cost(flip)});
     m_mesh.flip(candidate.edge);
-    m_energy.update(q, after);
-    m_guards.update(q, before, after);
-    for(const int e : m_mesh.edges_around(q.vertices()))
+    m_energy.update(flip);
+    m_guards.update(flip);
+    for(const int e : m_mesh.edges_around(flip.vertices()))
       push(e);
   }
 
