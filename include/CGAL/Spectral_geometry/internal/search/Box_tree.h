@@ -65,25 +65,22 @@ public:
     }
   }
 
-  /// Whether `found(item)` is true for an item whose box meets this one; looks no further then.
+  /// Whether `found(item)` is true for an item below a node, the root at first, whose box meets this one; looks no further then.
   template <class Found>
-  bool any(const Box& box, const Found& found) const
+  bool any(const Box& box, const Found& found, const std::size_t node = 1) const
   {
-    return !is_empty() && any_below(1, box, found);
+    if(!m_nodes[node].intersects(box))
+      return false;
+    if(node >= m_first_leaf)
+      return found(std::size_t(m_item[node - m_first_leaf]));
+    return any(box, found, 2 * node) || any(box, found, 2 * node + 1);
   }
 
-  /// Calls `visit(item)` for items whose boxes are nearer to `p` than the root of `bound`, which `visit` lowers; near boxes first.
+  /// Calls `visit(item)` for items below a node, the root at first, whose boxes are nearer to `p` than the root of `bound`, which
+  /// `visit` lowers; near boxes first. That of an item that is alone in the tree is not looked at.
   template <class Visit>
-  void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit) const
-  {
-    if(!is_empty() && m_nodes[1].squaredExteriorDistance(p) < bound)
-      visit_near_below(1, p, bound, visit);
-  }
-
-private:
-  template <class Visit>
-  void visit_near_below(const std::size_t node, const Eigen::Vector3d& p, const double& bound,
-                        const Visit& visit) const
+  void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit,
+                  const std::size_t node = 1) const
   {
     if(node >= m_first_leaf)
       return visit(std::size_t(m_item[node - m_first_leaf]));
@@ -91,21 +88,12 @@ private:
                  right = m_nodes[2 * node + 1].squaredExteriorDistance(p);
     const std::size_t nearer = 2 * node + (right < left);
     if((std::min)(left, right) < bound)
-      visit_near_below(nearer, p, bound, visit);
+      visit_near(p, bound, visit, nearer);
     if((std::max)(left, right) < bound)
-      visit_near_below(nearer ^ 1, p, bound, visit);
+      visit_near(p, bound, visit, nearer ^ 1);
   }
 
-  template <class Found>
-  bool any_below(const std::size_t node, const Box& box, const Found& found) const
-  {
-    if(!m_nodes[node].intersects(box))
-      return false;
-    if(node >= m_first_leaf)
-      return found(std::size_t(m_item[node - m_first_leaf]));
-    return any_below(2 * node, box, found) || any_below(2 * node + 1, box, found);
-  }
-
+private:
   // Orders the items of `places` leaves, a power of two, the first of which is `begin`.
   void halve(const std::size_t begin, const std::size_t places, const std::vector<Eigen::Vector3d>& centres)
   {
