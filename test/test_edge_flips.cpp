@@ -301,7 +301,11 @@ TEST_CASE("constrained edges stay, and a budget ends the flips")
   CHECK(flipped(s, T, 0.5, options).flips.empty());
   options = {};
   options.criterion = SG::Edge_flips::none;
-  CHECK(flipped(s, T, 0.5, options).flips.empty());
+  const SG::Edge_flip_result none = flipped(s, T, 0.5, options);
+  CHECK(none.flips.empty());
+  CHECK(T == s.coarse.T);
+  CHECK(none.E_before == free.E_before);
+  CHECK(none.E_after == free.E_before);
 }
 
 TEST_CASE("every edge of a tetrahedron is there already")

@@ -177,6 +177,30 @@ TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, 
   }
 }
 
+TEST_CASE(
+    "the guard of the spectrum compares with the start, also where it has to find the eigenvectors again")
+{
+  // A needle in a component whose mass is below the rounding of its cotangents: some of these matrices have no Cholesky factor.
+  const shapes::Matrices sphere = shapes::bumpy_icosphere_matrices(2);
+  const int n = int(sphere.V.rows());
+  Eigen::MatrixXi T(sphere.T.rows() + 4, 3);
+  T.topRows(sphere.T.rows()) = sphere.T;
+  T.bottomRows(4) << n, n + 2, n + 1, n, n + 1, n + 3, n + 1, n + 2, n + 3, n + 2, n, n + 3;
+  for(const double size : {1e-4, 1e-5})
+    for(const double height : {1e-8, 3e-9, 1e-9, 3e-10, 1e-10}) {
+      CAPTURE(size, height);
+      Positions V(n + 4, 3);
+      V.topRows(n) = sphere.V;
+      V.bottomRows(4) << 0, 0, 0, size, 0, 0, 0, size, 0, 0, 0, size;
+      Positions W = V;
+      W.col(2).head(n) *= 1.3;
+      W.row(n + 3) << 0.5 * size, -height * size, height * size;
+      SG::internal::Spectrum_guard guard(T, V, 0.5, 20, 30);
+      guard.refresh(W);
+      CHECK(guard.change(W) > 0.001);
+    }
+}
+
 TEST_CASE("signals read off a surface have the slope of its triangles")
 {
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);

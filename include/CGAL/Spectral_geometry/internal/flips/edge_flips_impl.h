@@ -68,7 +68,9 @@ public:
 
   Eigen::MatrixXi run(Edge_flip_result& result)
   {
-    result.E_before = m_energy.value();
+    result.E_before = result.E_after = m_energy.value();
+    if(m_options.criterion == Edge_flips::none)
+      return m_mesh.triangles();
     require(std::isfinite(result.E_before), "edge flips: a vertex of the coarse mesh has no mass because no "
                                             "face of positive area uses it; remove it.");
     for(int e = 0; e < m_mesh.number_of_edges(); ++e)
@@ -169,8 +171,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd&
   internal::check_edge_flips(options, V, T, P, F, Z, op);
   Edge_flip_result result;
   internal::Edge_flipper flipper(V, T, P * F, P * Z, op, constrained, options);
-  if(options.criterion != Edge_flips::none)
-    T = flipper.run(result);
+  T = flipper.run(result);
   return result;
 }
 

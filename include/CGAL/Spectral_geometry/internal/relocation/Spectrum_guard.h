@@ -65,10 +65,8 @@ public:
     if(!is_active())
       return;
     const Laplace_operator op = laplace_operator(V, m_T, m_geometry.local_operator());
-    if(m_vectors.size() == 0)
+    if(m_vectors.size() == 0 || !follow(op))
       find(op);
-    else
-      follow(op);
     m_phi = m_vectors.middleCols(m_first, m_last - m_first);
   }
 
@@ -116,17 +114,18 @@ private:
     options.verify = false;
     const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, m_modes), options);
     m_vectors = pairs.vectors;
-    m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
+    if(m_reference.size() == 0) // it stays that of the start
+      m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
   }
 
-  // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span.
-  void follow(const Laplace_operator& op)
+  // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span. False where rounding leaves one of the two without a factor.
+  bool follow(const Laplace_operator& op)
   {
     const double shift =
         4 * CGAL_PI / op.mass.sum() * mean_conductivity(m_geometry.local_operator().coefficients);
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(op.L + shift * op.B);
     if(cholesky.info() != Eigen::Success)
-      return find(op);
+      return false;
     Eigen::MatrixXd X = cholesky.solve(op.B * m_vectors);
     X = cholesky.solve(op.B * X).eval();
     Eigen::MatrixXd BX = op.B * X;
@@ -139,8 +138,9 @@ private:
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(X.transpose() * LX,
                                                                          X.transpose() * BX);
     if(ritz.info() != Eigen::Success)
-      return find(op);
+      return false;
     m_vectors = X * ritz.eigenvectors();
+    return true;
   }
 
   // Of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was taken last.
