@@ -39,44 +39,6 @@ orientation_operator(const Eigen::MatrixXi& T, const Eigen::MatrixXd& vectors, c
 
 namespace internal {
 
-// Accumulates sum_i w_i || C A_i - B_i C ||^2 as a quadratic form in vec(C), C of size k x k.
-class Commuting_terms
-{
-public:
-  explicit Commuting_terms(Eigen::Index k)
-    : m_k(k)
-    , m_form(Eigen::MatrixXd::Zero(k * k, k * k))
-    , m_left(Eigen::MatrixXd::Zero(k, k))
-    , m_right(Eigen::MatrixXd::Zero(k, k))
-  {}
-
-  // vec(C A - B C) = (A^T (x) I - I (x) B) vec(C); its square has four blocks, of which only the mixed ones fill.
-  void add(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double weight)
-  {
-    m_right += weight * (A * A.transpose());
-    m_left += weight * (B.transpose() * B);
-    for(Eigen::Index j = 0; j < m_k; ++j)
-      for(Eigen::Index l = 0; l < m_k; ++l)
-        m_form.block(j * m_k, l * m_k, m_k, m_k) -= weight * (A(j, l) * B + A(l, j) * B.transpose());
-  }
-
-  // The form, with the terms that are the same in all blocks.
-  Eigen::MatrixXd form() const
-  {
-    Eigen::MatrixXd result = m_form;
-    for(Eigen::Index j = 0; j < m_k; ++j) {
-      result.block(j * m_k, j * m_k, m_k, m_k) += m_left;
-      for(Eigen::Index l = 0; l < m_k; ++l)
-        result.block(j * m_k, l * m_k, m_k, m_k).diagonal().array() += m_right(j, l);
-    }
-    return result;
-  }
-
-private:
-  Eigen::Index m_k;
-  Eigen::MatrixXd m_form, m_left, m_right;
-};
-
 inline void check_modes(const Spectral_shape& shape, Eigen::Index modes, const char* which)
 {
   require(modes >= 2 && modes <= shape.pairs.size(), "functional map: ", modes, " modes of the ", which,
@@ -99,14 +61,24 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
   const Eigen::MatrixXd phi = X.pairs.vectors.leftCols(k), psi = Y.pairs.vectors.leftCols(k);
   Eigen::MatrixXd a = phi.transpose() * (X.op.B * f), b = psi.transpose() * (Y.op.B * g);
 
-  internal::Commuting_terms terms(k);
+  // Terms || C A - B C ||^2 as a quadratic form in vec(C): vec(C A - B C) = (A^T (x) I - I (x) B) vec(C), and its square has four
+  // blocks, of which only the mixed ones fill. The others are the same in all blocks: they are summed apart.
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(k * k, k * k), left = Eigen::MatrixXd::Zero(k, k),
+                  right = left;
+  const auto add = [&](const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double weight) {
+    right += weight * (A * A.transpose());
+    left += weight * (B.transpose() * B);
+    for(Eigen::Index j = 0; j < k; ++j)
+      for(Eigen::Index l = 0; l < k; ++l)
+        form.block(j * k, l * k, k, k) -= weight * (A(j, l) * B + A(l, j) * B.transpose());
+  };
   const double largest = (std::max)(X.pairs.values(k - 1), Y.pairs.values(k - 1));
-  terms.add(Eigen::MatrixXd((X.pairs.values.head(k) / largest).asDiagonal()),
-            Eigen::MatrixXd((Y.pairs.values.head(k) / largest).asDiagonal()), weights.commutativity);
+  add(Eigen::MatrixXd((X.pairs.values.head(k) / largest).asDiagonal()),
+      Eigen::MatrixXd((Y.pairs.values.head(k) / largest).asDiagonal()), weights.commutativity);
   const auto add_scaled = [&](Eigen::MatrixXd A, Eigen::MatrixXd B, double weight) {
     const double scale = std::hypot(A.norm(), B.norm()) / std::sqrt(2. * static_cast<double>(k));
     if(scale > 0)
-      terms.add(A / scale, B / scale, weight / d);
+      add(A / scale, B / scale, weight / d);
   };
   for(Eigen::Index i = 0; i < f.cols(); ++i) {
     const Eigen::VectorXd fi = f.col(i), gi = g.col(i);
@@ -124,11 +96,15 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
       b.col(i) /= scale;
     }
   }
-  Eigen::MatrixXd form = terms.form();
   const Eigen::MatrixXd aa = a * a.transpose(), ba = b * a.transpose();
-  for(Eigen::Index j = 0; j < k; ++j)
-    for(Eigen::Index l = 0; l < k; ++l)
-      form.block(j * k, l * k, k, k).diagonal().array() += aa(j, l);
+  for(Eigen::Index j = 0; j < k; ++j) {
+    form.block(j * k, j * k, k, k) += left;
+    for(Eigen::Index l = 0; l < k; ++l) {
+      auto diagonal = form.block(j * k, l * k, k, k).diagonal();
+      diagonal.array() += right(j, l);
+      diagonal.array() += aa(j, l);
+    }
+  }
   // Positive semidefinite. The solver replaces the inverses of vanishing pivots by zero and reports success.
   const Eigen::LDLT<Eigen::MatrixXd> solver(form);
   const Eigen::VectorXd pivots = solver.vectorD();

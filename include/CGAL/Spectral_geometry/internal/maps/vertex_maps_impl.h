@@ -95,7 +95,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   };
   struct Found
   {
-    Eigen::Index face = -1;
+    Eigen::RowVector3i corners;
     Eigen::Vector3d weights;
   };
   std::vector<Found> found(nearest.size());
@@ -121,25 +121,23 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
                                                 vertices.begin())];
     };
     double best = (points.col(nearest[i]) - query).squaredNorm();
+    found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};
     for(const Eigen::Index t : faces) {
       const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)), distance(source_T(t, 2)));
       const internal::Point_of_triangle candidate =
           internal::closest_point_of_triangle_by_distances(d, lengths.col(t));
       if(candidate.squared_distance < best) {
         best = candidate.squared_distance;
-        found[i] = {t, candidate.weights};
+        found[i] = {source_T.row(t), candidate.weights};
       }
     }
   };
   internal::for_each_task(queries.cols(), threads, look, 64);
   std::vector<Eigen::Triplet<double>> entries;
   for(std::size_t y = 0; y < found.size(); ++y)
-    if(found[y].face == -1)
-      entries.emplace_back(static_cast<int>(y), static_cast<int>(nearest[y]), 1.);
-    else
-      for(int c = 0; c < 3; ++c)
-        if(found[y].weights(c) != 0)
-          entries.emplace_back(static_cast<int>(y), source_T(found[y].face, c), found[y].weights(c));
+    for(int c = 0; c < 3; ++c)
+      if(found[y].weights(c) != 0)
+        entries.emplace_back(static_cast<int>(y), found[y].corners(c), found[y].weights(c));
   Eigen::SparseMatrix<double> result(target_vectors.rows(), source_vectors.rows());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -30,14 +31,12 @@ public:
     , m_tolerance(tolerance)
     , m_closed(boundary_edges(T).empty() && boundary_edges(fine.T).empty())
   {
-    double fine_area, fine_volume;
-    measure(m_T, V, m_area.from, m_volume.from);
-    measure(fine.T, fine.V, fine_area, fine_volume);
-    // Those of a mesh far from the fine one (a few vertices, or an offset) are not to be reached at any price.
-    m_area.set_other(fine_area);
-    m_volume.set_other(fine_volume);
+    const auto [area, volume] = measure(m_T, V);
+    const auto [fine_area, fine_volume] = measure(fine.T, fine.V);
+    m_area = range(area, fine_area);
+    m_volume = range(volume, fine_volume);
     // A mesh without volume to speak of (two sheets, say) cannot keep a part of it.
-    m_closed = m_closed && std::abs(m_volume.from) > 1e-3 * m_area.from * std::sqrt(m_area.from) / 10.6;
+    m_closed = m_closed && std::abs(volume) > 1e-3 * area * std::sqrt(area) / 10.6;
   }
 
   /// Of the coarse mesh.
@@ -45,8 +44,7 @@ public:
 
   bool within(const Positions& V) const
   {
-    double area, volume;
-    measure(m_T, V, area, volume);
+    const auto [area, volume] = measure(m_T, V);
     return std::abs(m_area.beyond(area)) <= m_tolerance &&
            (!m_closed || std::abs(m_volume.beyond(volume)) <= m_tolerance);
   }
@@ -54,8 +52,7 @@ public:
   /// `weight` is the objective at the start, in parts of which it is measured; adds its gradient.
   double penalty(const Positions& V, const double weight, Positions& gradient) const
   {
-    double area, volume;
-    measure(m_T, V, area, volume);
+    const auto [area, volume] = measure(m_T, V);
     const double by_area = slope(m_area.beyond(area)),
                  by_volume = m_closed ? slope(m_volume.beyond(volume)) : 0;
     if(by_area == 0 && by_volume == 0)
@@ -80,14 +77,8 @@ private:
   // What the coarse mesh has at the start, and how far the fine one lies from it, in parts of that.
   struct Range
   {
-    double from = 0, low = 0, high = 0;
+    double from, low, high;
 
-    void set_other(const double fine)
-    {
-      const double change = std::clamp(fine / from - 1, -0.1, 0.1);
-      low = (std::min)(change, 0.);
-      high = (std::max)(change, 0.);
-    }
     double beyond(const double value) const
     {
       const double change = value / from - 1;
@@ -95,10 +86,18 @@ private:
     }
   };
 
-  template <class Points>
-  static void measure(const Eigen::MatrixXi& T, const Points& V, double& area, double& volume)
+  // Where the meshes are far apart (a few vertices, or an offset) that of the fine one is not to be reached at any price.
+  static Range range(const double coarse, const double fine)
   {
-    area = volume = 0;
+    const double change = std::clamp(fine / coarse - 1, -0.1, 0.1);
+    return {coarse, (std::min)(change, 0.), (std::max)(change, 0.)};
+  }
+
+  // Area and volume.
+  template <class Points>
+  static std::pair<double, double> measure(const Eigen::MatrixXi& T, const Points& V)
+  {
+    double area = 0, volume = 0;
     const Eigen::Vector3d origin = V.row(0);
     for(Eigen::Index f = 0; f < T.rows(); ++f) {
       const Eigen::Vector3d p = V.row(T(f, 0)).transpose() - origin, q = V.row(T(f, 1)).transpose() - origin,
@@ -106,6 +105,7 @@ private:
       area += (q - p).cross(r - p).norm() / 2;
       volume += p.dot(q.cross(r)) / 6;
     }
+    return {area, volume};
   }
 
   // At nine tenths of the tolerance it costs as much as all there was at the start.
