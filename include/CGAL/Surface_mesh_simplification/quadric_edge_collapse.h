@@ -114,6 +114,15 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
   return log;
 }
 
+/// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that order.
+template <class Result>
+void set_restriction(Result& result, Collapse_log log, const std::vector<Eigen::Index>& slots)
+{
+  result.log = std::move(log);
+  result.restriction = result.log.forest().restriction(slots);
+  result.vertex_map = result.log.forest().vertex_map(slots);
+}
+
 } // namespace internal
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
@@ -164,10 +173,9 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
   };
   Quadric_edge_collapse_result result;
   std::vector<Eigen::Index> slots;
-  result.log = internal::collapse_by_quadrics(
+  Collapse_log log = internal::collapse_by_quadrics(
       mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np, slots);
-  result.restriction = result.log.forest().restriction(slots);
-  result.vertex_map = result.log.forest().vertex_map(slots);
+  internal::set_restriction(result, std::move(log), slots);
   return result;
 }
 

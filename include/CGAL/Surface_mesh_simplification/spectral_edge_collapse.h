@@ -29,11 +29,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
@@ -116,36 +116,6 @@ std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edg
          " border edges.";
 }
 
-/// P, vertex map and log of the whole run, from the log of the stage that ended it: `slots` are its slots of
-/// `vertices(mesh)`.
-inline void set_restriction(Spectral_edge_collapse_result& result, const Pre_simplification& first,
-                            const Collapse_log& stage, std::vector<Eigen::Index> slots)
-{
-  result.log = stage;
-  if(first.done) {
-    result.log = first.log;
-    result.log.append(stage, first.slots);
-    for(Eigen::Index& s : slots)
-      s = first.slots[std::size_t(s)];
-  }
-  result.restriction = result.log.forest().restriction(slots);
-  result.vertex_map = result.log.forest().vertex_map(slots);
-}
-
-/// Why the run ended: `end` is what has ended the loop unless that was the target.
-template <class TriangleMesh>
-void set_stop_reason(Spectral_edge_collapse_result& result, const TriangleMesh& mesh, const Stop_reason end,
-                     const std::size_t target)
-{
-  if(result.output_vertices <= target)
-    return;
-  result.stop_reason = end;
-  if(end == Stop_reason::cancelled)
-    set_cancelled(result);
-  else if(end == Stop_reason::queue_exhausted)
-    result.explanation = explain_exhausted_queue(mesh, result, target);
-}
-
 /// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& fine,
@@ -176,11 +146,11 @@ template <class Policies, class TriangleMesh, class NamedParameters>
 Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np,
                            const Pre_simplification& first)
 {
-  if(!first.done)
-    return Policies(mesh, options, np);
   try {
     return Policies(mesh, options, np);
   } catch(const std::invalid_argument& error) {
+    if(!first.done)
+      throw;
     throw std::runtime_error("spectral_edge_collapse: the mesh of " + std::to_string(first.slots.size()) +
                              " vertices that pre_simplify has left cannot be used, choose another number or "
                              "repair the input (" +
@@ -279,11 +249,25 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.output_vertices = state.number_of_vertices();
   result.collapses = result.input_vertices - result.output_vertices;
   result.refusals = state.refusals();
-  set_stop_reason(result, mesh, end, target);
+  if(result.output_vertices > target) {
+    result.stop_reason = end;
+    if(end == Stop_reason::cancelled)
+      set_cancelled(result);
+    else if(end == Stop_reason::queue_exhausted)
+      result.explanation = explain_exhausted_queue(mesh, result, target);
+  }
   result.E = policies.error();
   result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();
-  set_restriction(result, first, policies.log(), state.current_slots());
+  std::vector<Eigen::Index> slots = state.current_slots();
+  if(first.done) {
+    Collapse_log log = first.log;
+    log.append(policies.log(), first.slots);
+    for(Eigen::Index& s : slots)
+      s = first.slots[std::size_t(s)];
+    set_restriction(result, std::move(log), slots);
+  } else
+    set_restriction(result, policies.log(), slots);
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
   policies.shared_state()->release();
@@ -313,9 +297,7 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
     result.output_vertices = result.pre_simplified_vertices = first.slots.size();
     result.collapses = result.input_vertices - result.output_vertices;
     set_cancelled(result, ", before the first spectral collapse");
-    std::vector<Eigen::Index> slots(first.slots.size());
-    std::iota(slots.begin(), slots.end(), 0);
-    set_restriction(result, first, Collapse_log(Eigen::Index(slots.size())), slots);
+    set_restriction(result, first.log, first.slots);
     result.coefficients = options.coefficients;
   }
 }

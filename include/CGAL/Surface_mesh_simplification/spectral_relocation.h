@@ -28,14 +28,14 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
-/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `kept`: further vertices that stay, or empty.
+/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices that stay, or empty.
 template <class TriangleMesh, class NamedParameters>
 Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                                                    const Spectral_geometry::Mesh_matrices& fine,
                                                    const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                                                    const Spectral_geometry::Local_operator& op,
                                                    const Spectral_geometry::Relocation_options& options,
-                                                   const std::vector<bool>& kept, const NamedParameters& np)
+                                                   std::vector<bool> fixed, const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -45,10 +45,9 @@ Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eig
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   const Eigen::MatrixXd before = coarse.V;
   const std::vector<char> constrained = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
-  std::vector<bool> fixed(constrained.begin(), constrained.end());
   fixed.resize(std::size_t(coarse.V.rows()));
-  for(std::size_t v = 0; v < kept.size(); ++v)
-    fixed[v] = fixed[v] || kept[v];
+  for(std::size_t v = 0; v < constrained.size(); ++v)
+    fixed[v] = fixed[v] || constrained[v];
   Spectral_geometry::Relocation_result result =
       Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   const auto points =

@@ -7,7 +7,6 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_error_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +51,6 @@ public:
     : m_state(policies.shared_state())
     , m_target(number_of_vertices)
     , m_bound(maximum_error)
-    , m_count_stop(number_of_vertices, m_state->mesh())
     , m_error_stop(policies, maximum_error, placement)
   {}
 
@@ -63,10 +61,9 @@ public:
   {
     if(m_state->number_of_runs() != m_run)
       begin_run();
-    if(m_count_stop(cost, profile, initial, current)) {
-      m_reached = true;
+    m_reached = m_state->number_of_vertices() <= m_target;
+    if(m_reached)
       return true;
-    }
     // A hundred reports in all: a callback may well draw something.
     m_fraction = (std::max)(m_fraction, fraction());
     if(m_fraction >= m_next_report) {
@@ -107,7 +104,6 @@ private:
   std::shared_ptr<typename Policies::State> m_state;
   std::size_t m_target;
   double m_bound;
-  Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
   // The run that the rest is of, and its number of vertices at the first call.
   mutable std::size_t m_run = 0, m_begin = 0;

@@ -19,17 +19,6 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 namespace internal {
 
-template <class Visitor>
-Visitor& unwrap_visitor(Visitor& visitor)
-{
-  return visitor;
-}
-template <class Visitor>
-Visitor& unwrap_visitor(std::reference_wrapper<Visitor>& visitor)
-{
-  return visitor;
-}
-
 /// Tells a follower of the mesh what `edge_collapse()` does, and then a visitor of the user's. The run ends with the visitor, even when
 /// an exception leaves the loop.
 template <class Follower, class UserVisitor>
@@ -91,7 +80,7 @@ public:
   }
 
 protected:
-  decltype(auto) user() { return unwrap_visitor(m_user); }
+  auto& user() { return std::ref(m_user).get(); } // what a reference_wrapper refers to
 
   std::shared_ptr<Follower> m_follower;
   std::shared_ptr<void> m_run;
