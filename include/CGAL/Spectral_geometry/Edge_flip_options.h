@@ -49,7 +49,7 @@ struct Edge_flip_options
   std::size_t maximum_flips = 0;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();
-  /// Called before each flip with the fraction of the budget that is spent; returns false to cancel.
+  /// Called before each flip that is tried, with the fraction of the budget that is spent; returns false to cancel.
   std::function<bool(double)> progress;
 };
 

@@ -24,19 +24,6 @@
 namespace CGAL::Spectral_geometry {
 namespace internal {
 
-inline void check_edge_flips(const Edge_flip_options& o, const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                             const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F,
-                             const Eigen::MatrixXd& Z, const Local_operator& op)
-{
-  check_positions(V);
-  check_triangles(T, V.rows());
-  require(P.rows() == V.rows(), "edge flips: P is ", size_name(P), " and the mesh has ", V.rows(),
-          " vertices; pass a P of coarse x fine.");
-  require_signals("edge flips: ", F, Z, P.cols());
-  check_local_operator(op, V.rows());
-  check_edge_flip_options(o);
-}
-
 /// One run of flips: the queue, and the order in which criterion and guards are asked.
 class Edge_flipper
 {
@@ -168,7 +155,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Edge_flip_result flip_edges(const Eigen::MatrixXd&
                                                           const std::vector<std::pair<int, int>>& constrained,
                                                           const Edge_flip_options& options)
 {
-  internal::check_edge_flips(options, V, T, P, F, Z, op);
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  internal::require(P.rows() == V.rows(), "edge flips: P is ", internal::size_name(P), " and the mesh has ",
+                    V.rows(), " vertices; pass a P of coarse x fine.");
+  internal::require_signals("edge flips: ", F, Z, P.cols());
+  internal::check_local_operator(op, V.rows());
+  internal::check_edge_flip_options(options);
   Edge_flip_result result;
   internal::Edge_flipper flipper(V, T, P * F, P * Z, op, constrained, options);
   T = flipper.run(result);

@@ -41,6 +41,8 @@ struct Boundary_segment
 /// cuts the steps of the vertices that would break something, and of no others.
 class Relocation_guards
 {
+  using Held = Relocation_result::Held;
+
 public:
   using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -52,7 +54,7 @@ public:
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
     , m_boundary(std::size_t(V.rows()))
-    , m_held_by(std::size_t(V.rows()), 0)
+    , m_held_by(std::size_t(V.rows()))
     , m_radius(V.rows())
     , m_smallest_angle(T.rows())
     , m_threads(options.threads)
@@ -100,18 +102,18 @@ public:
   void set_leaps(Leaps leaps) { m_leaps = std::move(leaps); }
 
   /// How many vertices each guard has held since the start.
-  Relocation_result::Held held() const
+  Held held() const
   {
-    Relocation_result::Held held;
-    held.fixed = std::size_t(std::count(m_fixed.begin(), m_fixed.end(), true));
-    for(const unsigned char by : m_held_by) {
-      held.trust += (by & by_trust) != 0;
-      held.boundary += (by & by_boundary) != 0;
-      held.sheet += (by & by_sheet) != 0;
-      held.distance += (by & by_distance) != 0;
-      held.triangles += (by & by_triangles) != 0;
+    Held sum;
+    sum.fixed = std::size_t(std::count(m_fixed.begin(), m_fixed.end(), true));
+    for(const Held& by : m_held_by) {
+      sum.trust += by.trust;
+      sum.boundary += by.boundary;
+      sum.sheet += by.sheet;
+      sum.distance += by.distance;
+      sum.triangles += by.triangles;
     }
-    return held;
+    return sum;
   }
 
   void tangential(const Positions& at, Positions& direction) const
@@ -145,7 +147,7 @@ public:
       for(Eigen::Index v = 0; v < to.rows(); ++v)
         if(offends[std::size_t(v)]) {
           offends[std::size_t(v)] = 0;
-          m_held_by[std::size_t(v)] |= by_triangles;
+          m_held_by[std::size_t(v)].triangles = 1;
           if(round >= 4)
             to.row(v) = from.row(v);
           else
@@ -163,19 +165,11 @@ public:
   }
 
 private:
-  enum Guard : unsigned char {
-    by_trust = 1,
-    by_boundary = 2,
-    by_sheet = 4,
-    by_distance = 8,
-    by_triangles = 16
-  };
-
   // A step that leaps is taken in part, or not at all.
   void stay_on_sheet(const Eigen::Index v, const Positions& from, Positions& to) const
   {
     for(int cut = 0; m_leaps(v, from.row(v), to.row(v)); ++cut) {
-      m_held_by[std::size_t(v)] |= by_sheet;
+      m_held_by[std::size_t(v)].sheet = 1;
       if(cut == 3) {
         to.row(v) = from.row(v);
         return;
@@ -213,20 +207,20 @@ private:
       return from;
     const Eigen::Vector3d anchor = m_anchors.row(v);
     const double distance = (to - anchor).norm();
-    unsigned char& held = m_held_by[std::size_t(v)];
+    Held& held = m_held_by[std::size_t(v)];
     if(distance > m_radius(v)) {
-      held |= by_trust;
+      held.trust = 1;
       to = anchor + m_radius(v) / distance * (to - anchor);
     }
     if(!m_boundary[std::size_t(v)].empty()) {
       to = closest_segment(v, to).closest(to);
       if((to - anchor).norm() > 1.01 * m_radius(v)) {
-        held |= by_boundary;
+        held.boundary = 1;
         return from;
       }
     }
     if(m_allowed && !m_allowed(v, to)) {
-      held |= by_distance;
+      held.distance = 1;
       return from;
     }
     return to;
@@ -251,8 +245,8 @@ private:
   std::vector<std::vector<Boundary_segment>> m_boundary;
   Allowed m_allowed;
   Leaps m_leaps;
-  mutable std::vector<unsigned char> m_held_by; // of each vertex: what it was asked not to do, ever
-  Eigen::VectorXd m_radius, m_smallest_angle;   // of each vertex; of each triangle, what is allowed
+  mutable std::vector<Held> m_held_by;        // of each vertex, 1 for what it was asked not to do, ever
+  Eigen::VectorXd m_radius, m_smallest_angle; // of each vertex; of each triangle, what is allowed
   int m_threads;
   std::vector<Eigen::Vector3d> m_normal;
 };

@@ -47,13 +47,12 @@ public:
     , m_first(first)
     , m_modes(V.rows() - 1)
   {
-    for(Index v = 0; v < V.rows(); ++v)
-      if(m_geometry.vanishes_at(v)) // where functions vanish there is no mode
-        --m_modes;
-    m_last = (std::min)(last, m_modes);
-    for(Index v = 0; v < V.rows(); ++v)
-      if(m_geometry.row(v).empty())
-        m_last = first;
+    bool all_have_faces = true;
+    for(Index v = 0; v < V.rows(); ++v) {
+      m_modes -= m_geometry.vanishes_at(v); // where functions vanish there is no mode
+      all_have_faces = all_have_faces && !m_geometry.row(v).empty();
+    }
+    m_last = all_have_faces ? (std::min)(last, m_modes) : first;
     refresh(V);
   }
 

@@ -28,23 +28,6 @@
 namespace CGAL::Spectral_geometry {
 namespace internal {
 
-inline void check_relocation(const Relocation_options& o, const Eigen::MatrixXd& V,
-                             const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
-                             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                             const std::vector<bool>& fixed)
-{
-  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ", size_name(P), " where ",
-          V.rows(), " x ", fine.V.rows(), " is needed, coarse x fine; pass matrices that belong together.");
-  require_signals("relocation: ", F, Z, P.cols());
-  for(Eigen::Index v = 0; v < V.rows(); ++v)
-    require(V.row(v).allFinite(), "relocation: ", vertex_name(v),
-            " has a coordinate that is not a finite number; repair it.");
-  require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
-          "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
-          " vertices; pass one for each, or none.");
-  check_relocation_options(o);
-}
-
 /// One relocation from the set-up of its objective to the repair at its end.
 class Relocation
 {
@@ -305,7 +288,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
     const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
     const std::vector<bool>& fixed, const Relocation_options& options)
 {
-  internal::check_relocation(options, V, P, fine, F, Z, fixed);
+  using internal::require;
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ", internal::size_name(P),
+          " where ", V.rows(), " x ", fine.V.rows(),
+          " is needed, coarse x fine; pass matrices that belong together.");
+  internal::require_signals("relocation: ", F, Z, P.cols());
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
+            " has a coordinate that is not a finite number; repair it.");
+  require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
+          "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
+          " vertices; pass one for each, or none.");
+  internal::check_relocation_options(options);
   Relocation_result result;
   internal::Relocation relocation(V, T, P, fine, F, Z, op, fixed, options);
   V = relocation.run(result);
