@@ -22,11 +22,6 @@ namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
 /// @{
-namespace internal {
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted);
-
-} // namespace internal
 
 /*!
 returns the functional map \f$ C = \widetilde\Phi^\top \widetilde B P \Phi \f$ of a restriction `P` in two

@@ -67,6 +67,13 @@ void require_signals(const char* const who, const Matrix& F, const Matrix& Z, co
           " fine vertices and one column for each signal.");
 }
 
+/// One size of matrices from which functional maps are made, or of such a map.
+inline void check_dimension(const char* const what, const std::ptrdiff_t found, const std::ptrdiff_t wanted)
+{
+  require(found == wanted, "functional map: ", what, " is ", found, " where ", wanted,
+          " is needed, pass matrices that belong together.");
+}
+
 /// What flips and relocation must not do to the shape of a mesh.
 template <class Options>
 void require_shape_limits(const char* const who, const Options& o)

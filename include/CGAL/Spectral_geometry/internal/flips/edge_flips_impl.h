@@ -15,7 +15,6 @@
 #include <CGAL/Real_timer.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <queue>

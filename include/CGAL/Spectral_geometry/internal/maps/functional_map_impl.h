@@ -12,12 +12,6 @@ namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_dimension(const char* what, Eigen::Index found, Eigen::Index wanted)
-{
-  require(found == wanted, "functional map: ", what, " is ", found, " where ", wanted,
-          " is needed, pass matrices that belong together.");
-}
-
 inline std::string name_of_mass(const Laplace_operator& op)
 {
   if(op.voronoi)

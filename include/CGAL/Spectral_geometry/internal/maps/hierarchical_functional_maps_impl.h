@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_HIERARCHICAL_FUNCTIONAL_MAPS_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_HIERARCHICAL_FUNCTIONAL_MAPS_IMPL_H
 
-#include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 

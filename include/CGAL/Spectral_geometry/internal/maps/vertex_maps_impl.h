@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_VERTEX_MAPS_IMPL_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_MAPS_VERTEX_MAPS_IMPL_H
 
-#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/search/Ball_tree.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_of_triangle.h>
