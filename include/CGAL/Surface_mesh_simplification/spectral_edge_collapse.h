@@ -82,23 +82,12 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
 }
 
 /// Why a mesh that has run out of edges cannot be reduced further.
-template <class TriangleMesh>
-std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edge_collapse_result& result,
-                                    const std::size_t wanted)
+inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrices& mesh,
+                                           const Spectral_edge_collapse_result& result,
+                                           const std::size_t wanted)
 {
-  std::size_t border_edges = 0;
-  for(const auto h : halfedges(mesh))
-    if(is_border(h, mesh))
-      ++border_edges;
-  const auto index = get(dynamic_vertex_property_t<Eigen::Index>(), mesh);
-  Eigen::Index n = 0;
-  for(const auto v : vertices(mesh))
-    put(index, v, n++);
-  const std::vector<Eigen::Index> component =
-      Spectral_geometry::internal::connected_components(n, [&](const auto& join) {
-        for(const auto e : edges(mesh))
-          join(get(index, source(e, mesh)), get(index, target(e, mesh)));
-      });
+  using namespace Spectral_geometry::internal;
+  const std::vector<Eigen::Index> component = connected_components(mesh.V.rows(), mesh.T);
   const Eigen::Index components = *std::max_element(component.begin(), component.end()) + 1;
   using std::to_string;
   return "The mesh stopped at " + to_string(result.output_vertices) + " vertices instead of " +
@@ -112,8 +101,8 @@ std::string explain_exhausted_queue(const TriangleMesh& mesh, const Spectral_edg
                                               "keep_free_of_self_intersections asks") +
          "; constrained edges are never collapsed): it has " + to_string(components) +
          (components == 1 ? " component" : " components") +
-         ", each of which needs at least 3 (open) or 4 (closed) vertices, and " + to_string(border_edges) +
-         " border edges.";
+         ", each of which needs at least 3 (open) or 4 (closed) vertices, and " +
+         to_string(boundary_edges(mesh.T).size()) + " border edges.";
 }
 
 /// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
@@ -254,7 +243,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     if(end == Stop_reason::cancelled)
       set_cancelled(result);
     else if(end == Stop_reason::queue_exhausted)
-      result.explanation = explain_exhausted_queue(mesh, result, target);
+      result.explanation =
+          explain_exhausted_queue(Spectral_geometry::mesh_matrices(mesh, np), result, target);
   }
   result.E = policies.error();
   result.relative_error = policies.relative_error();

@@ -11,6 +11,7 @@
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/Euler_operations.h>
+#include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
 
 #include <Eigen/Core>
@@ -24,30 +25,6 @@ namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
 /// @{
-
-namespace internal {
-
-/// The constrained edges, by positions of their ends in `vertices(mesh)`.
-template <class TriangleMesh, class NamedParameters>
-std::vector<std::pair<int, int>> constrained_edges([[maybe_unused]] const TriangleMesh& mesh,
-                                                   [[maybe_unused]] const NamedParameters& np)
-{
-  std::vector<std::pair<int, int>> result;
-  if constexpr(!parameters::is_default_parameter<NamedParameters,
-                                                 internal_np::edge_is_constrained_t>::value) {
-    auto index = get(dynamic_vertex_property_t<int>(), mesh);
-    int n = 0;
-    for(const auto v : vertices(mesh))
-      put(index, v, n++);
-    const auto is_constrained = parameters::get_parameter(np, internal_np::edge_is_constrained);
-    for(const auto e : edges(mesh))
-      if(get(is_constrained, e))
-        result.emplace_back(get(index, source(e, mesh)), get(index, target(e, mesh)));
-  }
-  return result;
-}
-
-} // namespace internal
 
 /*!
  * Flips edges of a coarse mesh so that E (Eq. 2) falls, as section 6 of the paper does after a simplification, or until its
@@ -78,8 +55,19 @@ spectral_edge_flips(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P, co
                     const NamedParameters& np = parameters::default_values())
 {
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
-  Spectral_geometry::Edge_flip_result result = Spectral_geometry::flip_edges(
-      coarse.V, coarse.T, P, F, Z, op, internal::constrained_edges(mesh, np), options);
+  std::vector<std::pair<int, int>> constrained;
+  if constexpr(!parameters::is_default_parameter<NamedParameters,
+                                                 internal_np::edge_is_constrained_t>::value) {
+    Eigen::Index corner = 0; // the target of h
+    for(const auto f : faces(mesh))
+      for(const auto h : halfedges_around_face(halfedge(f, mesh), mesh)) {
+        if(get(parameters::get_parameter(np, internal_np::edge_is_constrained), edge(h, mesh)))
+          constrained.emplace_back(coarse.T(corner / 3, corner % 3), coarse.T(corner / 3, (corner + 2) % 3));
+        ++corner;
+      }
+  }
+  Spectral_geometry::Edge_flip_result result =
+      Spectral_geometry::flip_edges(coarse.V, coarse.T, P, F, Z, op, constrained, options);
   const std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> handles(
       vertices(mesh).begin(), vertices(mesh).end());
   for(const Spectral_geometry::Edge_flip& flip : result.flips) {
