@@ -47,19 +47,6 @@ inline void check_target(const char* const caller, const std::size_t target, con
           "; use a number from 1 to ", n, ".");
 }
 
-/// Throws for what is wrong with the mesh and stays so. Needles and faces without area need not.
-template <class TriangleMesh>
-void check_mesh_of_quadrics(const TriangleMesh& mesh, const Eigen::MatrixXd& V)
-{
-  check_extent(V);
-  Eigen::Index i = 0;
-  for(const auto v : vertices(mesh)) {
-    require(halfedge(v, mesh) != boost::graph_traits<TriangleMesh>::null_halfedge(),
-            "edge collapses: ", vertex_name(i), " is isolated, no face uses it; remove it.");
-    ++i;
-  }
-}
-
 /// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their edges, with what
 /// `mesh_matrices()` gives for the mesh.
 template <class TriangleMesh>
@@ -101,7 +88,14 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
   using Point = typename boost::property_traits<
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
   Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-  check_mesh_of_quadrics(mesh, matrices.V);
+  // What is wrong and stays so is refused before anything changes. Needles and faces without area need not stay.
+  check_extent(matrices.V);
+  Eigen::Index i = 0;
+  for(const auto v : vertices(mesh)) {
+    require(halfedge(v, mesh) != boost::graph_traits<TriangleMesh>::null_halfedge(),
+            "edge collapses: ", vertex_name(i), " is isolated, no face uses it; remove it.");
+    ++i;
+  }
   check_kept_vertices_apart(kept, matrices.V, matrices.T);
   Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
