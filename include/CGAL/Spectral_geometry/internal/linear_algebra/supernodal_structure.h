@@ -25,17 +25,17 @@ inline Sparse_matrix permuted(const Sparse_matrix& A, const std::vector<int>& or
   return result;
 }
 
-// The parent of each column in the elimination tree (Liu 1990), -1 for a root.
+// The parent of each column in the elimination tree (Liu 1990), n for a root.
 inline std::vector<int> elimination_tree(const Sparse_matrix& A)
 {
   const int n = static_cast<int>(A.cols());
-  std::vector<int> parent(n, -1), ancestor(n, -1);
+  std::vector<int> parent(n, n), ancestor(n, n);
   for(int k = 0; k < n; ++k)
     for(Sparse_matrix::InnerIterator it(A, k); it; ++it)
-      for(int i = static_cast<int>(it.row()); i != -1 && i < k;) {
+      for(int i = static_cast<int>(it.row()); i < k;) {
         const int next = ancestor[i];
         ancestor[i] = k; // path compression
-        if(next == -1)
+        if(next == n)
           parent[i] = k;
         i = next;
       }
@@ -51,28 +51,13 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
   Eigen::AMDOrdering<int>()(A, degree_order);
   const std::vector<int> order(degree_order.indices().data(), degree_order.indices().data() + n);
   const std::vector<int> parent = elimination_tree(permuted(A, order));
-
-  std::vector<int> first_child(n, -1), sibling(n, -1), result, stack;
-  for(int j = n - 1; j >= 0; --j)
-    if(parent[j] >= 0) {
-      sibling[j] = first_child[parent[j]];
-      first_child[parent[j]] = j;
-    }
-  result.reserve(n);
-  for(int root = 0; root < n; ++root) {
-    if(parent[root] >= 0)
-      continue;
-    stack.push_back(root);
-    while(!stack.empty()) {
-      const int j = stack.back(), child = first_child[j];
-      if(child < 0) {
-        result.push_back(order[j]);
-        stack.pop_back();
-      } else {
-        first_child[j] = sibling[child];
-        stack.push_back(child);
-      }
-    }
+  std::vector<int> size(n + 1, 1), end(n + 1, n), result(n); // of subtrees, and where the next child's ends
+  for(int j = 0; j < n; ++j)
+    size[parent[j]] += size[j];
+  for(int j = n - 1; j >= 0; --j) {
+    end[j] = end[parent[j]] - 1;
+    result[end[j]] = order[j];
+    end[parent[j]] -= size[j];
   }
   return result;
 }
