@@ -36,9 +36,9 @@ public:
   // y = M x; the mass matrix M is symmetric, its columns serve as rows
   void multiply_mass(const Panel& x, Panel& y) const
   {
-    for_each_range([&](Index begin, Index end, int) {
-      multiply(m_mass.outerIndexPtr(), m_mass.innerIndexPtr(), m_mass.valuePtr(), x.row(0), y.row(0), begin,
-               end);
+    for_each_block(size(), [&](Index first, Index rows, int) {
+      multiply(m_mass.outerIndexPtr(), m_mass.innerIndexPtr(), m_mass.valuePtr(), x.row(0), y.row(0), first,
+               first + rows);
     });
   }
 
@@ -48,14 +48,11 @@ public:
   {
     const Coefficients zero = Coefficients::Zero((count + count2) * panel_width, panel_width);
     std::vector<Coefficients> parts(number_of_ranges, zero);
-    for_each_range([&](Index begin, Index end, int range) {
-      for(Index i = begin; i < end; i += rows_in_cache) {
-        const Index rows = (std::min)(rows_in_cache, end - i);
-        for(Index p = 0; p < count; ++p) {
-          gram(basis[p].row(i), W.row(i), rows, parts[range].row(p * panel_width).data());
-          if(p < count2)
-            gram(basis[p].row(i), W2.row(i), rows, parts[range].row((count + p) * panel_width).data());
-        }
+    for_each_block(rows_in_cache, [&](Index first, Index rows, int range) {
+      for(Index p = 0; p < count; ++p) {
+        gram(basis[p].row(first), W.row(first), rows, parts[range].row(p * panel_width).data());
+        if(p < count2)
+          gram(basis[p].row(first), W2.row(first), rows, parts[range].row((count + p) * panel_width).data());
       }
     });
     for(int range = 1; range < number_of_ranges; ++range)
@@ -68,14 +65,11 @@ public:
   void subtract(const Panel* basis, Index count, Panel& W, const Coefficients& H, Index count2, Panel& W2,
                 const Coefficients& H2) const
   {
-    for_each_range([&](Index begin, Index end, int) {
-      for(Index i = begin; i < end; i += rows_in_cache) {
-        const Index rows = (std::min)(rows_in_cache, end - i);
-        for(Index p = 0; p < count; ++p) {
-          subtract_product(W.row(i), basis[p].row(i), rows, H.row(p * panel_width).data());
-          if(p < count2)
-            subtract_product(W2.row(i), basis[p].row(i), rows, H2.row(p * panel_width).data());
-        }
+    for_each_block(rows_in_cache, [&](Index first, Index rows, int) {
+      for(Index p = 0; p < count; ++p) {
+        subtract_product(W.row(first), basis[p].row(first), rows, H.row(p * panel_width).data());
+        if(p < count2)
+          subtract_product(W2.row(first), basis[p].row(first), rows, H2.row(p * panel_width).data());
       }
     });
   }
@@ -95,14 +89,11 @@ public:
   void transform(Panel& W, const Eigen::MatrixXd& T) const
   {
     const Coefficients minus_T = -T;
-    for_each_range([&](Index begin, Index end, int) {
-      alignas(64) double copy[rows_in_cache * panel_width];
-      for(Index i = begin; i < end; i += rows_in_cache) {
-        const Index rows = (std::min)(rows_in_cache, end - i);
-        std::copy_n(W.row(i), rows * panel_width, copy);
-        std::fill_n(W.row(i), rows * panel_width, 0.);
-        subtract_product(W.row(i), copy, rows, minus_T.data());
-      }
+    for_each_block(rows_in_cache, [&](Index first, Index rows, int) {
+      alignas(cache_line) double copy[rows_in_cache * panel_width];
+      std::copy_n(W.row(first), rows * panel_width, copy);
+      std::fill_n(W.row(first), rows * panel_width, 0.);
+      subtract_product(W.row(first), copy, rows, minus_T.data());
     });
   }
 
@@ -113,35 +104,33 @@ public:
     std::vector<Coefficients> minus_Y;
     for(Index q = 0; q < new_count; ++q)
       minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
-    constexpr Index rows_at_once = 64; // all panels' rows in the second level cache
-    for_each_range([&](Index begin, Index end, int) {
-      std::vector<double> result(new_count * rows_at_once * panel_width);
-      for(Index i = begin; i < end; i += rows_at_once) {
-        const Index rows = (std::min)(rows_at_once, end - i), entries = rows * panel_width;
-        std::fill(result.begin(), result.end(), 0.);
-        for(Index q = 0; q < new_count; ++q)
-          for(Index p = 0; p < count; ++p)
-            subtract_product(&result[q * entries], basis[p].row(i), rows,
-                             minus_Y[q].row(p * panel_width).data());
-        for(Index q = 0; q < new_count; ++q)
-          std::copy_n(&result[q * entries], entries, basis[q].row(i));
-      }
+    for_each_block(64, [&](Index first, Index rows, int) { // all panels' rows in the second level cache
+      const Index entries = rows * panel_width;
+      std::vector<double> result(new_count * entries);
+      for(Index q = 0; q < new_count; ++q)
+        for(Index p = 0; p < count; ++p)
+          subtract_product(&result[q * entries], basis[p].row(first), rows,
+                           minus_Y[q].row(p * panel_width).data());
+      for(Index q = 0; q < new_count; ++q)
+        std::copy_n(&result[q * entries], entries, basis[q].row(first));
     });
   }
 
   int threads() const { return m_threads; }
 
-  // Calls f(begin, end, range) for ranges of rows.
+private:
+  // Calls f(first row, number of rows, range) for blocks of so many rows at most, those of a range in order.
   template <class Function>
-  void for_each_range(const Function& f) const
+  void for_each_block(const Index rows_at_once, const Function& f) const
   {
     const Index n = size();
     for_each_task(number_of_ranges, n < 4096 ? 1 : m_threads, [&](int range) {
-      f(n * range / number_of_ranges, n * (range + 1) / number_of_ranges, range);
+      const Index end = n * (range + 1) / number_of_ranges;
+      for(Index i = n * range / number_of_ranges; i < end; i += rows_at_once)
+        f(i, (std::min)(rows_at_once, end - i), range);
     });
   }
 
-private:
   static constexpr int number_of_ranges = 8;
   static constexpr Index rows_in_cache = 128; // those of two panels in the first level cache
 

@@ -113,7 +113,7 @@ public:
       m_workspace.assign(m_slots * panel_width, 0.);
     const Index entries = Index(m_order.size()) * panel_width;
     std::copy_n(b.row(0), entries, m_workspace.data());
-    solve_in_place<Panel_solver>(m_workspace.data(), threads);
+    solve_in_place<panel_width>(m_workspace.data(), threads, forward, backward);
     std::copy_n(m_workspace.data(), entries, x.row(0));
   }
 
@@ -125,7 +125,7 @@ public:
     double* const w = m_workspace.data();
     for(std::size_t i = 0; i < m_order.size(); ++i)
       w[i] = b[m_order[i]];
-    solve_in_place<Vector_solver>(w, threads);
+    solve_in_place<1>(w, threads, forward_vector, backward_vector);
     Eigen::VectorXd x(b.size());
     for(std::size_t i = 0; i < m_order.size(); ++i)
       x[m_order[i]] = w[i];
@@ -371,52 +371,40 @@ private:
 
   // --- the solves ---
 
-  struct Panel_solver
-  {
-    static constexpr int columns = panel_width;
-    static void forward(const Supernode& s, double* w) { internal::forward(s, w); }
-    static void backward(const Supernode& s, double* w) { internal::backward(s, w); }
-  };
+  using Row = Eigen::Map<const Eigen::VectorXd>;
 
-  struct Vector_solver
-  {
-    static constexpr int columns = 1;
-    using Row = Eigen::Map<const Eigen::VectorXd>;
-    static Row row(const Supernode& s, int i, int size)
-    {
-      return Row(s.L + std::ptrdiff_t(i) * s.width, size);
-    }
-    static void forward(const Supernode& s, double* w)
-    {
-      Eigen::Map<Eigen::VectorXd> own(w + s.first, s.width);
-      for(int k = 0; k < s.width; ++k)
-        own[k] = (own[k] - row(s, k, k).dot(own.head(k))) * row(s, k, s.width)[k];
-      for(int i = 0; i < s.below; ++i)
-        w[s.rows[i]] -= row(s, s.width + i, s.width).dot(own);
-    }
-    static void backward(const Supernode& s, double* w)
-    {
-      Eigen::Map<Eigen::VectorXd> own(w + s.first, s.width);
-      for(int i = 0; i < s.below; ++i)
-        own -= w[s.rows[i]] * row(s, s.width + i, s.width);
-      for(int k = s.width - 1; k >= 0; --k) {
-        own[k] *= row(s, k, s.width)[k];
-        own.head(k) -= own[k] * row(s, k, k);
-      }
-    }
-  };
+  static Row row(const Supernode& s, int i, int size) { return Row(s.L + std::ptrdiff_t(i) * s.width, size); }
 
-  // w = L^-T S L^-1 w
-  template <class Solver>
-  void solve_in_place(double* w, int threads) const
+  static void forward_vector(const Supernode& s, double* w)
   {
-    constexpr int columns = Solver::columns;
+    Eigen::Map<Eigen::VectorXd> own(w + s.first, s.width);
+    for(int k = 0; k < s.width; ++k)
+      own[k] = (own[k] - row(s, k, k).dot(own.head(k))) * row(s, k, s.width)[k];
+    for(int i = 0; i < s.below; ++i)
+      w[s.rows[i]] -= row(s, s.width + i, s.width).dot(own);
+  }
+
+  static void backward_vector(const Supernode& s, double* w)
+  {
+    Eigen::Map<Eigen::VectorXd> own(w + s.first, s.width);
+    for(int i = 0; i < s.below; ++i)
+      own -= w[s.rows[i]] * row(s, s.width + i, s.width);
+    for(int k = s.width - 1; k >= 0; --k) {
+      own[k] *= row(s, k, s.width)[k];
+      own.head(k) -= own[k] * row(s, k, k);
+    }
+  }
+
+  // w = L^-T S L^-1 w, with the steps of one supernode
+  template <int columns, class Forward, class Backward>
+  void solve_in_place(double* w, int threads, const Forward& forward, const Backward& backward) const
+  {
     const Index branches = static_cast<Index>(m_branches.size());
     for_each_task(branches, threads, [&](Index b) {
       const Branch& branch = m_branches[b];
       std::fill_n(w + branch.slot * columns, branch.ancestors.size() * columns, 0.);
       for(std::size_t k = branch.first; k < branch.last; ++k)
-        Solver::forward(supernode(k), w);
+        forward(supernode(k), w);
     });
     for(const Branch& branch : m_branches) {
       const double* from = w + branch.slot * columns;
@@ -425,19 +413,19 @@ private:
           w[Index(row) * columns + c] += *from++;
     }
     for(const std::size_t k : m_top)
-      Solver::forward(supernode(k), w);
+      forward(supernode(k), w);
     for(const int row : m_negative)
       for(int c = 0; c < columns; ++c)
         w[Index(row) * columns + c] *= -1.;
     for(std::size_t k = m_top.size(); k-- > 0;)
-      Solver::backward(supernode(m_top[k]), w);
+      backward(supernode(m_top[k]), w);
     for_each_task(branches, threads, [&](Index b) {
       const Branch& branch = m_branches[b];
       double* to = w + branch.slot * columns;
       for(const int row : branch.ancestors)
         to = std::copy_n(w + Index(row) * columns, columns, to);
       for(std::size_t k = branch.last; k-- > branch.first;)
-        Solver::backward(supernode(k), w);
+        backward(supernode(k), w);
     });
   }
 
