@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 // The independent reference for eigenpairs(), in the tests and in the benchmark: Spectra's implicitly restarted Lanczos method.
@@ -78,8 +77,7 @@ private:
 inline SG::Eigenpairs spectra_eigenpairs(const SG::Laplace_operator& op, const Eigen::Index K,
                                          const double tolerance = 1e-10)
 {
-  const std::function<bool(double)> silent;
-  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+  const SG::internal::Eigen_problem problem(op);
   const double s = problem.shift();
   Shift_inverse inverse(problem);
   Scaled_mass mass(problem);

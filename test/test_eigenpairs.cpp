@@ -297,9 +297,7 @@ TEST_CASE("Eigenpairs of a stiffness in any unit")
     }
   // the shapes of triangles are no unit
   const Laplace_operator strip = laplace(shapes::grid_matrices(400, 1, 1., 1e-5));
-  const std::function<bool(double)> silent;
-  CHECK(SG::internal::Eigen_problem(strip.L, strip.B, strip.mass, silent).shift() ==
-        Approx(4e5 * shapes::pi));
+  CHECK(SG::internal::Eigen_problem(strip).shift() == Approx(4e5 * shapes::pi));
 }
 
 TEST_CASE("The dense path agrees with the iteration, and takes K up to n")
@@ -386,9 +384,8 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
 
 TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too many copies")
 {
-  const std::function<bool(double)> silent;
   const auto shift = [&](const Laplace_operator& op, Eigen::Index K) {
-    const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+    const SG::internal::Eigen_problem problem(op);
     SG::internal::Block_lanczos lanczos(problem, K, true, 1e-10, 300, 0, 1);
     bool complete = false;
     const Eigen::VectorXd values = lanczos.compute(true, complete).values;
@@ -448,8 +445,7 @@ TEST_CASE("Many eigenvectors stay orthonormal")
 TEST_CASE("Eigenvalues that are missing are counted")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), 0.5);
-  const std::function<bool(double)> silent;
-  const SG::internal::Eigen_problem problem(op.L, op.B, op.mass, silent);
+  const SG::internal::Eigen_problem problem(op);
   const Eigen::VectorXd all = by_dense(op, 40, {}).values;
   for(const std::vector<int>& left_out : {std::vector<int>{}, {0}, {17}, {5, 6, 30}}) {
     std::vector<double> found;

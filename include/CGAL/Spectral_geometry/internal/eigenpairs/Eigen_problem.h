@@ -6,7 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGEN_PROBLEM_H
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
+
+#include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -24,63 +27,69 @@ struct Ritz_pairs
   Eigen::MatrixXd vectors;
 };
 
+/// The larger of two in the middle, 0 of none.
+inline double median(Eigen::VectorXd numbers)
+{
+  double *const begin = numbers.data(), *const end = begin + numbers.size(),
+                *const middle = begin + numbers.size() / 2;
+  std::nth_element(begin, middle, end);
+  return begin == end ? 0. : *middle;
+}
+
 /// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the median leaves needles aside.
 inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
 {
-  Eigen::VectorXd diagonal = L.diagonal();
-  if(diagonal.size() == 0 || !diagonal.allFinite())
-    return 1.;
-  double* const middle = diagonal.data() + diagonal.size() / 2;
-  std::nth_element(diagonal.data(), middle, diagonal.data() + diagonal.size());
-  return *middle > 0. ? *middle / std::sqrt(12.) : 1.;
+  const Eigen::VectorXd diagonal = L.diagonal();
+  const double middle = diagonal.allFinite() ? median(diagonal) : 0.;
+  return middle > 0. ? middle / std::sqrt(12.) : 1.;
 }
 
 /// The mean spacing of eigenvalues by Weyl's law, 4 pi / area, in the unit of L. The shapes of triangles explain a factor of a
 /// thousand, beyond that it is a unit.
-inline double pencil_shift(const Eigen::SparseMatrix<double>& L, const Eigen::VectorXd& mass)
+inline double pencil_shift(const Laplace_operator& op)
 {
-  const double unit = unit_of_stiffness(L);
-  return 4. * 3.14159265358979323846 / mass.sum() * (unit > 1e-3 && unit < 1e3 ? 1. : unit);
+  const double unit = unit_of_stiffness(op.L);
+  return 4. * CGAL_PI / op.mass.sum() * (unit > 1e-3 && unit < 1e3 ? 1. : unit);
 }
 
-/// The pencil (L, B) with its shift: what every solver shares.
+/// The pencil (L, B) of an operator with its shift: what every solver shares.
 class Eigen_problem
 {
 public:
-  Eigen_problem(const Eigen::SparseMatrix<double>& L, const Eigen::SparseMatrix<double>& B,
-                const Eigen::VectorXd& mass, const std::function<bool(double)>& progress)
-    : m_L(L)
-    , m_B(B)
-    , m_mass(mass)
+  explicit Eigen_problem(const Laplace_operator& op, const std::function<bool(double)>& progress = {})
+    : m_op(op)
     , m_progress(progress)
-    , m_shift(pencil_shift(L, mass))
+    , m_shift(pencil_shift(op))
   {}
 
-  // Where nothing was taken out of B its row sums are the masses.
-  void check(const Eigen::Index K, const bool masses_are_row_sums) const
+  void check(const Eigen::Index K) const
   {
-    const Eigen::Index n = size();
-    require(m_L.cols() == n && m_B.rows() == n && m_B.cols() == n && m_mass.size() == n,
+    const Eigen::Index n = size(), coupled = n - m_op.vanishing;
+    require(L().cols() == n && B().rows() == n && B().cols() == n && m_op.mass.size() == n,
             "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
-    require(m_mass.size() > 0 && m_mass.minCoeff() > 0. && std::isfinite(m_shift),
+    require(n > 0 && m_op.mass.minCoeff() > 0. && std::isfinite(m_shift),
             "Eigenpairs: every mass must be positive and finite.");
-    require(!masses_are_row_sums ||
-                ((m_B * Eigen::VectorXd::Ones(n) - m_mass).cwiseAbs().array() <= 1e-6 * m_mass.array()).all(),
+    // Where nothing was taken out of B.
+    require(m_op.boundary != Boundary_condition::neumann ||
+                ((B() * Eigen::VectorXd::Ones(n) - m_op.mass).cwiseAbs().array() <= 1e-6 * m_op.mass.array())
+                    .all(),
             "Eigenpairs: the mass vector must hold the row sums of B.");
     require(K >= 1 && K <= n,
             "Eigenpairs: the number of eigenvectors must lie between 1 and the number of vertices ", n,
             ", but is ", K, ".");
+    require(K <= coupled, "Eigenpairs: ", K, " eigenvectors are asked for, but only ", coupled,
+            " vertices are off the border, where functions vanish; ask for fewer.");
   }
 
-  Eigen::Index size() const { return m_L.rows(); }
-  const Eigen::SparseMatrix<double>& L() const { return m_L; }
-  const Eigen::SparseMatrix<double>& B() const { return m_B; }
+  Eigen::Index size() const { return L().rows(); }
+  const Eigen::SparseMatrix<double>& L() const { return m_op.L; }
+  const Eigen::SparseMatrix<double>& B() const { return m_op.B; }
   double shift() const { return m_shift; }
 
   // L - sigma B
   Eigen::SparseMatrix<double> shifted(double sigma) const
   {
-    Eigen::SparseMatrix<double> result = m_L - sigma * m_B;
+    Eigen::SparseMatrix<double> result = L() - sigma * B();
     result.makeCompressed();
     return result;
   }
@@ -102,13 +111,13 @@ public:
     for(Eigen::Index k = 0; k < K; k += 8) {
       const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
       const Block phi = vectors.middleCols(k, columns);
-      Block r = m_L * phi;
-      const Block b = m_B * phi;
+      Block r = L() * phi;
+      const Block b = B() * phi;
       r -= b * values.segment(k, columns).asDiagonal();
       double squares[8] = {};
       for(Eigen::Index i = 0; i < size(); ++i)
         for(Eigen::Index c = 0; c < columns; ++c)
-          squares[c] += r(i, c) * r(i, c) / m_mass(i);
+          squares[c] += r(i, c) * r(i, c) / m_op.mass(i);
       for(Eigen::Index c = 0; c < columns; ++c)
         result(k + c) = std::sqrt(squares[c]);
     }
@@ -116,10 +125,8 @@ public:
   }
 
 private:
-  const Eigen::SparseMatrix<double>& m_L;
-  const Eigen::SparseMatrix<double>& m_B;
-  const Eigen::VectorXd& m_mass;
-  const std::function<bool(double)>& m_progress;
+  const Laplace_operator& m_op;
+  std::function<bool(double)> m_progress;
   double m_shift;
   mutable double m_fraction = 0.;
 };

@@ -49,11 +49,8 @@ inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options)
 {
-  const internal::Eigen_problem problem(op.L, op.B, op.mass, options.progress);
-  problem.check(K, op.boundary == Boundary_condition::neumann);
-  internal::require(K <= problem.size() - op.vanishing, "Eigenpairs: ", K,
-                    " eigenvectors are asked for, but only ", problem.size() - op.vanishing,
-                    " vertices are off the border, where functions vanish; ask for fewer.");
+  const internal::Eigen_problem problem(op, options.progress);
+  problem.check(K);
   internal::check_eigenpairs_options(options, K);
 
   const Eigen::Index zeros = number_of_zero_eigenvalues(op);

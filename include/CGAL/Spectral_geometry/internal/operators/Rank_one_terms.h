@@ -11,7 +11,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -27,18 +26,18 @@ public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Entries = std::vector<std::pair<Index, double>>;
-  // start, lower bound and typical size of a coefficient
-  using Range = std::array<double, 3>;
+  // start, lower bound and typical size of each coefficient
+  using Ranges = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>;
 
-  Index size() const { return static_cast<Index>(m_ranges.size()); }
-  const std::vector<Range>& ranges() const { return m_ranges; }
+  Index size() const { return static_cast<Index>(m_ranges.size() / 3); }
+  Ranges ranges() const { return Ranges(m_ranges.data(), size(), 3); }
   const Sparse_rows& vectors() const { return m_D; }
 
   void add(const Entries& d, double start, double lowest, double typical)
   {
     for(const auto& e : d)
       m_entries.emplace_back(static_cast<int>(size()), static_cast<int>(e.first), e.second);
-    m_ranges.push_back({(std::max)(start, lowest), lowest, typical});
+    m_ranges.insert(m_ranges.end(), {(std::max)(start, lowest), lowest, typical});
   }
 
   void assemble(Index n)
@@ -46,13 +45,7 @@ public:
     m_D.resize(size(), n);
     m_D.setFromTriplets(m_entries.begin(), m_entries.end());
     m_entries.clear();
-    for(Index a = 0; a < size(); ++a)
-      for(Sparse_rows::InnerIterator i(m_D, a); i; ++i)
-        for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
-          m_entries.emplace_back(static_cast<int>(i.col()), static_cast<int>(j.col()), 0.);
-    m_pattern.resize(n, n);
-    m_pattern.setFromTriplets(m_entries.begin(), m_entries.end());
-    m_entries.clear();
+    m_pattern = m_D.transpose() * m_D; // where entries are
     const int *start = m_pattern.outerIndexPtr(), *rows = m_pattern.innerIndexPtr();
     for(Index a = 0; a < size(); ++a)
       for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
@@ -66,13 +59,7 @@ public:
   }
 
   // d_a^T G
-  Row row(Index a, const Rows& G) const
-  {
-    Row y = Row::Zero(G.cols());
-    for(Sparse_rows::InnerIterator d(m_D, a); d; ++d)
-      y += d.value() * G.row(d.col());
-    return y;
-  }
+  Row row(Index a, const Rows& G) const { return m_D.row(a) * G; }
 
   Sparse_matrix matrix(const Vector& x) const
   {
@@ -86,7 +73,7 @@ public:
 
 private:
   std::vector<Eigen::Triplet<double>> m_entries;
-  std::vector<Range> m_ranges;
+  std::vector<double> m_ranges; // by rows
   Sparse_rows m_D;
   Sparse_matrix m_pattern, m_map;
 };

@@ -54,15 +54,11 @@ public:
     m_weight *= mean > 0. ? 1. / mean : 0.; // 0 where all eigenvalues are
     collect_terms(own);
     const Index nL = m_stiffness.size(), n = nL + m_mass.size();
-    m_start.resize(n);
-    m_lowest.resize(n);
-    m_typical.resize(n);
-    for(Index a = 0; a < n; ++a) {
-      const Rank_one_terms::Range& range = a < nL ? m_stiffness.ranges()[a] : m_mass.ranges()[a - nL];
-      m_start(a) = range[0];
-      m_lowest(a) = range[1];
-      m_typical(a) = range[2];
-    }
+    Eigen::MatrixX3d ranges(n, 3);
+    ranges << m_stiffness.ranges(), m_mass.ranges();
+    m_start = ranges.col(0);
+    m_lowest = ranges.col(1);
+    m_typical = ranges.col(2);
     m_total = Vector::Zero(n);
     m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(G.rows())).cwiseAbs2();
     find_components(own);
@@ -115,7 +111,7 @@ private:
   // Which unknowns belong to which component of the mesh, and what is its share of the area.
   void find_components(const Laplace_operator& own)
   {
-    const Index N = m_row_mass.size(), nL = m_stiffness.size();
+    const Index N = m_row_mass.size();
     const std::vector<Index> component = connected_components(N, [&](const auto& join) {
       for(Index j = 0; j < N; ++j)
         for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
@@ -124,13 +120,10 @@ private:
     m_share = Vector::Zero(*std::max_element(component.begin(), component.end()) + 1);
     for(Index v = 0; v < N; ++v)
       m_share(component[v]) += own.mass(v) / m_area;
-    m_component.resize(m_start.size());
-    for(Index a = 0; a < m_start.size(); ++a) {
-      const bool stiffness = a < nL;
-      Rank_one_terms::Sparse_rows::InnerIterator first((stiffness ? m_stiffness : m_mass).vectors(),
-                                                       stiffness ? a : a - nL);
-      m_component[a] = component[first.col()];
-    }
+    for(const Rank_one_terms* terms : {&m_stiffness, &m_mass})
+      for(Index a = 0; a < terms->size(); ++a)
+        m_component.push_back(
+            component[Rank_one_terms::Sparse_rows::InnerIterator(terms->vectors(), a).col()]);
   }
 
   // The mass of each component.
@@ -175,11 +168,8 @@ private:
           edges.push_back({it.row(), j, -it.value(), own.B.coeff(it.row(), j) / m_area, {}});
           sizes.push_back(std::abs(it.value()));
         }
-    double scale = 1.; // the median weight
-    if(!sizes.empty()) {
-      std::nth_element(sizes.begin(), sizes.begin() + sizes.size() / 2, sizes.end());
-      scale = sizes[sizes.size() / 2] > 0. ? sizes[sizes.size() / 2] : 1.;
-    }
+    const double median_size = median(Vector::Map(sizes.data(), Index(sizes.size()))),
+                 scale = median_size > 0. ? median_size : 1.;
     const double largest = 1e3 * scale;
     for(auto& ring : rings)
       std::sort(ring.begin(), ring.end());
@@ -475,10 +465,7 @@ inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::Vec
 {
   const double area = own.mass.sum();
   const Eigen::VectorXd mode = area * own.L.diagonal().cwiseQuotient(own.mass);
-  Eigen::VectorXd sorted = mode;
-  double* const middle = sorted.data() + sorted.size() / 2;
-  std::nth_element(sorted.data(), middle, sorted.data() + sorted.size());
-  const double remote = 8. * (std::max)(lambda.maxCoeff(), *middle);
+  const double remote = 8. * (std::max)(lambda.maxCoeff(), median(mode));
   for(int sweep = 0; sweep < 10; ++sweep)
     for(Eigen::Index v = 0; v < mode.size(); ++v) {
       if(!(mode(v) > remote))

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -132,7 +131,7 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
                                      const Spectral_geometry::Eigenpairs& pairs,
                                      const Eigen::VectorXd& residuals)
 {
-  const double shift = Spectral_geometry::internal::pencil_shift(op.L, op.mass);
+  const double shift = Spectral_geometry::internal::pencil_shift(op);
   for(Eigen::Index k = 0; k < pairs.size(); ++k)
     if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
       return false;
@@ -145,9 +144,8 @@ inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pa
                                          const Spectral_geometry::Laplace_operator& op,
                                          const Spectral_geometry::Mass mass)
 {
-  const std::function<bool(double)> nobody;
-  const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op.L, op.B, op.mass, nobody)
-                                        .residuals(pairs.values, pairs.vectors);
+  const Eigen::VectorXd residuals =
+      Spectral_geometry::internal::Eigen_problem(op).residuals(pairs.values, pairs.vectors);
   const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
