@@ -176,8 +176,8 @@ private:
       for(int c = 0; c < panel_width; ++c)
         m_W.row(i)[c] = random_entry();
     m_factor.solve(m_W, m_W, m_space.threads()); // smooth vectors are a better start
-    orthogonalise_against_all();
-    orthogonalise_against_all();
+    orthogonalise();
+    orthogonalise();
     orthonormalise();
     m_link.setZero();
     m_loss = 1.; // let the next step reorthogonalise
@@ -201,14 +201,19 @@ private:
     const Eigen::MatrixXd A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
     m_space.subtract(m_W, m_basis[j], A);
     if(m_after_restart)
-      orthogonalise_against_all();
+      orthogonalise();
     else if(j > 0)
       m_space.subtract(m_W, m_basis[j - 1], m_link.transpose());
     m_after_restart = false;
     m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
 
-    if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked)
-      reorthogonalise();
+    // Rounding errors along converged vectors grow by theta in each step, divided by the smallest singular
+    // value of the link. When that has come to a bound well below the square root of the machine precision, where T would
+    // lose digits (Simon 1984), the last two panels are cleaned in one pass over the basis. Every third or fourth step does.
+    if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked) {
+      orthogonalise(m_panels - 1);
+      m_loss = std::numeric_limits<double>::epsilon();
+    }
     orthonormalise();
     if(m_inside)
       m_norm = (std::max)(m_norm, std::hypot(A.norm(), m_link.norm()));
@@ -224,27 +229,15 @@ private:
     push_panel();
   }
 
-  // Rounding errors along converged vectors grow by theta in each step, divided by the smallest singular
-  // value of the link. When that has come to a bound well below the square root of the machine precision, where T would
-  // lose digits (Simon 1984), the last two panels are cleaned in one pass over the basis. Every third or fourth step does.
-  void reorthogonalise()
-  {
-    m_space.multiply_mass(m_W, m_BW);
-    Panel& V = m_basis[m_panels - 1];
-    Coefficients H, H_last;
-    m_space.products(m_basis.data(), m_panels, m_BW, H, m_panels - 1, m_BV, H_last);
-    m_space.subtract(m_basis.data(), m_panels, m_W, H, m_panels - 1, V, H_last);
-    m_loss = std::numeric_limits<double>::epsilon();
-  }
-
-  void orthogonalise_against_all()
+  // Makes the next panel orthogonal to the basis, and in the same pass over it the last panel to so many of those before it.
+  void orthogonalise(Index before_last = 0)
   {
     if(m_panels == 0)
       return;
     m_space.multiply_mass(m_W, m_BW);
-    Coefficients H, none;
-    m_space.products(m_basis.data(), m_panels, m_BW, H, 0, m_BW, none);
-    m_space.subtract(m_basis.data(), m_panels, m_W, H, 0, m_BW, none);
+    Coefficients H, H_last;
+    m_space.products(m_basis.data(), m_panels, m_BW, H, before_last, m_BV, H_last);
+    m_space.subtract(m_basis.data(), m_panels, m_W, H, before_last, m_basis[m_panels - 1], H_last);
   }
 
   // W = Q R by Cholesky, twice; m_link = R, m_BW = s B Q.
@@ -287,7 +280,7 @@ private:
         m_W.row(i)[c] = random_entry() / std::sqrt(m_problem.size());
     const Eigen::MatrixXd link = R * m_link;
     for(int pass = 0; pass < 3; ++pass) {
-      orthogonalise_against_all();
+      orthogonalise();
       m_space.multiply_mass(m_W, m_BW);
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
