@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
@@ -93,10 +94,11 @@ public:
     for(const Triangle& t : m_triangles) {
       Eigen::Vector3d edge[3];
       edges_of(t, V, edge);
-      const Triangle_element element = element_of(t, edge);
+      const std::optional<Point_coefficients> mean = mean_coefficients(m_op.coefficients, t.v);
+      const Triangle_element element = triangle_element(edge, mean);
       if(element.is_degenerate())
         return false;
-      const double area = density_of(t) * element.twice_area / 2;
+      const double area = density(mean) * element.twice_area / 2;
       for(int k = 0; k < 3; ++k) {
         const double lumped = (1 - m_op.theta) * lumped_share(m_op.voronoi, element.dot, k);
         entries.L(t.e[k]) -= 0.5 * element.dot[k] / element.twice_area;
@@ -112,8 +114,28 @@ public:
   /// for an edge counts both entries, and for L what it does to the diagonal.
   void add_gradient(const Entries& d, const Positions& V, Positions& gradient) const
   {
-    for(const Triangle& t : m_triangles)
-      add_gradient(t, d, V, gradient);
+    for(const Triangle& t : m_triangles) {
+      Eigen::Vector3d edge[3];
+      edges_of(t, V, edge);
+      const std::optional<Point_coefficients> mean = mean_coefficients(m_op.coefficients, t.v);
+      const Triangle_element element = triangle_element(edge, mean);
+      // derivatives with respect to the weighted area and to the cotangents, of which half are in L
+      double by_area = 0, by_cotangent[3], by_share[3];
+      for(int k = 0; k < 3; ++k) {
+        const double lumped = (1 - m_op.theta) * lumped_share(m_op.voronoi, element.dot, k);
+        by_area += d.mass(t.v[k]) * (lumped + m_op.theta / 3) +
+                   d.B_diagonal(t.v[k]) * (lumped + m_op.theta / 6) + d.B(t.e[k]) * m_op.theta / 12;
+        by_cotangent[k] = -0.5 * d.L(t.e[k]);
+        by_share[k] = d.mass(t.v[k]) + d.B_diagonal(t.v[k]);
+      }
+      if(m_op.voronoi)
+        add_gradient_of_shares(element, by_share, density(mean) * element.twice_area / 2, by_cotangent);
+      if(mean)
+        add_gradient_of_conductivity(t, edge, *mean, element, by_cotangent, density(mean) * by_area,
+                                     gradient);
+      else
+        add_gradient_of_cotangents(t, edge, by_cotangent, by_area, gradient);
+    }
   }
 
 private:
@@ -139,43 +161,6 @@ private:
   {
     for(int k = 0; k < 3; ++k)
       edge[k] = V.row(t.v[(k + 2) % 3]) - V.row(t.v[(k + 1) % 3]);
-  }
-
-  Point_coefficients coefficients_of(const Triangle& t) const
-  {
-    return mean_coefficients(m_op.coefficients, t.v);
-  }
-
-  bool has_coefficients() const { return m_op.coefficients.rows() != 0; }
-
-  double density_of(const Triangle& t) const { return has_coefficients() ? coefficients_of(t)[0] : 1.; }
-
-  Triangle_element element_of(const Triangle& t, const Eigen::Vector3d (&edge)[3]) const
-  {
-    return has_coefficients() ? triangle_element(edge, coefficients_of(t)) : triangle_element(edge);
-  }
-
-  // Derivatives with respect to the cotangents, of which half are in L, and to the weighted area.
-  void add_gradient(const Triangle& t, const Entries& d, const Positions& V, Positions& gradient) const
-  {
-    Eigen::Vector3d edge[3];
-    edges_of(t, V, edge);
-    const Triangle_element element = element_of(t, edge);
-    double by_area = 0, by_cotangent[3], by_share[3];
-    for(int k = 0; k < 3; ++k) {
-      const double lumped = (1 - m_op.theta) * lumped_share(m_op.voronoi, element.dot, k);
-      by_area += d.mass(t.v[k]) * (lumped + m_op.theta / 3) +
-                 d.B_diagonal(t.v[k]) * (lumped + m_op.theta / 6) + d.B(t.e[k]) * m_op.theta / 12;
-      by_cotangent[k] = -0.5 * d.L(t.e[k]);
-      by_share[k] = d.mass(t.v[k]) + d.B_diagonal(t.v[k]);
-    }
-    const double density = density_of(t);
-    if(m_op.voronoi)
-      add_gradient_of_shares(element, by_share, density * element.twice_area / 2, by_cotangent);
-    if(has_coefficients())
-      add_gradient_of_conductivity(t, edge, element, by_cotangent, density * by_area, gradient);
-    else
-      add_gradient_of_cotangents(t, edge, by_cotangent, by_area, gradient);
   }
 
   // share_k = (1 + c_i c_j / Q) / 4 with Q the sum of the three products, in a triangle that is not obtuse.
@@ -219,11 +204,12 @@ private:
   }
 
   // cot_k = -r_{k+1} . D r_{k+2} / |m| with m = e_0 x e_1 and r_k = m / |m| x e_k, backwards.
-  void add_gradient_of_conductivity(const Triangle& t, const Eigen::Vector3d (&edge)[3],
-                                    const Triangle_element& element, const double (&by_cotangent)[3],
-                                    const double by_area, Positions& gradient) const
+  static void add_gradient_of_conductivity(const Triangle& t, const Eigen::Vector3d (&edge)[3],
+                                           const Point_coefficients& mean, const Triangle_element& element,
+                                           const double (&by_cotangent)[3], const double by_area,
+                                           Positions& gradient)
   {
-    const Eigen::Matrix3d D = conductivity(coefficients_of(t));
+    const Eigen::Matrix3d D = conductivity(mean);
     const double length = element.twice_area;
     const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
     Eigen::Vector3d by_turned[3], turned[3], by_edge[3];

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -73,10 +74,18 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
 /// Density, then the conductivity as xx, xy, xz, yy, yz, zz: a row of `Operator_coefficients`.
 using Point_coefficients = Eigen::Matrix<double, 7, 1>;
 
-/// Of a triangle: the mean of its corners'.
-inline Point_coefficients mean_coefficients(const Operator_coefficients& c, const int (&corners)[3])
+/// Of a triangle: the mean of its corners', if the operator has any.
+inline std::optional<Point_coefficients> mean_coefficients(const Operator_coefficients& c,
+                                                           const int (&corners)[3])
 {
-  return (c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3;
+  if(c.rows() == 0)
+    return {};
+  return Point_coefficients((c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3);
+}
+
+inline double density(const std::optional<Point_coefficients>& mean)
+{
+  return mean ? (*mean)[0] : 1.;
 }
 
 /// Of an operator: what its L is measured in, 1 without coefficients.
@@ -92,15 +101,16 @@ inline Eigen::Matrix3d conductivity(const Point_coefficients& c)
   return D;
 }
 
-/// The same for an operator with coefficients, see `Local_operator`: edges are turned by a right angle within the triangle, and
+/// The same for an operator with coefficients or without, see `Local_operator`: edges are turned by a right angle within the triangle, and
 /// products are those of the conductivity. The area is that of the triangle, without the density.
-inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3], const Point_coefficients& mean)
+inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3],
+                                         const std::optional<Point_coefficients>& mean)
 {
   Triangle_element t = triangle_element(edge);
-  if(t.is_degenerate())
+  if(!mean || t.is_degenerate())
     return t;
   const Eigen::Vector3d normal = edge[0].cross(edge[1]).normalized();
-  const Eigen::Matrix3d D = conductivity(mean);
+  const Eigen::Matrix3d D = conductivity(*mean);
   Eigen::Vector3d turned[3];
   for(int k = 0; k < 3; ++k)
     turned[k] = normal.cross(edge[k]);

@@ -23,16 +23,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
             if(entry.value() != 0.)
               join(v, entry.row());
       });
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(op.L.cols()), sum = op.L * ones,
+                        size = op.L.cwiseAbs() * ones;
   std::vector<char> kernel;
   for(Eigen::Index v = 0; v < op.L.cols(); ++v) {
-    double sum = 0., size = 0.;
-    for(Entry entry(op.L, v); entry; ++entry) {
-      sum += entry.value();
-      size += std::abs(entry.value());
-    }
     const std::size_t c = std::size_t(component[std::size_t(v)]);
     kernel.resize((std::max)(kernel.size(), c + 1), true);
-    kernel[c] = kernel[c] && std::abs(sum) <= rounding * size;
+    kernel[c] = kernel[c] && std::abs(sum(v)) <= rounding * size(v);
   }
   return Eigen::Index(std::count(kernel.begin(), kernel.end(), true));
 }
@@ -53,7 +50,8 @@ inline Triangle_cotangents cotangents_of(const Triangle_element& t, const int ex
 
 // With coefficients the area is weighted by the density.
 inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
-                                         const Eigen::Vector3d& r, const Point_coefficients* mean)
+                                         const Eigen::Vector3d& r,
+                                         const std::optional<Point_coefficients>& mean)
 {
   Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
   const double extent = (std::max)(
@@ -64,10 +62,8 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
     for(int c = 0; c < 3; ++c)
       e(c) = std::scalbn(e(c), -exponent);
 
-  if(!mean)
-    return cotangents_of(triangle_element(edge), exponent);
-  Triangle_cotangents result = cotangents_of(triangle_element(edge, *mean), exponent);
-  result.area *= (*mean)[0];
+  Triangle_cotangents result = cotangents_of(triangle_element(edge, mean), exponent);
+  result.area *= density(mean);
   return result;
 }
 
@@ -75,10 +71,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::
                                                                    const int (&t)[3],
                                                                    const Operator_coefficients& c)
 {
-  if(c.rows() == 0)
-    return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), nullptr);
-  const Point_coefficients mean = mean_coefficients(c, t);
-  return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), &mean);
+  return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), mean_coefficients(c, t));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
@@ -193,7 +186,6 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
   std::vector<Triplet> stiffness, consistent;
   stiffness.reserve(3 * m + n);
   consistent.reserve(theta > 0. ? 3 * m + n : n);
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(n);
 
   Laplace_operator result;
   result.theta = theta;
@@ -215,21 +207,19 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
   }
   check_mass(result.mass, T);
 
-  Eigen::SparseMatrix<double> upper(n, n);
-  upper.setFromTriplets(stiffness.begin(), stiffness.end());
-  for(Eigen::Index j = 0; j < n; ++j)
-    for(Eigen::SparseMatrix<double>::InnerIterator it(upper, j); it; ++it) {
-      diagonal(it.row()) -= it.value();
-      diagonal(it.col()) -= it.value();
-    }
+  const auto mirrored = [n](const std::vector<Triplet>& entries) -> Eigen::SparseMatrix<double> {
+    Eigen::SparseMatrix<double> upper(n, n);
+    upper.setFromTriplets(entries.begin(), entries.end());
+    return upper.selfadjointView<Eigen::Upper>();
+  };
+  const Eigen::VectorXd diagonal =
+      Eigen::VectorXd::Zero(n) - mirrored(stiffness) * Eigen::VectorXd::Ones(n); // so that rows sum to 0
   for(Eigen::Index i = 0; i < n; ++i) {
     stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
     consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
   }
-  upper.setFromTriplets(stiffness.begin(), stiffness.end());
-  result.L = upper.selfadjointView<Eigen::Upper>();
-  upper.setFromTriplets(consistent.begin(), consistent.end());
-  result.B = upper.selfadjointView<Eigen::Upper>();
+  result.L = mirrored(stiffness);
+  result.B = mirrored(consistent);
   return result;
 }
 
@@ -256,7 +246,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eige
                                                                       const Eigen::Vector3d& q,
                                                                       const Eigen::Vector3d& r)
 {
-  return internal::cotangents_of(p, q, r, nullptr);
+  return internal::cotangents_of(p, q, r, {});
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
