@@ -45,7 +45,6 @@ public:
     m_result.extent = extent_of(m_V);
     examine_vertices();
     examine_faces();
-    find_duplicates();
     collect_sides();
     examine_edges();
     examine_fans();
@@ -57,6 +56,8 @@ public:
   }
 
 private:
+  using Key = std::pair<std::size_t, std::size_t>; // the smallest vertex of a face, and the sum of all
+
   struct Side // of a face, along an edge
   {
     std::size_t low, high, face;
@@ -90,6 +91,7 @@ private:
     m_sound.assign(m_polygons.size(), false);
     std::vector<bool> used(m_n, false);
     std::vector<std::size_t> sorted;
+    std::vector<std::pair<Key, std::size_t>> sound;
     for(std::size_t f = 0; f < m_polygons.size(); ++f) {
       sorted = m_polygons[f];
       std::sort(sorted.begin(), sorted.end());
@@ -105,6 +107,7 @@ private:
         m_result.repeated_vertices.add(f);
       else {
         m_sound[f] = true;
+        sound.emplace_back(Key(sorted[0], std::accumulate(sorted.begin(), sorted.end(), std::size_t(0))), f);
         if(sorted.size() > 3)
           m_result.polygons.add(f, sorted.size());
       }
@@ -112,21 +115,12 @@ private:
     for(std::size_t v = 0; v < m_n; ++v)
       if(!used[v])
         m_result.isolated_vertices.add(v);
+    find_duplicates(sound);
   }
 
-  // Only faces with the same smallest vertex and the same sum can have the same vertices.
-  void find_duplicates()
+  // Only faces with the same key can have the same vertices.
+  void find_duplicates(std::vector<std::pair<Key, std::size_t>>& faces)
   {
-    using Key = std::pair<std::size_t, std::size_t>; // smallest vertex and sum
-    std::vector<std::pair<Key, std::size_t>> faces;
-    faces.reserve(m_polygons.size());
-    for(std::size_t f = 0; f < m_polygons.size(); ++f)
-      if(m_sound[f]) {
-        const std::vector<std::size_t>& p = m_polygons[f];
-        const Key key(*std::min_element(p.begin(), p.end()),
-                      std::accumulate(p.begin(), p.end(), std::size_t(0)));
-        faces.emplace_back(key, f);
-      }
     std::sort(faces.begin(), faces.end());
     std::vector<std::pair<std::size_t, std::size_t>> duplicates;
     for(std::size_t i = 0, j; i < faces.size(); i = j) {
