@@ -57,7 +57,9 @@ CGAL_SPECTRAL_INLINE void clear(Panel_row& x)
   x.setZero();
 }
 
-CGAL_SPECTRAL_INLINE void add(Panel_row& y, double a, const Panel_row& x)
+/// y += a x, where a is a number or a row.
+template <class Factor>
+CGAL_SPECTRAL_INLINE void add(Panel_row& y, const Factor& a, const Panel_row& x)
 {
   y += a * x;
 }
@@ -65,11 +67,6 @@ CGAL_SPECTRAL_INLINE void add(Panel_row& y, double a, const Panel_row& x)
 CGAL_SPECTRAL_INLINE void subtract(Panel_row& y, double a, const Panel_row& x)
 {
   y -= a * x;
-}
-
-CGAL_SPECTRAL_INLINE void add_product(Panel_row& y, const Panel_row& a, const Panel_row& b)
-{
-  y += a * b;
 }
 
 #ifdef CGAL_SPECTRAL_DISPATCH
@@ -108,10 +105,10 @@ CGAL_SPECTRAL_INLINE void subtract(Wide_panel_row& y, double a, const Wide_panel
   y.high -= a * x.high;
 }
 
-CGAL_SPECTRAL_INLINE void add_product(Wide_panel_row& y, const Wide_panel_row& a, const Wide_panel_row& b)
+CGAL_SPECTRAL_INLINE void add(Wide_panel_row& y, const Wide_panel_row& a, const Wide_panel_row& x)
 {
-  y.low += a.low * b.low;
-  y.high += a.high * b.high;
+  y.low += a.low * x.low;
+  y.high += a.high * x.high;
 }
 #else
 using Wide_panel_row = Panel_row;

@@ -102,7 +102,7 @@ CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* colu
       for(std::ptrdiff_t q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
         load(r, a);
         load(s, g);
-        add_product(sum, r, s);
+        add(sum, r, s);
       }
       double parts[panel_width];
       store(parts, sum);
