@@ -9,7 +9,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -103,7 +102,6 @@ public:
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     std::vector<Index> slots;
-    slots.reserve(static_cast<std::size_t>(std::count(alive.begin(), alive.end(), true)));
     for(Index slot = 0; slot < number_of_slots(); ++slot)
       if(alive[static_cast<std::size_t>(slot)])
         slots.push_back(slot);
@@ -126,15 +124,12 @@ public:
   Matrix restriction(const std::vector<Index>& slots, const std::optional<Index> number_of_merges = {}) const
   {
     const Expansion e = expand(slots, number_of_merges);
-    Matrix P(static_cast<Index>(slots.size()), number_of_slots());
-    P.reserve(number_of_slots() - std::count(e.weight.begin(), e.weight.end(), 0.));
-    for(Index slot = 0; slot < number_of_slots(); ++slot) {
-      P.startVec(slot);
-      const std::size_t s = static_cast<std::size_t>(slot);
+    std::vector<Eigen::Triplet<double>> entries;
+    for(std::size_t s = 0; s < e.row.size(); ++s)
       if(e.weight[s] != 0)
-        P.insertBack(e.row[s], slot) = e.weight[s];
-    }
-    P.finalize();
+        entries.emplace_back(static_cast<int>(e.row[s]), static_cast<int>(s), e.weight[s]);
+    Matrix P(static_cast<Index>(slots.size()), number_of_slots());
+    P.setFromTriplets(entries.begin(), entries.end());
     return P;
   }
 

@@ -55,12 +55,9 @@ inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
     for(int k = 0; k < 3; ++k)
       edges.push_back(std::minmax({T(f, k), T(f, (k + 1) % 3)}));
   std::sort(edges.begin(), edges.end());
-  for(std::size_t i = 0, j; i < edges.size(); i = j) {
-    j = std::size_t(std::upper_bound(edges.begin() + std::ptrdiff_t(i), edges.end(), edges[i]) -
-                    edges.begin());
-    if(j == i + 1)
+  for(std::size_t i = 0; i < edges.size(); ++i)
+    if((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
       result.push_back(edges[i]);
-  }
   return result;
 }
 

@@ -79,9 +79,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
   std::vector<Point> points;
   const auto vector = [](const auto& v) { return Eigen::Vector3d(v.x(), v.y(), v.z()); };
   const auto psi = [&](const double kappa) { return 1 / (1 + alpha * std::abs(kappa)); };
-  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(V.rows(), 6);
-  for(const int diagonal : {0, 3, 5})
-    D.col(diagonal).setOnes();
+  Eigen::MatrixXd D =
+      weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>(); // the identity
   for(Eigen::Index v = 0; v < V.rows() && alpha > 0; ++v) {
     points.clear();
     for(const int w : internal::rings_of(neighbors, int(v), wanted, seen)) {
