@@ -105,30 +105,6 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
          to_string(boundary_edges(mesh.T).size()) + " border edges.";
 }
 
-/// Flips, relocation and the fit of operators. The log, and what is replayed from it, stay as they are: they end before.
-template <class TriangleMesh, class Policies, class NamedParameters>
-void run_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& fine,
-                      const Spectral_edge_collapse_options& options, const Policies& policies,
-                      const std::vector<char>& kept, const NamedParameters& np,
-                      const Pre_simplification& first, Spectral_edge_collapse_result& result)
-{
-  if(!has_post_process(options) || result.stop_reason == Stop_reason::cancelled)
-    return;
-  Spectral_post_process(mesh, fine, policies, options, np, result).run(kept);
-  result.seconds_flips = result.flips.seconds;
-  result.seconds_relocation = result.relocation.seconds;
-  if(result.relative_error > options.maximum_error && result.stop_reason != Stop_reason::cancelled)
-    result.warnings.push_back(
-        "The collapses kept the error bound, but with what followed them the relative error is " +
-        std::to_string(result.relative_error) + "; set relocate to false to keep it.");
-  // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
-  Eigen::SparseMatrix<double>& own = result.relocation.restriction;
-  if(result.relocation.resampled)
-    result.restriction =
-        first.done ? Eigen::SparseMatrix<double>(own * first.log.forest().restriction(first.slots)) : own;
-  own.resize(0, 0);
-}
-
 /// The policies of the second stage. What they refuse here is the mesh that the first one has left: an input that is
 /// refused as `std::invalid_argument` has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
@@ -194,14 +170,9 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
-  const Spectral_geometry::Mesh_matrices fine = has_post_process(options)
-                                                    ? Spectral_geometry::mesh_matrices(mesh, policies_np)
-                                                    : Spectral_geometry::Mesh_matrices();
-  const std::vector<char> kept =
-      options.relocate ? kept_vertex_flags(mesh, options.kept_vertices, policies_np) : std::vector<char>();
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   const auto& state = policies.state();
-  result.pre_simplified_vertices = std::size_t(state.fine_points().rows());
+  result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals = std::size_t(state.core().number_of_signals());
   if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
     result.warnings.push_back(
@@ -261,7 +232,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
   policies.shared_state()->release();
-  run_post_process(mesh, fine, options, policies, kept, np, first, result);
+  if(has_post_process(options) && result.stop_reason != Stop_reason::cancelled)
+    Spectral_post_process(mesh, policies, options, np, result).run(first);
 }
 
 /// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to return what was done.

@@ -143,8 +143,8 @@ public:
   Eigen::SparseMatrix<double> prolongation() const
   {
     return Spectral_geometry::closest_point_interpolation(
-        state().fine_points(), Spectral_geometry::mesh_matrices(
-                                   state().mesh(), parameters::vertex_point_map(state().vertex_point_map())));
+        state().fine().V, Spectral_geometry::mesh_matrices(
+                              state().mesh(), parameters::vertex_point_map(state().vertex_point_map())));
   }
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into

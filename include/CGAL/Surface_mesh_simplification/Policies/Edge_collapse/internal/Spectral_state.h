@@ -87,13 +87,12 @@ public:
   {
     Real_timer timer;
     timer.start();
-    Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-    m_fine_points = std::move(matrices.V);
+    m_fine = Spectral_geometry::mesh_matrices(mesh, np);
     std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
-    check_kept_vertices_apart(kept, m_fine_points, matrices.T);
+    check_kept_vertices_apart(kept, m_fine.V, m_fine.T);
     m_core.set_kept(std::move(kept));
 
-    Spectral_basis basis = spectral_basis(m_fine_points, matrices.T, options);
+    Spectral_basis basis = spectral_basis(m_fine.V, m_fine.T, options);
     m_eigenpairs = basis.eigenpairs;
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
@@ -329,8 +328,8 @@ public:
   const Spectral_collapse_core& core() const { return m_core; }
   /// Gives back the memory of what only collapses need: nothing may be collapsed afterwards.
   void release() { m_core.release(); }
-  /// n x 3, the positions of the input.
-  const Eigen::MatrixXd& fine_points() const { return m_fine_points; }
+  /// The input, which the eigenpairs are of.
+  const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
   /// Candidates that were given up so far, over all runs.
@@ -437,7 +436,7 @@ private:
   {
     const std::vector<Eigen::Index> slots = current_slots();
     m_vpm = vertex_point_map();
-    const std::size_t n = std::size_t(m_fine_points.rows());
+    const std::size_t n = std::size_t(m_fine.V.rows());
     std::vector<Eigen::Vector3d> points(n, Eigen::Vector3d::Zero());
     Spectral_rings rings;
     rings.resize(n);
@@ -479,7 +478,7 @@ private:
   Geom_traits m_traits;
   Fine_vertex_slots<Triangle_mesh> m_slots;
 
-  Eigen::MatrixXd m_fine_points;
+  Spectral_geometry::Mesh_matrices m_fine;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
   Spectral_collapse_core m_core;
   double m_area = 0, m_sum_of_squares = 0;

@@ -128,7 +128,7 @@ public:
   /// Forgets the candidates of the edges whose H met the last commit.
   void drop_candidates_around(const Spectral_slot kept);
 
-  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts.
+  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts; of the fields what is kept, and has_z_rows().
   void release();
 
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }

@@ -279,9 +279,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_aroun
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 {
-  const Spectral_rows lambda = m_fields.lambda; // stays: it tells whether signals have rows of their own
-  m_fields = Spectral_fields();
-  m_fields.lambda = lambda;
+  Spectral_fields left;
+  left.lambda = m_fields.lambda; // it tells whether signals have rows of their own
+  left.kept = m_fields.kept;
+  m_fields = std::move(left);
   m_shape = Spectral_shape_term();
   m_crossing = Spectral_crossing_guard();
   m_candidates = Spectral_candidates();

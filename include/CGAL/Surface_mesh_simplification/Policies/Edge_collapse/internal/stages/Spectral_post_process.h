@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
@@ -32,13 +33,14 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// Whether anything follows the collapses. It needs the mesh of the eigenpairs, taken before the first of them.
+/// Whether anything follows the collapses.
 inline bool has_post_process(const Spectral_edge_collapse_options& options)
 {
   return options.relocate || options.flips != Spectral_geometry::Edge_flips::none || options.fit_operators;
 }
 
-/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order.
+/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order. The log,
+/// and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -46,12 +48,10 @@ class Spectral_post_process
   using SpMat = Eigen::SparseMatrix<double>;
 
 public:
-  /// `fine` is the mesh of the eigenpairs.
-  Spectral_post_process(TriangleMesh& mesh, const Spectral_geometry::Mesh_matrices& fine,
-                        const Policies& policies, const Spectral_edge_collapse_options& options,
-                        const NamedParameters& np, Result& result)
+  Spectral_post_process(TriangleMesh& mesh, const Policies& policies,
+                        const Spectral_edge_collapse_options& options, const NamedParameters& np,
+                        Result& result)
     : m_mesh(mesh)
-    , m_fine(fine)
     , m_state(policies.state())
     , m_options(options)
     , m_np(np)
@@ -59,18 +59,31 @@ public:
     , m_P(policies.restriction())
   {}
 
-  /// `kept`: one flag for each vertex of `fine` that must stay, or empty.
-  void run(const std::vector<char>& kept)
+  void run(const Pre_simplification& first)
   {
+    Spectral_geometry::Relocation_result& relocation = m_result.relocation;
     if(m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none)
-      change(kept);
+      change();
     if(m_options.fit_operators && m_result.stop_reason != Result::Stop_reason::cancelled)
-      fit(m_result.relocation.resampled ? m_result.relocation.restriction : m_P);
+      fit(relocation.resampled ? relocation.restriction : m_P);
+    m_result.seconds_flips = m_result.flips.seconds;
+    m_result.seconds_relocation = relocation.seconds;
+    if(m_result.relative_error > m_options.maximum_error &&
+       m_result.stop_reason != Result::Stop_reason::cancelled)
+      m_result.warnings.push_back(
+          "The collapses kept the error bound, but with what followed them the relative error is " +
+          std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
+    // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
+    if(relocation.resampled)
+      m_result.restriction = first.done
+                                 ? SpMat(relocation.restriction * first.log.forest().restriction(first.slots))
+                                 : relocation.restriction;
+    relocation.restriction.resize(0, 0);
   }
 
 private:
   // Flips and relocation.
-  void change(const std::vector<char>& kept)
+  void change()
   {
     using namespace Spectral_geometry;
     Eigen::MatrixXd F, Z;
@@ -82,7 +95,7 @@ private:
         where = "as collapses and flips left them";
       }
       if(m_options.relocate && allows("The vertices were not relocated: ", true))
-        relocate(F, Z, kept);
+        relocate(F, Z);
     } catch(const Cancelled&) {
       set_cancelled(m_result, std::string(", which are ") + where);
     }
@@ -99,7 +112,7 @@ private:
     try {
       if(!allows(consequence, false))
         return;
-      const Laplace_operator fine = operator_of_basis(m_fine.V, m_fine.T, m_options);
+      const Laplace_operator fine = operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
       std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
       if(!pairs) {
         Eigenpairs_options solver = m_options.eigenpairs_options;
@@ -173,7 +186,7 @@ private:
     set_error(m_P, F, Z);
   }
 
-  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const std::vector<char>& kept)
+  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
       m_result.warnings.push_back(
@@ -183,15 +196,11 @@ private:
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
-    if(!kept.empty()) {
-      // By the vertex map: a vertex to be kept may go on under the handle of one that was merged into it.
-      const std::vector<std::size_t> map = m_state.vertex_map();
-      stays.resize(std::size_t(m_P.rows()));
-      for(std::size_t v = 0; v < kept.size(); ++v)
-        if(kept[v])
-          stays[map[v]] = true;
-    }
-    m_result.relocation = relocate_mesh(m_mesh, m_P, m_fine, F, Z, local_operator(), relocation, stays, m_np);
+    if(!m_state.core().fields().kept.empty())
+      for(const Eigen::Index slot : m_state.current_slots())
+        stays.push_back(m_state.core().fields().is_kept(Spectral_slot(slot)));
+    m_result.relocation =
+        relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(), relocation, stays, m_np);
     SpMat& own = m_result.relocation.restriction;
     if(m_result.relocation.resampled && !stays.empty()) // where the input has several points in one place
       keep_rows(own, stays);
@@ -219,7 +228,7 @@ private:
     const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
     F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
     if(m_state.core().fields().has_z_rows())
-      Z = spectral_z(operator_of_basis(m_fine.V, m_fine.T, m_options), F);
+      Z = spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F);
     else
       Z = F * pairs->values.asDiagonal();
   }
@@ -241,7 +250,6 @@ private:
   }
 
   TriangleMesh& m_mesh;
-  const Spectral_geometry::Mesh_matrices& m_fine;
   const typename Policies::State& m_state;
   const Spectral_edge_collapse_options& m_options;
   const NamedParameters& m_np;
