@@ -34,8 +34,9 @@ namespace {
 
 SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target, const std::vector<char>& fixed = {})
 {
-  return SMS::internal::quadric_collapses(SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh)),
-                                          fixed, false, false, target, [](std::size_t) {});
+  SMS::internal::Triangle_arrays arrays = SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh));
+  arrays.fixed = fixed;
+  return SMS::internal::quadric_collapses(std::move(arrays), false, target, [](std::size_t) {});
 }
 
 Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
@@ -221,7 +222,7 @@ TEST_CASE("The vertex where several fans of faces meet is named")
         arrays.opposite.push_back(d);
     }
   REQUIRE(arrays.opposite.size() == 24);
-  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, {}, false, false, 4, [](std::size_t) {}),
+  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, false, 4, [](std::size_t) {}),
                     ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
 }
 
@@ -234,8 +235,11 @@ TEST_CASE("Vertices that are fixed take no values from a border that is apart")
     std::vector<char> fixed(border.size(), 0);
     for(std::size_t v = 0; v < fixed.size(); v += every)
       fixed[v] = !border[v];
-    const SMS::Collapse_log log = SMS::internal::quadric_collapses(
-        SMS::internal::triangle_arrays(mesh, sheet), fixed, true, true, 3, [](std::size_t) {});
+    SMS::internal::Triangle_arrays arrays = SMS::internal::triangle_arrays(mesh, sheet);
+    arrays.fixed = fixed;
+    arrays.border_is_apart = true;
+    const SMS::Collapse_log log =
+        SMS::internal::quadric_collapses(std::move(arrays), true, 3, [](std::size_t) {});
     const std::size_t N = log.number_of_vertices_left();
     CHECK(N < border.size());
     const std::vector<std::size_t> map = log.vertex_map(N);
@@ -361,9 +365,11 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   const SMS::Spectral_edge_collapse_options options = ahead_options();
   SMS::Spectral_policies<Polyhedron, Kernel> policies(mesh, options);
   SMS::Collapse_log log;
-  policies.state().collapse_by_others([&](std::vector<Eigen::Index>& slots) {
-    return log = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {}, options,
-                                                     CGAL::parameters::default_values(), slots);
+  policies.state().collapse_by_others([&] {
+    auto done = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {}, options,
+                                                    CGAL::parameters::default_values());
+    log = done.first;
+    return done;
   });
   CHECK(count_vertices(mesh) == 300);
 
@@ -506,7 +512,7 @@ TEST_CASE("Quadrics put no face through another, and would without the guard")
   const auto crossings = [&](const bool guarded) {
     Mesh mesh = make_mesh(input);
     const SMS::Collapse_log log = SMS::internal::quadric_collapses(
-        SMS::internal::triangle_arrays(mesh, input), {}, false, guarded, N, [](std::size_t) {});
+        SMS::internal::triangle_arrays(mesh, input), guarded, N, [](std::size_t) {});
     CHECK(log.number_of_vertices_left() == N);
     const shapes::Matrices coarse = SG::mesh_matrices(replayed(mesh, log, N));
     return SG::internal::self_intersecting_faces(coarse.V, coarse.T).size();

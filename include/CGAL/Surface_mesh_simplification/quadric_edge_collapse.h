@@ -78,12 +78,12 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
 }
 
 /// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in `vertices(mesh)`, or empty.
-/// `report(left)` may throw before the mesh changes. Writes the slots of the vertices that are left and returns the log.
+/// `report(left)` may throw before the mesh changes. Returns the log and the slots of the vertices that are left.
 template <class TriangleMesh, class Report, class NamedParameters>
-Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                                  const std::vector<char>& kept, const bool border_is_apart,
-                                  const bool keep_free_of_self_intersections, const Report& report,
-                                  const NamedParameters& np, std::vector<Eigen::Index>& slots_left)
+std::pair<Collapse_log, std::vector<Eigen::Index>>
+collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices, const std::vector<char>& kept,
+                     const bool border_is_apart, const bool keep_free_of_self_intersections,
+                     const Report& report, const NamedParameters& np)
 {
   using Point = typename boost::property_traits<
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
@@ -99,13 +99,14 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_o
   check_kept_vertices_apart(kept, matrices.V, matrices.T);
   Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
+  arrays.fixed = fixed_vertex_flags(mesh, kept, np);
+  arrays.border_is_apart = border_is_apart;
   report(std::size_t(arrays.V.rows()));
-  Collapse_log log = quadric_collapses(std::move(arrays), fixed_vertex_flags(mesh, kept, np), border_is_apart,
-                                       keep_free_of_self_intersections, number_of_vertices, report);
+  Collapse_log log =
+      quadric_collapses(std::move(arrays), keep_free_of_self_intersections, number_of_vertices, report);
   Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, log, np);
   replay.collapse_to(log.number_of_vertices_left());
-  slots_left = replay.slots();
-  return log;
+  return {std::move(log), replay.slots()};
 }
 
 /// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that order.
@@ -166,9 +167,8 @@ Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std
       throw Spectral_geometry::Cancelled();
   };
   Quadric_edge_collapse_result result;
-  std::vector<Eigen::Index> slots;
-  Collapse_log log = internal::collapse_by_quadrics(
-      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np, slots);
+  auto [log, slots] = internal::collapse_by_quadrics(
+      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np);
   internal::set_restriction(result, std::move(log), slots);
   return result;
 }

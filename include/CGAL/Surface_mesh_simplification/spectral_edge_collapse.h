@@ -139,9 +139,8 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
   timer.start();
   // One collapse at least is left to the loop: a run that is cancelled before it ends above the target.
   const std::size_t end = (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
-  state.collapse_by_others([&](std::vector<Eigen::Index>& slots) {
-    return collapse_by_quadrics(mesh, n, end, state.core().fields().kept, options, np, slots);
-  });
+  state.collapse_by_others(
+      [&] { return collapse_by_quadrics(mesh, n, end, state.core().fields().kept, options, np); });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();
 }

@@ -106,15 +106,14 @@ public:
   /// \name Called by the policies
   /// @{
 
-  /// Before the first run: `collapse(slots)` collapses edges of the mesh, returns their log and writes the slots of the vertices
+  /// Before the first run: `collapse()` collapses edges of the mesh, returns their log and the slots of the vertices
   /// that are left. F, Z, P and the quadrics of the shape follow.
   template <class Collapse>
   void collapse_by_others(const Collapse& collapse)
   {
     auto [points, rings] = read_geometry();
     m_core.set_input(std::move(points), std::move(rings));
-    std::vector<Eigen::Index> slots;
-    const Collapse_log log = collapse(slots);
+    const auto [log, slots] = collapse();
     m_slots.set(slots);
     for(std::size_t i = 0; i < log.points().size(); ++i) {
       const Merge& m = log.forest().merges()[i];

@@ -25,6 +25,9 @@ struct Triangle_arrays
   std::vector<int> vertex;       ///< of each corner
   std::vector<int> opposite;     ///< the corner whose halfedge leads back, -1 on the border
   bool single_precision = false; ///< whether the mesh holds positions as `float`
+  std::vector<char> fixed;       ///< a flag for each vertex that stays where it is, or nothing
+  bool border_is_apart =
+      false; ///< whether a vertex of the border takes its values from vertices of the border alone
 };
 
 /*!
@@ -41,8 +44,6 @@ struct Triangle_arrays
  *
  * O(n log n), a few microseconds for each collapse, five times as many where faces would intersect; deterministic.
  *
- * @param fixed a flag for each vertex that stays where it is, or nothing
- * @param border_is_apart whether a vertex of the border takes its values from vertices of the border alone
  * @param keep_free_of_self_intersections whether no collapse may put a face through another, see `Spectral_crossing_guard`: where
  *        faces intersect in the end, all is done once more with an eye on it
  * @param progress is called with the number of vertices left, each time a hundredth of the collapses is done and before refused
@@ -51,8 +52,7 @@ struct Triangle_arrays
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
-quadric_collapses(Triangle_arrays mesh, const std::vector<char>& fixed, bool border_is_apart,
-                  bool keep_free_of_self_intersections, std::size_t target,
+quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, std::size_t target,
                   const std::function<void(std::size_t)>& progress);
 
 } // namespace CGAL::Surface_mesh_simplification::internal

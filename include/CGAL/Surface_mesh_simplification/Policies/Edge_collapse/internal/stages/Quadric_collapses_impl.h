@@ -41,18 +41,15 @@ inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
 class Quadric_collapser
 {
 public:
-  Quadric_collapser(Triangle_arrays mesh, std::vector<char> fixed, const bool border_is_apart,
-                    const bool keep_free_of_self_intersections)
+  Quadric_collapser(Triangle_arrays mesh, const bool keep_free_of_self_intersections)
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
     , m_mesh(std::move(mesh))
-    , m_border_is_apart(border_is_apart)
-    , m_fixed(std::move(fixed))
     , m_state(m_mesh.vertex.size(), none)
   {
     const std::size_t n = m_log.number_of_vertices();
-    m_fixed.resize(n, false);
+    m_mesh.fixed.resize(n, false);
     m_points.resize(n);
     for(std::size_t v = 0; v < n; ++v)
       m_points[v] = m_mesh.V.row(Eigen::Index(v)).transpose() - m_origin;
@@ -215,7 +212,7 @@ private:
     if(p == q)
       return {-1.f, p};
     const Spectral_quadric sum = m_quadrics[at(u)] + m_quadrics[at(v)];
-    Eigen::Vector3d x = m_fixed[at(u)] ? p : m_fixed[at(v)] ? q : sum.minimiser();
+    Eigen::Vector3d x = m_mesh.fixed[at(u)] ? p : m_mesh.fixed[at(v)] ? q : sum.minimiser();
     if(!x.allFinite())
       x = (p + q) / 2;
     x = x + m_origin;
@@ -249,7 +246,7 @@ private:
       m_refused.push_back(c);
       return;
     }
-    if(m_fixed[at(u)])
+    if(m_mesh.fixed[at(u)])
       collapse(c, v, u, x);
     else
       collapse(c, u, v, x);
@@ -258,8 +255,9 @@ private:
   // The place or the values of a fixed vertex, for those of the other one.
   bool would_change(const int fixed, const int other) const
   {
-    return m_fixed[at(fixed)] &&
-           (m_fixed[at(other)] || (m_border_is_apart && is_border_vertex(other) && !is_border_vertex(fixed)));
+    return m_mesh.fixed[at(fixed)] &&
+           (m_mesh.fixed[at(other)] ||
+            (m_mesh.border_is_apart && is_border_vertex(other) && !is_border_vertex(fixed)));
   }
 
   // The link condition.
@@ -327,8 +325,9 @@ private:
 
   void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
   {
-    double alpha = m_fixed[at(kept)] ? 0. : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
-    if(m_border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
+    double alpha =
+        m_mesh.fixed[at(kept)] ? 0. : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
       alpha = is_border_vertex(kept) ? 0. : 1.;
     m_log.merge(gone, kept, alpha, x + m_origin);
 
@@ -397,10 +396,8 @@ private:
   Eigen::Vector3d m_origin;
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
-  Triangle_arrays m_mesh; // but for positions
-  bool m_border_is_apart;
-  std::vector<char> m_fixed;             // of each vertex, as what follows
-  std::vector<Eigen::Vector3d> m_points; // from the origin
+  Triangle_arrays m_mesh;                // but for positions
+  std::vector<Eigen::Vector3d> m_points; // of each vertex, as what follows, from the origin
   std::vector<Spectral_quadric> m_quadrics;
   std::vector<int> m_degree, m_outgoing;
   std::vector<int> m_changed; // the number of collapses when it last did
@@ -415,8 +412,6 @@ private:
 };
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mesh,
-                                                             const std::vector<char>& fixed,
-                                                             const bool border_is_apart,
                                                              const bool keep_free_of_self_intersections,
                                                              const std::size_t target,
                                                              const std::function<void(std::size_t)>& progress)
@@ -429,7 +424,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mes
   };
   for(bool guarded = false;; guarded = true) {
     const bool last = guarded || !keep_free_of_self_intersections;
-    Quadric_collapser run(last ? std::move(mesh) : mesh, fixed, border_is_apart, guarded);
+    Quadric_collapser run(last ? std::move(mesh) : mesh, guarded);
     run.run(target, report);
     if(last || !run.has_intersections())
       return run.take_log();

@@ -19,6 +19,8 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -55,10 +57,10 @@ inline void check_pre_simplification(const Spectral_edge_collapse_options& optio
 /// `collapse_by_quadrics()` of n vertices to `target` as the options have it. Until the mesh changes it can be cancelled, and nothing has
 /// happened then.
 template <class TriangleMesh, class NamedParameters>
-Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
-                                  const std::vector<char>& kept,
-                                  const Spectral_edge_collapse_options& options, const NamedParameters& np,
-                                  std::vector<Eigen::Index>& slots)
+std::pair<Collapse_log, std::vector<Eigen::Index>>
+collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
+                     const std::vector<char>& kept, const Spectral_edge_collapse_options& options,
+                     const NamedParameters& np)
 {
   const auto report = [&](const std::size_t left) {
     const double fraction = double(n - left) / double(n - target);
@@ -67,7 +69,7 @@ Collapse_log collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const
   };
   return collapse_by_quadrics(mesh, target, kept,
                               options.boundary == Spectral_geometry::Boundary_condition::dirichlet,
-                              options.keep_free_of_self_intersections, report, np, slots);
+                              options.keep_free_of_self_intersections, report, np);
 }
 
 /// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
@@ -85,7 +87,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
           "Restriction_visitor first.");
   check_pre_simplification(options, n, target);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
-  result.log = collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np, result.slots);
+  std::tie(result.log, result.slots) = collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
   for(std::size_t i = 0; i < result.slots.size(); ++i)
     if(!kept.empty() && kept[std::size_t(result.slots[i])])
       result.kept_vertices.push_back(i);
