@@ -388,6 +388,7 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   }
   SMS::internal::Spectral_shape_term expected;
   const double area = SG::laplace_operator(input.V, input.T, options.mass).mass.sum();
+  expected.set_weights(options, policies.state().sum_of_squares());
   expected.set_geometry(points, rings, 1 / area);
   for(const SG::Merge_forest::Merge& m : log.forest().merges())
     expected.merge(SMS::internal::Spectral_slot(m.removed), SMS::internal::Spectral_slot(m.kept));
@@ -397,7 +398,7 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
     const auto u = SMS::internal::Spectral_slot(slots[i]),
                v = SMS::internal::Spectral_slot(slots[(i + 1) % slots.size()]);
     const Eigen::Vector3d x = 1.1 * input.V.row(slots[i]);
-    CHECK(std::abs(followed.change(points, u, v, x) / expected.change(points, u, v, x) - 1) < 1e-9);
+    CHECK(std::abs(followed.cost(points, u, v, x) / expected.cost(points, u, v, x) - 1) < 1e-9);
   }
   collapse(mesh, policies, 60);
   CHECK(count_vertices(mesh) == 60);

@@ -78,16 +78,12 @@ public:
   double cost(const std::vector<Eigen::Vector3d>& points, const Spectral_slot u, const Spectral_slot v,
               const Eigen::Vector3d& x) const
   {
-    return is_empty() ? 0. : m_weight * double(m_number_of_vertices) * change(points, u, v, x);
-  }
-
-  /// The same without its weight.
-  double change(const std::vector<Eigen::Vector3d>& points, const Spectral_slot u, const Spectral_slot v,
-                const Eigen::Vector3d& x) const
-  {
+    if(is_empty())
+      return 0;
     const Spectral_quadric &at_u = m_quadrics[u], &at_v = m_quadrics[v];
     const Eigen::Vector3d y = x - m_origin;
-    return m_scale * (at_u(y) + at_v(y) - at_u(points[u] - m_origin) - at_v(points[v] - m_origin));
+    return m_weight * double(m_number_of_vertices) *
+           (m_scale * (at_u(y) + at_v(y) - at_u(points[u] - m_origin) - at_v(points[v] - m_origin)));
   }
 
   /// The x of least cost. Unique: the variance makes the sum positive definite unless the faces have no area.
