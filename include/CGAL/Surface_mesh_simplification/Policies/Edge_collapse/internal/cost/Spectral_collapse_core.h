@@ -44,10 +44,6 @@ struct Spectral_row_entry;
 class Spectral_collapse_core
 {
 public:
-  Spectral_collapse_core();
-  Spectral_collapse_core(Spectral_collapse_core&&);
-  ~Spectral_collapse_core();
-
   /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as `float`. Signals and coefficients of the
   /// options are not read.
   void set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
@@ -125,7 +121,8 @@ public:
   void commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
               const Eigen::Vector3d& point, Spectral_ring ring);
 
-  /// Forgets the candidates of the edges whose H met the last commit.
+  /// Forgets the candidates of the edges whose H met the last commit, for one that CGAL costs nothing after: what they are now is found
+  /// when their turn comes.
   void drop_candidates_around(const Spectral_slot kept);
 
   /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts; of the fields what is kept, and has_z_rows().
@@ -196,7 +193,7 @@ private:
   Spectral_candidates m_candidates;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
 
-  std::unique_ptr<Pool> m_pool;
+  std::shared_ptr<Pool> m_pool; // shared by nobody: it can be destroyed where `Workspace` is incomplete
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

@@ -27,11 +27,6 @@ inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const S
   rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::Spectral_collapse_core() = default;
-CGAL_SPECTRAL_GEOMETRY_INLINE
-Spectral_collapse_core::Spectral_collapse_core(Spectral_collapse_core&&) = default;
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_collapse_core::~Spectral_collapse_core() = default;
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
                                   const Spectral_options& options, const bool single_precision)
@@ -57,7 +52,7 @@ Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_ge
   m_fields.area_scale = 1 / basis.area;
   m_fields.single_precision = single_precision;
   m_shape.set_weights(options, basis.sum_of_squares);
-  m_pool = std::make_unique<Pool>(options.threads);
+  m_pool = std::make_shared<Pool>(options.threads);
   m_log = Collapse_log(basis.F.rows());
 }
 
