@@ -129,7 +129,7 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
                                 const Spectral_edge_collapse_options& options, const NamedParameters& np,
                                 Spectral_edge_collapse_result& result)
 {
-  auto& state = *policies.shared_state();
+  auto& state = policies.state();
   const std::size_t n = state.number_of_vertices();
   if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
      !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value ||
@@ -170,7 +170,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
-  const auto& state = policies.state();
+  auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals = std::size_t(state.core().number_of_signals());
   if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
@@ -230,7 +230,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     set_restriction(result, policies.log(), slots);
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
-  policies.shared_state()->release();
+  state.release();
   if(has_post_process(options) && result.stop_reason != Stop_reason::cancelled)
     Spectral_post_process(mesh, policies, options, np, result).run(first);
 }

@@ -166,8 +166,7 @@ public:
     return m_state;
   }
 
-  State& state() { return internal::state_of_handle(m_state, "Spectral_policies"); }
-  const State& state() const { return internal::state_of_handle(m_state, "Spectral_policies"); }
+  State& state() const { return internal::state_of_handle(m_state, "Spectral_policies"); }
   /// \endcond
 
 private:
