@@ -29,6 +29,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -86,8 +87,7 @@ private:
   void change()
   {
     using namespace Spectral_geometry;
-    Eigen::MatrixXd F, Z;
-    signals(F, Z);
+    const auto [F, Z] = signals();
     const char* where = "as the collapses left them";
     try {
       if(m_options.flips != Edge_flips::none && allows("No edge was flipped: ", false)) {
@@ -222,15 +222,15 @@ private:
   }
 
   // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
-  void signals(Eigen::MatrixXd& F, Eigen::MatrixXd& Z) const
+  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> signals() const
   {
     const Spectral_geometry::Eigenpairs* const pairs = m_result.eigenpairs.get();
     const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
-    F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
-    if(m_state.core().fields().has_z_rows())
-      Z = spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F);
-    else
-      Z = F * pairs->values.asDiagonal();
+    Eigen::MatrixXd F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
+    Eigen::MatrixXd Z = m_state.core().fields().has_z_rows()
+                            ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
+                            : Eigen::MatrixXd(F * pairs->values.asDiagonal());
+    return {std::move(F), std::move(Z)};
   }
 
   // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's
