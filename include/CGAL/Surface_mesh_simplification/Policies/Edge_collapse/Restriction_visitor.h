@@ -71,12 +71,8 @@ public:
 
   void on_finished() const {}
   void on_stop_condition_reached() const {}
-  template <class Profile>
-  void on_selected(const Profile&) const
-  {}
-  template <class Profile>
-  void on_non_collapsable(const Profile&) const
-  {}
+  void on_selected() const {}
+  void on_non_collapsable() const {}
 
   const Slots& slots() const { return m_slots; }
   const Collapse_log& log() const { return m_log; }

@@ -54,7 +54,7 @@ public:
   template <class Profile, class OptionalCost, class Size>
   void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
   {
-    m_follower->on_selected(profile);
+    m_follower->on_selected();
     user().OnSelected(profile, cost, initial, current);
   }
 
@@ -75,7 +75,7 @@ public:
   template <class Profile>
   void OnNonCollapsable(const Profile& profile)
   {
-    m_follower->on_non_collapsable(profile);
+    m_follower->on_non_collapsable();
     user().OnNonCollapsable(profile);
   }
 

@@ -155,8 +155,7 @@ public:
   }
 
   /// \copydoc on_finished()
-  template <class Profile>
-  void on_selected(const Profile&)
+  void on_selected()
   {
     close_selection();
     m_selecting = m_selection_open = true;
@@ -168,8 +167,7 @@ public:
   void on_stop_condition_reached() { m_selection_open = false; }
 
   /// \copydoc on_finished()
-  template <class Profile>
-  void on_non_collapsable(const Profile&)
+  void on_non_collapsable()
   {
     ++(m_placement_found ? m_refusals.filter : m_refusals.topology);
     m_selection_open = false;
