@@ -90,7 +90,7 @@ inline SG::Eigenpairs spectra_eigenpairs(const SG::Laplace_operator& op, const E
   SG::Eigenpairs result;
   result.values = (s * (solver.eigenvalues().array() - 1.)).max(0.); // Spectra's are (lambda + s) / s
   result.vectors = std::sqrt(s) * solver.eigenvectors(K);
-  result.residuals = problem.residuals(result.values, result.vectors);
+  result.residuals = problem.residuals(result);
   return result;
 }
 

@@ -6,99 +6,16 @@
 #define CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/Core>
-
-#include <functional>
-#include <string>
+#include <Eigen/SparseCore>
 
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
-
-/// \brief the first K eigenpairs of \f$L \phi = \lambda B \phi\f$.
-struct Eigenpairs
-{
-  Eigen::VectorXd values;  ///< K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
-  Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
-  /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
-  Eigen::VectorXd residuals;
-  std::string solver; ///< "block" or "dense"
-  /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
-  bool complete = false;
-  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
-  /// min(`zeros`, K). To be set where pairs are filled by hand, see `number_of_zero_eigenvalues()`; negative: not known
-  Eigen::Index zeros = -1;
-
-  Eigen::Index size() const { return values.size(); } ///< K
-};
-
-/// \brief how eigenpairs are computed.
-///
-/// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at a time. A problem of fewer
-/// than 2 K + 20 or K + 56 vertices is too small for that and solved densely all the same.
-enum class Eigenpairs_method { automatic, block, dense };
-
-/// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
-struct Eigenpairs_options
-{
-  Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
-  /// relative accuracy in the shift-inverted operator, \f$\|S\phi - \nu\phi\|_B \le\f$ tolerance \f$|\nu|\f$ with
-  /// \f$S = (L - \sigma B)^{-1} B\f$, \f$\nu = 1/(\lambda - \sigma)\f$, and where \f$\lambda + s\f$ is less than
-  /// \f$|\lambda - \sigma|\f$ as many times less; in ]0, 1[. The residuals of the result are up to some hundred times
-  /// larger, relative errors of the eigenvalues about the square of the tolerance.
-  double tolerance = 1e-10;
-  /// restarts of the Krylov space, at least 1
-  Eigen::Index maximum_iterations = 300;
-  /// search for copies of multiple eigenvalues that the Krylov space has missed: one more factorisation counts the eigenvalues
-  /// (Sylvester's law of inertia). `block` starts from eight random vectors, which cannot miss a copy of an eigenvalue of
-  /// smaller multiplicity; it counts when more than four of the values are equal as far as the tolerance tells. With a tolerance
-  /// above 1e-3 the values are too rough for a count, and the pairs are not known to be complete.
-  bool verify = true;
-  /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K, K + 120): fewer take less
-  /// memory and more time
-  Eigen::Index maximum_vectors = 0;
-  /// threads for `block`, at least 1; the result does not depend on it
-  int threads = 1;
-  /// is called with the fraction done, in [0, 1]; returns false to cancel
-  std::function<bool(double)> progress;
-
-  /// the defaults with another tolerance
-  static Eigenpairs_options with_tolerance(double tolerance)
-  {
-    Eigenpairs_options options;
-    options.tolerance = tolerance;
-    return options;
-  }
-};
-
-namespace internal {
-
-inline void check_eigenpairs_options(const Eigenpairs_options& options, const Eigen::Index K)
-{
-  require(options.tolerance > 0. && options.tolerance < 1.,
-          "Eigenpairs: the tolerance must lie between 0 and 1.");
-  require(options.maximum_iterations >= 1, "Eigenpairs: the number of iterations must be positive.");
-  require(options.threads >= 1, "Eigenpairs: the number of threads must be positive.");
-  require(options.maximum_vectors == 0 || options.maximum_vectors >= K + 32,
-          "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = ", K + 32, ", but is ",
-          options.maximum_vectors, ".");
-}
-
-// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space must fit into n dimensions, with
-// the vectors that a restart keeps, two panels more, and room for random ones. Up to 300 vertices a dense solver takes
-// milliseconds.
-inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpairs_method method)
-{
-  return method == Eigenpairs_method::dense || 2 * K + 20 > n || K + 56 > n ||
-         (method == Eigenpairs_method::automatic && n <= 300);
-}
-
-} // namespace internal
 
 /// \brief returns the first K generalised eigenpairs of a Laplace operator, \f$L \phi_k = \lambda_k B \phi_k\f$.
 ///

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_BLOCK_LANCZOS_H
 
+#include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Panel_space.h>
 #include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
@@ -26,25 +27,23 @@ namespace CGAL::Spectral_geometry::internal {
 
 // The number of eigenvalues below a gap minus the number of those found. The gap is that below the K-th value and the group that it belongs
 // to: copies of values(K-1) itself need not be counted, any K of them are right. Factorisations without pivoting can be wrong next to an
-// eigenvalue of a leading block, which a shift elsewhere in the gap avoids.
-inline bool count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads,
-                          Eigen::Index& missing)
+// eigenvalue of a leading block, which a shift elsewhere in the gap avoids; -1 when none does.
+inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads)
 {
   const double s = problem.shift();
-  Eigen::Index k = values.size() - 1; // values below the gap
+  Index k = values.size() - 1; // values below the gap
   while(k > 0 && !(values(k) - values(k - 1) > 1e-5 * (values(k) + s)))
     --k;
   const double lower = k > 0 ? values(k - 1) : -s;
   for(const double t : {0.5, 0.375, 0.59375}) {
     const double mu = lower + t * (values(k) - lower);
-    missing = 0;
     if(mu < 0.)
-      return true; // L is positive semidefinite
-    missing = number_of_negative_eigenvalues(problem.shifted(mu), threads) - k;
+      return 0; // L is positive semidefinite
+    const Index missing = number_of_negative_eigenvalues(problem.shifted(mu), threads) - k;
     if(missing >= 0)
-      return true;
+      return missing;
   }
-  return false;
+  return -1;
 }
 
 /// Block Lanczos with shift and invert, thick restart and partial reorthogonalisation.
@@ -63,16 +62,14 @@ class Block_lanczos
 {
 public:
   // `few_copies`: 0 is known to have few.
-  Block_lanczos(const Eigen_problem& problem, Index K, bool few_copies, double tolerance,
-                Index maximum_iterations, Index maximum_vectors, int threads)
+  Block_lanczos(const Eigen_problem& problem, Index K, bool few_copies, const Eigenpairs_options& options)
     : m_problem(problem)
     , m_K(K)
-    , m_tolerance(tolerance)
-    , m_maximum_iterations(maximum_iterations)
-    , m_inside(few_copies && K >= 2 * panel_width && maximum_vectors == 0)
+    , m_options(options)
+    , m_inside(few_copies && K >= 2 * panel_width && options.maximum_vectors == 0)
     , m_sigma((m_inside ? place_of_shift * K : -1.) * problem.shift())
-    , m_factor(problem.shifted(m_sigma), threads, Supernodal_factor::Pivots::of_either_sign)
-    , m_space(problem.shift() * permuted(problem.B(), m_factor.order()), threads)
+    , m_factor(problem.shifted(m_sigma), options.threads, Supernodal_factor::Pivots::of_either_sign)
+    , m_space(problem.shift() * permuted(problem.B(), m_factor.order()), options.threads)
     , m_W(problem.size())
     , m_BW(problem.size())
     , m_BV(problem.size())
@@ -80,12 +77,11 @@ public:
     // Without restart 3.4 K vectors reach 1e-8, or 2.4 K with the shift inside. A larger space costs memory, a smaller one
     // more solves.
     const Index standard = (std::max)(K * 36 / 10, K + 120);
-    const Index limit = maximum_vectors > 0 ? maximum_vectors : standard;
+    const Index limit = options.maximum_vectors > 0 ? options.maximum_vectors : standard;
     m_maximum_panels = (std::min)(limit, problem.size() - 2 * panel_width) / panel_width;
   }
 
-  // `complete` tells whether no eigenvalue can be missing.
-  Ritz_pairs compute(bool verify, bool& complete)
+  Eigenpairs compute()
   {
     bool found = false;
     for(int attempt = 0; m_inside && attempt < 3 && shift_inside(); ++attempt) {
@@ -99,11 +95,12 @@ public:
       find_pairs();
     }
     // Of an L that is not positive semidefinite a shift inside knows nothing.
-    if(m_inside && lambda().minCoeff() < -(1e-3 + 10. * m_tolerance) * m_problem.shift())
+    if(m_inside && lambda().minCoeff() < -(1e-3 + 10. * m_options.tolerance) * m_problem.shift())
       throw Not_positive_definite();
     // Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
-    complete = verify && m_tolerance <= 1e-3 && (!may_be_incomplete(values()) || find_missing());
-    return pairs();
+    const bool complete =
+        m_options.verify && m_options.tolerance <= 1e-3 && (!may_be_incomplete(values()) || find_missing());
+    return pairs(complete);
   }
 
   // The one that was used.
@@ -119,7 +116,7 @@ private:
   {
     m_problem.report(0.);
     if(m_factorised != m_sigma)
-      m_factor.factorise(m_problem.shifted(m_sigma), m_space.threads());
+      m_factor.factorise(m_problem.shifted(m_sigma), m_options.threads);
     m_factorised = m_sigma;
   }
 
@@ -152,7 +149,7 @@ private:
   bool solves_well()
   {
     const Eigen::SparseMatrix<double> A = m_problem.shifted(m_sigma);
-    const Eigen::VectorXd b = A.diagonal(), x = m_factor.solve(b, m_space.threads());
+    const Eigen::VectorXd b = A.diagonal(), x = m_factor.solve(b, m_options.threads);
     return (A * x - b).norm() < 1e-13 * b.cwiseAbs().maxCoeff() * x.norm();
   }
 
@@ -175,7 +172,7 @@ private:
     for(Index i = 0; i < m_space.size(); ++i)
       for(int c = 0; c < panel_width; ++c)
         m_W.row(i)[c] = random_entry();
-    m_factor.solve(m_W, m_W, m_space.threads()); // smooth vectors are a better start
+    m_factor.solve(m_W, m_W, m_options.threads); // smooth vectors are a better start
     orthogonalise();
     orthogonalise();
     orthonormalise();
@@ -197,7 +194,7 @@ private:
   {
     const Index j = m_panels - 1, row = j * panel_width;
     std::swap(m_BV, m_BW); // left by orthonormalise()
-    m_factor.solve(m_BV, m_W, m_space.threads());
+    m_factor.solve(m_BV, m_W, m_options.threads);
     const Eigen::MatrixXd A = m_space.product(m_BV, m_W); // V_j^T (s B) S V_j
     m_space.subtract(m_W, m_basis[j], A);
     if(m_after_restart)
@@ -319,7 +316,7 @@ private:
   // tolerance of each other are equal to the iteration: a mixture of their vectors passes as converged.
   bool may_be_incomplete(const Eigen::VectorXd& values) const
   {
-    const double width = (std::max)(1e-5, 10. * m_tolerance);
+    const double width = (std::max)(1e-5, 10. * m_options.tolerance);
     Index group = 1;
     for(Index k = 1; k < m_K; ++k) {
       group = values(k) - values(k - 1) < width * (values(k) + m_problem.shift()) ? group + 1 : 1;
@@ -337,11 +334,9 @@ private:
     m_locked = true;
     for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
       m_problem.report(0.85);
-      Index missing = 0;
-      if(!count_missing(m_problem, values(), m_space.threads(), missing))
-        return false;
-      if(missing == 0)
-        return true;
+      const Index missing = count_missing(m_problem, values(), m_options.threads);
+      if(missing <= 0)
+        return missing == 0;
       compress(m_K / panel_width * panel_width);
       add_random_panel();
       iterate(m_maximum_panels * panel_width);
@@ -363,7 +358,7 @@ private:
       const bool full = m_panels == m_maximum_panels;
       if(full || dimension() >= next_check) {
         worst = solve_projected();
-        if(worst <= m_tolerance)
+        if(worst <= m_options.tolerance)
           return true;
         next_check = dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
         last_worst = worst;
@@ -375,7 +370,7 @@ private:
       }
       if(m_inside && !m_locked && worst > 1e-3)
         return false;
-      if(++restarts > m_maximum_iterations)
+      if(++restarts > m_options.maximum_iterations)
         throw std::runtime_error(
             "Eigenpairs: the block Lanczos iteration did not converge to the tolerance for " +
             std::to_string(m_K) + " eigenpairs; raise the tolerance or the number of iterations.");
@@ -391,7 +386,7 @@ private:
     const double rate = std::log(last_worst / worst) / double(distance);
     if(!(rate > 0.))
       return 2 * panel_width;
-    const double way = 0.6 * std::log(worst / m_tolerance) / rate;
+    const double way = 0.6 * std::log(worst / m_options.tolerance) / rate;
     return rounded_up(static_cast<Index>((std::min)(way, 6. * panel_width)) + 1);
   }
 
@@ -461,13 +456,13 @@ private:
   Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
 
   // Ritz vectors in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
-  Ritz_pairs pairs()
+  Eigenpairs pairs(bool complete)
   {
     compress(rounded_up(m_K));
     m_basis.erase(m_basis.begin() + m_panels, m_basis.end()); // before memory for the result is taken
-    Ritz_pairs result{values(), Eigen::MatrixXd(m_problem.size(), m_K)};
+    Eigenpairs result{values(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", complete};
     const double scale = std::sqrt(m_problem.shift());
-    for_each_task(static_cast<int>(m_K), m_space.threads(), [&](int k) {
+    for_each_task(static_cast<int>(m_K), m_options.threads, [&](int k) {
       const Panel& panel = m_basis[k / panel_width];
       for(Index i = 0; i < m_space.size(); ++i)
         result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
@@ -480,8 +475,7 @@ private:
 
   const Eigen_problem& m_problem;
   Index m_K;
-  double m_tolerance;
-  Index m_maximum_iterations;
+  const Eigenpairs_options& m_options;
   bool m_inside;  // the shift is among the wanted eigenvalues
   double m_sigma; // the shift
   double m_factorised = m_sigma;

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_EIGENPAIRS_EIGEN_PROBLEM_H
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
@@ -19,13 +20,6 @@
 #include <functional>
 
 namespace CGAL::Spectral_geometry::internal {
-
-// Approximate eigenpairs, B-orthonormal, in ascending order.
-struct Ritz_pairs
-{
-  Eigen::VectorXd values;
-  Eigen::MatrixXd vectors;
-};
 
 /// The larger of two in the middle, 0 of none.
 inline double median(Eigen::VectorXd numbers)
@@ -102,18 +96,18 @@ public:
       throw Cancelled();
   }
 
-  Eigen::VectorXd residuals(const Eigen::VectorXd& values, const Eigen::MatrixXd& vectors) const
+  Eigen::VectorXd residuals(const Eigenpairs& pairs) const
   {
     // Eight columns by rows: faster than one by one, and no second n x K matrix.
     using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
-    const Eigen::Index K = values.size();
+    const Eigen::Index K = pairs.size();
     Eigen::VectorXd result(K);
     for(Eigen::Index k = 0; k < K; k += 8) {
       const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
-      const Block phi = vectors.middleCols(k, columns);
+      const Block phi = pairs.vectors.middleCols(k, columns);
       Block r = L() * phi;
       const Block b = B() * phi;
-      r -= b * values.segment(k, columns).asDiagonal();
+      r -= b * pairs.values.segment(k, columns).asDiagonal();
       double squares[8] = {};
       for(Eigen::Index i = 0; i < size(); ++i)
         for(Eigen::Index c = 0; c < columns; ++c)
@@ -121,7 +115,7 @@ public:
       for(Eigen::Index c = 0; c < columns; ++c)
         result(k + c) = std::sqrt(squares[c]);
     }
-    return result.cwiseQuotient((values.array() + m_shift).matrix());
+    return result.cwiseQuotient((pairs.values.array() + m_shift).matrix());
   }
 
 private:
@@ -133,13 +127,13 @@ private:
 
 // A row without couplings, as of a vertex at which functions vanish, is an eigenvector of its own: of others it has exactly 0,
 // and a solver its tolerance.
-inline void clear_uncoupled_rows(const Eigen_problem& problem, Ritz_pairs& pairs)
+inline void clear_uncoupled_rows(const Eigen_problem& problem, Eigenpairs& pairs)
 {
   for(Eigen::Index v = 0; v < problem.size(); ++v) {
     if(problem.L().col(v).nonZeros() > 1 || problem.B().col(v).nonZeros() > 1)
       continue;
     const double own = problem.L().coeff(v, v) / problem.B().coeff(v, v);
-    for(Eigen::Index k = 0; k < pairs.values.size(); ++k)
+    for(Eigen::Index k = 0; k < pairs.size(); ++k)
       if(std::abs(pairs.values(k) - own) > 1e-3 * (own + problem.shift()))
         pairs.vectors(v, k) = 0.;
   }

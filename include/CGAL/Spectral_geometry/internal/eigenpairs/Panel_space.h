@@ -116,8 +116,6 @@ public:
     });
   }
 
-  int threads() const { return m_threads; }
-
 private:
   // Calls f(first row, number of rows, range) for blocks of so many rows at most, those of a range in order.
   template <class Function>

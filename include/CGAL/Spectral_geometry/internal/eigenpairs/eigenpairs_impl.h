@@ -15,12 +15,11 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <utility>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
 
-inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
+inline Eigenpairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
 {
   // In units of 1/shift: the solver compares with absolute thresholds.
   const double s = problem.shift();
@@ -28,7 +27,12 @@ inline Ritz_pairs dense_eigenpairs(const Eigen_problem& problem, Eigen::Index K)
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(L, B);
   if(solver.info() != Eigen::Success)
     throw std::runtime_error("Eigenpairs: the dense eigensolver did not converge.");
-  return {(s * solver.eigenvalues().head(K)).cwiseMax(0.), std::sqrt(s) * solver.eigenvectors().leftCols(K)};
+  Eigenpairs result;
+  result.values = (s * solver.eigenvalues().head(K)).cwiseMax(0.);
+  result.vectors = std::sqrt(s) * solver.eigenvectors().leftCols(K);
+  result.solver = "dense";
+  result.complete = true;
+  return result;
 }
 
 inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
@@ -54,25 +58,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   internal::check_eigenpairs_options(options, K);
 
   const Eigen::Index zeros = number_of_zero_eigenvalues(op);
-  internal::Ritz_pairs pairs;
-  Eigenpairs result;
   problem.report(0.);
-  if(internal::is_dense(problem.size(), K, options.method)) {
-    pairs = internal::dense_eigenpairs(problem, K);
-    result.solver = "dense";
-    result.complete = true;
-  } else {
-    internal::Block_lanczos lanczos(problem, K, zeros <= internal::panel_width / 2, options.tolerance,
-                                    options.maximum_iterations, options.maximum_vectors, options.threads);
-    pairs = lanczos.compute(options.verify, result.complete);
-    result.solver = "block";
-  }
-  internal::clear_uncoupled_rows(problem, pairs);
-  internal::fix_signs(pairs.vectors);
+  Eigenpairs result =
+      internal::is_dense(problem.size(), K, options.method)
+          ? internal::dense_eigenpairs(problem, K)
+          : internal::Block_lanczos(problem, K, zeros <= internal::panel_width / 2, options).compute();
+  internal::clear_uncoupled_rows(problem, result);
+  internal::fix_signs(result.vectors);
   result.zeros = zeros;
-  result.residuals = problem.residuals(pairs.values, pairs.vectors);
-  result.values = std::move(pairs.values);
-  result.vectors = std::move(pairs.vectors);
+  result.residuals = problem.residuals(result);
   problem.report(1.);
   return result;
 }

@@ -144,8 +144,7 @@ inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pa
                                          const Spectral_geometry::Laplace_operator& op,
                                          const Spectral_geometry::Mass mass)
 {
-  const Eigen::VectorXd residuals =
-      Spectral_geometry::internal::Eigen_problem(op).residuals(pairs.values, pairs.vectors);
+  const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op).residuals(pairs);
   const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
