@@ -33,11 +33,10 @@ namespace {
 class Polynomial_signals : public SG::Position_dependent_signals
 {
 public:
-  Eigen::Index number_of_signals() const override { return 35; } // more than one panel
   void evaluate(const Positions& V, Rows& F, Rows& Z) override
   {
     m_V = V;
-    F.resize(V.rows(), 35);
+    F.resize(V.rows(), 35); // more than one panel
     Z.resize(V.rows(), 35);
     for(Eigen::Index w = 0; w < V.rows(); ++w)
       for(int k = 0; k < 35; ++k) {

@@ -33,8 +33,6 @@ public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   virtual ~Position_dependent_signals() = default;
-  /// K, the number of signals.
-  virtual Eigen::Index number_of_signals() const = 0;
   /// writes the n x K signals F and their Laplacians Z at the n positions V.
   virtual void evaluate(const Positions& V, Rows& F, Rows& Z) = 0;
   /// adds to the gradient what derivatives with respect to the entries of F and Z, where they were evaluated last, mean

@@ -33,8 +33,6 @@ public:
     , m_threads(threads)
   {}
 
-  Eigen::Index number_of_signals() const override { return m_F.cols(); }
-
   void evaluate(const Positions& V, Rows& F, Rows& Z) override
   {
     F.resize(V.rows(), m_F.cols());
