@@ -122,7 +122,6 @@ private:
   void find_duplicates(std::vector<std::pair<Key, std::size_t>>& faces)
   {
     std::sort(faces.begin(), faces.end());
-    std::vector<std::pair<std::size_t, std::size_t>> duplicates;
     for(std::size_t i = 0, j; i < faces.size(); i = j) {
       for(j = i + 1; j < faces.size() && faces[j].first == faces[i].first;)
         ++j;
@@ -133,10 +132,9 @@ private:
         std::sort(vertices.begin(), vertices.end());
         const auto [found, is_new] = first.emplace(vertices, f);
         if(!is_new)
-          duplicates.emplace_back(f, found->second);
+          add_smallest(m_result.duplicate_faces, {f, found->second});
       }
     }
-    add_sorted(duplicates, m_result.duplicate_faces);
   }
 
   // Those of a vertex side by side by counting, then each vertex' own: they are few. Sorted at once, a mesh of a million
@@ -167,7 +165,6 @@ private:
   void examine_edges()
   {
     m_border.assign(m_n, false);
-    std::vector<std::pair<std::size_t, std::size_t>> misoriented;
     for(std::size_t i = 0, j; i < m_sides.size(); i = j) {
       const Side& side = m_sides[i];
       for(j = i; j < m_sides.size() && m_sides[j].low == side.low && m_sides[j].high == side.high;)
@@ -175,13 +172,12 @@ private:
       if(j - i > 2)
         m_result.non_manifold_edges.add(side.low, side.high);
       else if(j - i == 2 && side.forward == m_sides[i + 1].forward)
-        misoriented.emplace_back(side.face, m_sides[i + 1].face);
+        add_smallest(m_result.misoriented_edges, {side.face, m_sides[i + 1].face});
       else if(j - i == 1)
         m_border[side.low] = m_border[side.high] = true;
       if(point(side.low) == point(side.high))
         m_result.zero_length_edges.add(side.low, side.high);
     }
-    add_sorted(misoriented, m_result.misoriented_edges);
   }
 
   // The corners of a vertex that edges join form one fan.
@@ -244,13 +240,11 @@ private:
       if(m_finite[v])
         order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
     std::sort(order.begin(), order.end());
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
     for(std::size_t i = 1, first = 0; i < order.size(); ++i)
       if(order[i].first != order[first].first)
         first = i;
       else if(!joined(order[first].second, order[i].second) && !joined(order[i - 1].second, order[i].second))
-        pairs.emplace_back(order[i].second, order[first].second);
-    add_sorted(pairs, m_result.coincident_vertices);
+        add_smallest(m_result.coincident_vertices, {order[i].second, order[first].second});
   }
 
   // Cells of level l are 2^(l + 1) wide and hold those that reach at least 2^l, and less than that: what is near lies in one of 27, and
@@ -325,11 +319,11 @@ private:
         m_result.components.push_back(c);
   }
 
-  static void add_sorted(std::vector<std::pair<std::size_t, std::size_t>>& pairs, Mesh_finding& finding)
+  // Of those that do not come in their order the smallest counts as the first.
+  static void add_smallest(Mesh_finding& finding, const std::pair<std::size_t, std::size_t>& found)
   {
-    std::sort(pairs.begin(), pairs.end());
-    for(const auto& [first, second] : pairs)
-      finding.add(first, second);
+    if(finding.count++ == 0 || found < std::pair(finding.first, finding.second))
+      std::tie(finding.first, finding.second) = found;
   }
 
   const Eigen::MatrixXd& m_V;
