@@ -72,10 +72,10 @@ public:
     const Index n = m_start.size(), nL = m_stiffness.size();
     Vector g;
     const Vector own = scaled(m_start);
-    result.objective_before = objective(own, g);
+    result.objective_before = evaluate(own, g);
     // Slacks s and multipliers z, both positive; g is half the gradient.
     Vector s = (m_start - m_lowest).cwiseMax(0.01 * m_typical);
-    double f = objective(m_lowest + s, g);
+    double f = evaluate(m_lowest + s, g);
     Vector z = (0.1 * f / n) * s.cwiseInverse();
     while(!result.converged && result.iterations < m_options.maximum_iterations) {
       if(m_options.progress && !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
@@ -95,7 +95,7 @@ public:
     Vector x = m_lowest + s;
     result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
     x = scaled(x);
-    result.objective_after = objective(x, g);
+    result.objective_after = evaluate(x, g);
     if(!(result.objective_after < result.objective_before)) {
       x = own;
       result.objective_after = result.objective_before;
@@ -288,10 +288,8 @@ private:
     m_H.setFromTriplets(lower.begin(), lower.end());
   }
 
-  double objective(const Vector& x, Vector& g) { return evaluate(x, true, g); }
-
   // The objective and half its gradient; or, for a direction, Q x. Two passes over the rows of G, by blocks that stay in the cache.
-  double evaluate(const Vector& x, bool affine, Vector& g)
+  double evaluate(const Vector& x, Vector& g, bool affine = true)
   {
     const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(), panels = m_G.panels();
     const Sparse_matrix L = m_stiffness.matrix(x.head(nL)), B = m_mass.matrix(x.tail(nB));
@@ -420,7 +418,7 @@ private:
         break;
       p = m_steps == 0 ? y : Vector(y + (next / last) * p);
       last = next;
-      evaluate(p, false, q);
+      evaluate(p, q, false);
       const Vector Mp = q + barrier.cwiseProduct(p);
       const double step = next / p.dot(Mp);
       dx += step * p;
