@@ -145,21 +145,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const
   }
 }
 
-} // namespace internal
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
-                                                                        const Eigen::MatrixXi& T)
-{
-  internal::check_positions(V);
-  internal::check_triangles(T, V.rows());
-  Eigen::MatrixXd corner_masses(T.rows(), 3);
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
-  return corner_masses;
-}
-
-namespace internal {
-
 // What a face adds: cotangents, area, and the lumped mass of its corners.
 struct Face_element
 {
@@ -247,6 +232,17 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eige
                                                                       const Eigen::Vector3d& r)
 {
   return internal::cotangents_of(p, q, r, {});
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
+                                                                        const Eigen::MatrixXi& T)
+{
+  internal::check_positions(V);
+  internal::check_triangles(T, V.rows());
+  Eigen::MatrixXd corner_masses(T.rows(), 3);
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    corner_masses.row(f).setConstant(internal::checked_cotangents(V, T, f).area / 3.);
+  return corner_masses;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
