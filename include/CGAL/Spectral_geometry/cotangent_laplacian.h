@@ -114,6 +114,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::
                                                                    const int (&corners)[3],
                                                                    const Operator_coefficients& coefficients);
 
+/// Refuses a face without area; `who` begins the sentence, `mesh` says in a word which one it is.
+inline void check_areas(const char* const who, const char* const mesh, const Eigen::MatrixXd& V,
+                        const Eigen::MatrixXi& T)
+{
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    require(triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2))).area > 0, who, face_name(f),
+            " of the ", mesh, " mesh has no area; remove it.");
+}
+
 /// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal index may matter: `index` gets the
 /// numbers of the vertices as they come.
 template <class Mesh, class NamedParameters, class Index_map>

@@ -62,11 +62,7 @@ public:
 
   Positions run(Relocation_result& result)
   {
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
-      require(
-          triangle_cotangents(m_start.row(m_T(f, 0)), m_start.row(m_T(f, 1)), m_start.row(m_T(f, 2))).area >
-              0,
-          "relocation: ", face_name(f), " of the coarse mesh has no area; remove it.");
+    check_areas("relocation: ", "coarse", m_start, m_T);
     Guarded_descent<Relocation_objective, Relocation_guards> descent(
         *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
     result.E_before = m_objective->E(m_start);

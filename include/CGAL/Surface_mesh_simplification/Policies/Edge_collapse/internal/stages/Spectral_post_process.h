@@ -159,20 +159,15 @@ private:
   {
     using namespace Spectral_geometry;
     const Mesh_matrices mesh = coarse();
-    std::string obstacle;
     try {
       laplace_operator(mesh.V, mesh.T, local_operator());
+      if(needs_areas)
+        Spectral_geometry::internal::check_areas("", "simplified", mesh.V, mesh.T);
     } catch(const std::invalid_argument& error) {
-      obstacle = error.what();
+      m_result.warnings.push_back(consequence + std::string(error.what()));
+      return false;
     }
-    for(Eigen::Index f = 0; f < mesh.T.rows() && needs_areas && obstacle.empty(); ++f)
-      if(!(triangle_cotangents(mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)), mesh.V.row(mesh.T(f, 2)))
-               .area > 0))
-        obstacle =
-            Spectral_geometry::internal::face_name(f)() + " of the simplified mesh has no area; remove it.";
-    if(!obstacle.empty())
-      m_result.warnings.push_back(consequence + obstacle);
-    return obstacle.empty();
+    return true;
   }
 
   void flip(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
