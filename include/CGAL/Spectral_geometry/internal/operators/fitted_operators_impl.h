@@ -20,11 +20,11 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -173,22 +173,21 @@ private:
     const double largest = 1e3 * scale;
     for(auto& ring : rings)
       std::sort(ring.begin(), ring.end());
-    const auto edge = [&](Index a, Index b) -> Edge& {
-      return edges[std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)))->second];
+    const auto edge = [&](Index a, Index b) { // or null
+      const auto found = std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)));
+      return found != rings[a].end() && found->first == b ? &edges[found->second] : nullptr;
     };
     for(Edge& e : edges) {
       e.weight = e.left = (std::min)((std::max)(e.weight, -largest), largest);
-      const bool i_has_less = rings[e.i].size() < rings[e.j].size();
-      const auto &few = rings[i_has_less ? e.i : e.j], &many = rings[i_has_less ? e.j : e.i];
-      for(const auto& p : few) {
-        const auto q = std::lower_bound(many.begin(), many.end(), std::make_pair(p.first, Index(0)));
-        if(q != many.end() && q->first == p.first)
-          e.opposite.push_back(p.first);
-      }
+      const auto [few, many] =
+          rings[e.i].size() < rings[e.j].size() ? std::pair(e.i, e.j) : std::pair(e.j, e.i);
+      for(const auto& r : rings[few])
+        if(edge(many, r.first))
+          e.opposite.push_back(r.first);
       if(e.weight < 0.)
         for(const Index k : e.opposite) {
-          ++edge(e.i, k).thin;
-          ++edge(e.j, k).thin;
+          ++edge(e.i, k)->thin;
+          ++edge(e.j, k)->thin;
         }
     }
     for(Edge& e : edges)
@@ -232,22 +231,21 @@ private:
   void add_thin_triangles(Edge& e, const Find& edge, double scale)
   {
     double capacity = 0.;
-    std::vector<std::array<double, 3>> shares; // a, b, k
+    std::vector<std::tuple<double, double, Index>> shares; // a, b, k
     for(const Index k : e.opposite) {
-      const Edge &ik = edge(e.i, k), &jk = edge(e.j, k);
+      const Edge &ik = *edge(e.i, k), &jk = *edge(e.j, k);
       const double a = (std::max)(ik.weight, 0.) / ik.thin, b = (std::max)(jk.weight, 0.) / jk.thin;
       if(a > 0. && b > 0.) {
-        shares.push_back({a, b, double(k)});
+        shares.emplace_back(a, b, k);
         capacity += a * b / (a + b);
       }
     }
     const double part = capacity > 0. ? (std::min)(1., -e.weight / capacity) : 0.;
-    for(const auto& share : shares) {
-      const double q = part * (share[0] + share[1]), t = share[1] / (share[0] + share[1]);
-      const Index k = static_cast<Index>(share[2]);
+    for(const auto& [a, b, k] : shares) {
+      const double q = part * (a + b), t = b / (a + b);
       m_stiffness.add({{k, 1.}, {e.i, t - 1.}, {e.j, -t}}, q, 0., scale + q);
-      edge(e.i, k).left -= q * (1. - t);
-      edge(e.j, k).left -= q * t;
+      edge(e.i, k)->left -= q * (1. - t);
+      edge(e.j, k)->left -= q * t;
       e.left += q * t * (1. - t);
     }
   }
