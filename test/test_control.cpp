@@ -7,6 +7,8 @@
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
@@ -321,6 +323,18 @@ TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the poli
   collapse(mesh, policies, 50);
   CHECK(count_vertices(mesh) == 50);
   CHECK(fault_of_run(mesh, policies, fine) == "");
+}
+
+TEST_CASE("The number of vertices stops a run that no policies follow")
+{
+  Mesh mesh = make_mesh(wavy_grid_matrices(12, 12));
+  const Policies policies(mesh, options_with(10));
+  const SMS::Spectral_stop_predicate stop(policies, 100);
+  SMS::edge_collapse(mesh, stop,
+                     CGAL::parameters::get_cost(SMS::Edge_length_cost<Mesh>())
+                         .get_placement(SMS::Midpoint_placement<Mesh>()));
+  CHECK(stop.reached());
+  CHECK(count_vertices(mesh) == 100);
 }
 
 } // namespace test_control

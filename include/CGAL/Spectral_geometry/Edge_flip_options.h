@@ -65,8 +65,8 @@ struct Edge_flip
 struct Edge_flip_result
 {
   std::vector<Edge_flip> flips; ///< in this order
-  double E_before = 0;          ///< E (Eq. 2), in the scale of the positions
-  double E_after = 0;           ///< see `E_before`
+  double E_before = 0; ///< E (Eq. 2), in the scale of the positions; infinite where a vertex has no mass
+  double E_after = 0;  ///< see `E_before`
   /// flips that the criterion asked for and that total area or volume did not allow, counted each time
   std::size_t refused_for_size = 0;
   /// the same, because a new triangle would have intersected another

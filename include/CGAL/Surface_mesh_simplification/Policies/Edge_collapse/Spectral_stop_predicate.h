@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_STOP_PREDICATE_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_error_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 
 #include <algorithm>
@@ -51,6 +52,7 @@ public:
     : m_state(policies.shared_state())
     , m_target(number_of_vertices)
     , m_bound(maximum_error)
+    , m_count_stop(number_of_vertices, m_state->mesh())
     , m_error_stop(policies, maximum_error, placement)
   {}
 
@@ -61,7 +63,7 @@ public:
   {
     if(m_state->number_of_runs() != m_run)
       begin_run();
-    m_reached = m_state->number_of_vertices() <= m_target;
+    m_reached = m_count_stop(cost, profile, initial, current);
     if(m_reached)
       return true;
     // A hundred reports in all: a callback may well draw something.
@@ -104,6 +106,8 @@ private:
   std::shared_ptr<typename Policies::State> m_state;
   std::size_t m_target;
   double m_bound;
+  Vertex_count_stop_predicate<typename Policies::Triangle_mesh>
+      m_count_stop; // of the mesh, whoever follows it
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
   // The run that the rest is of, and its number of vertices at the first call.
   mutable std::size_t m_run = 0, m_begin = 0;

@@ -84,7 +84,10 @@ public:
   const Spectral_candidate& insert(const Spectral_slot u, const Spectral_candidate& candidate)
   {
     Spectral_candidate& c = find_or_add(u, candidate.other);
-    c = candidate;
+    static_cast<Spectral_sample&>(c) =
+        candidate; // not `other`, which is read on the way to the entries behind it
+    c.deferred = candidate.deferred;
+    c.at_another_point = candidate.at_another_point;
     c.version = m_version;
     return c;
   }

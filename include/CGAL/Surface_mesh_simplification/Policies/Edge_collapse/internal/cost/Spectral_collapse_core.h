@@ -184,8 +184,10 @@ private:
   Spectral_shape_term m_shape;
   Spectral_crossing_guard m_crossing;
   Eigen::Index m_number_of_signals = 0;
-  std::vector<std::pair<Spectral_slot, Spectral_slot>>
-      m_batch; // edges around a vertex that are not put off, the smaller slot first
+  // Edges around a vertex that are not put off, the smaller slot first, and who is a neighbour of it: whose mark is m_mark.
+  std::vector<std::pair<Spectral_slot, Spectral_slot>> m_batch;
+  std::vector<std::size_t> m_marks;
+  std::size_t m_mark = 0;
 
   Sum m_total;
   double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point

@@ -339,10 +339,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() c
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)
 {
   m_batch.clear();
+  m_marks.resize(m_fields.points.size(), 0);
+  ++m_mark;
+  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
+    m_marks[neighbor.vertex] = m_mark;
   // An edge between two neighbours is in both of their rings.
   for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
     for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex]) {
-      const bool inner = e.vertex != kept && m_fields.rings.are_adjacent(kept, e.vertex);
+      const bool inner = m_marks[e.vertex] == m_mark;
       if(inner && e.vertex < neighbor.vertex)
         continue;
       const auto [u, v] = std::minmax(neighbor.vertex, e.vertex);

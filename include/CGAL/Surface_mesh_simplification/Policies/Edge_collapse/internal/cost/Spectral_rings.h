@@ -193,8 +193,8 @@ private:
     return j;
   }
 
-  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were consecutive, the triangle between them vanished and the later of the
-  // two entries takes the place of both: an entry carries the face that follows it.
+  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were consecutive, the triangle between them vanished
+  // and the later of the two entries takes the place of both: an entry carries the face that follows it.
   // Returns the index from which on entries have moved.
   std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed, const Spectral_slot kept)
   {
