@@ -313,25 +313,42 @@ CGAL_SPECTRAL_INLINE void backward_body(const Supernode& s, double* x)
   }
 }
 
-/// Calls `wide` where the machine has wide vector units, otherwise `baseline`.
-template <auto wide, auto baseline>
-struct Panel_kernel
+inline void gram(const double* P, const double* W, std::ptrdiff_t rows, double* H)
 {
-  template <class... Argument>
-  void operator()(const Argument&... a) const
-  {
-    on_vector_units([&] { wide(a...); }, [&] { baseline(a...); });
-  }
-};
+  on_vector_units([&] { gram_body<Wide_panel_row>(P, W, rows, H); },
+                  [&] { gram_body<Panel_row>(P, W, rows, H); });
+}
 
-inline constexpr Panel_kernel<gram_body<Wide_panel_row>, gram_body<Panel_row>> gram;
-inline constexpr Panel_kernel<subtract_product_body<Wide_panel_row>, subtract_product_body<Panel_row>>
-    subtract_product;
-inline constexpr Panel_kernel<multiply_body<Wide_panel_row>, multiply_body<Panel_row>> multiply;
-inline constexpr Panel_kernel<multiply_block_body<Wide_panel_row>, multiply_block_body<Panel_row>>
-    multiply_block;
-inline constexpr Panel_kernel<forward_body<Wide_panel_row>, forward_body<Panel_row>> forward;
-inline constexpr Panel_kernel<backward_body<Wide_panel_row>, backward_body<Panel_row>> backward;
+inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, const double* H)
+{
+  on_vector_units([&] { subtract_product_body<Wide_panel_row>(W, P, rows, H); },
+                  [&] { subtract_product_body<Panel_row>(W, P, rows, H); });
+}
+
+inline void multiply(const int* start, const int* column, const double* value, const double* x, double* y,
+                     std::ptrdiff_t begin, std::ptrdiff_t end)
+{
+  on_vector_units([&] { multiply_body<Wide_panel_row>(start, column, value, x, y, begin, end); },
+                  [&] { multiply_body<Panel_row>(start, column, value, x, y, begin, end); });
+}
+
+inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A, std::ptrdiff_t a,
+                           const double* T, std::ptrdiff_t count, std::ptrdiff_t rows, bool subtracted)
+{
+  on_vector_units(
+      [&] { multiply_block_body<Wide_panel_row>(C, c, columns, A, a, T, count, rows, subtracted); },
+      [&] { multiply_block_body<Panel_row>(C, c, columns, A, a, T, count, rows, subtracted); });
+}
+
+inline void forward(const Supernode& s, double* x)
+{
+  on_vector_units([&] { forward_body<Wide_panel_row>(s, x); }, [&] { forward_body<Panel_row>(s, x); });
+}
+
+inline void backward(const Supernode& s, double* x)
+{
+  on_vector_units([&] { backward_body<Wide_panel_row>(s, x); }, [&] { backward_body<Panel_row>(s, x); });
+}
 
 } // namespace CGAL::Spectral_geometry::internal
 

@@ -111,8 +111,14 @@ CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* colu
     }
 }
 
-inline constexpr Panel_kernel<sampled_product_body<Wide_panel_row>, sampled_product_body<Panel_row>>
-    sampled_product;
+inline void sampled_product(const int* start, const int* column, const double* A, std::ptrdiff_t A_panel,
+                            const double* G, std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
+                            std::ptrdiff_t rows)
+{
+  on_vector_units(
+      [&] { sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); },
+      [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); });
+}
 
 } // namespace CGAL::Spectral_geometry::internal
 
