@@ -15,6 +15,7 @@
 #include "collapse_helpers.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -167,6 +168,38 @@ TEST_CASE("What a call of the pool throws reaches the caller, and the pool goes 
     pool.for_each(1000, 4, [&](std::size_t, Scratch&) { ++calls; });
     CHECK(calls == 1000);
   }
+}
+
+TEST_CASE("Where a worker is held up the caller does the next calls alone, and is helped again afterwards")
+{
+  struct Scratch
+  {};
+  CGAL::Spectral_geometry::internal::Thread_pool<Scratch> pool(2);
+  REQUIRE(pool.number_of_threads() == 2);
+  const std::thread::id caller = std::this_thread::get_id();
+  // Two calls, of which the worker does one at least, if it comes within five seconds.
+  const auto worker_comes = [&](const int milliseconds) {
+    std::atomic<bool> came{false};
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    pool.for_each(2, 1, [&](std::size_t, Scratch&) {
+      if(std::this_thread::get_id() != caller) {
+        came = true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+      }
+      while(!came && std::chrono::steady_clock::now() < end)
+        std::this_thread::yield();
+    });
+    return bool(came);
+  };
+  REQUIRE(worker_comes(50));
+  std::atomic<int> by_worker{0};
+  const auto count = [&](std::size_t, Scratch&) { by_worker += std::this_thread::get_id() != caller; };
+  for(int loop = 0; loop < 100; ++loop)
+    pool.for_each(64, 1, count);
+  CHECK(by_worker == 0);
+  for(int loop = 0; loop < 1000; ++loop)
+    pool.for_each(64, 1, count);
+  CHECK(worker_comes(0));
 }
 
 TEST_CASE("A pool does with the threads it gets, and ends them if its construction fails")

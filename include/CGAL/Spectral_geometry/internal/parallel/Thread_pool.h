@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -74,7 +75,8 @@ public:
   template <class Body>
   void for_each(const std::size_t n, const std::size_t grain, const Body& body)
   {
-    if(m_workers.empty() || n <= grain) {
+    if(m_workers.empty() || n <= grain || n <= m_alone) {
+      m_alone -= (std::min)(m_alone, n);
       for(std::size_t i = 0; i < n; ++i)
         body(i, m_workspaces.front());
       return;
@@ -90,14 +92,14 @@ public:
     announce();
     take_part(m_workspaces.front());
     m_gate.fetch_and(~open_bit);
-    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins)
-      relax(spins);
+    wait_for_workers();
     if(m_error)
       std::rethrow_exception(std::exchange(m_error, nullptr));
   }
 
 private:
-  static constexpr std::size_t patience = 20000; // spins, about a millisecond on an idle machine
+  static constexpr std::size_t patience = 20000;     // spins, about a millisecond on an idle machine
+  static constexpr std::size_t most_alone = 1 << 19; // calls, about half a second of collapses
 
   static void relax(const std::size_t spins)
   {
@@ -106,6 +108,23 @@ private:
 #ifdef CGAL_SPECTRAL_DISPATCH
     _mm_pause();
 #endif
+  }
+
+  // A worker that does not come out for a millisecond has lost its processor to somebody else. Where that happens the caller does the
+  // next calls alone, twice as many each time, while workers fall asleep: awake they would take the caller's processor, too.
+  void wait_for_workers()
+  {
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point begin;
+    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins) {
+      if(spins == 0)
+        begin = Clock::now();
+      relax(spins);
+    }
+    if(begin != Clock::time_point() && Clock::now() - begin > std::chrono::milliseconds(1)) {
+      m_alone = m_next_alone;
+      m_next_alone = (std::min)(2 * m_next_alone, most_alone);
+    }
   }
 
   // The gate: number of the loop, whether it is open, how many workers are inside.
@@ -199,6 +218,8 @@ private:
   const void* m_body = nullptr;
   std::size_t m_size = 0, m_grain = 1;
   std::exception_ptr m_error; // the first that a call has thrown
+  std::size_t m_alone = 0,
+              m_next_alone = 1 << 15; // calls that the caller does without workers, and the next time
 
   // Each in a cache line of its own: who waits reads the first of them all the time.
   alignas(cache_line) std::atomic<std::uint64_t> m_gate{0};
