@@ -194,7 +194,7 @@ TEST_CASE("Where a worker is held up the caller does the next calls alone, and i
   REQUIRE(worker_comes(50));
   std::atomic<int> by_worker{0};
   const auto count = [&](std::size_t, Scratch&) { by_worker += std::this_thread::get_id() != caller; };
-  for(int loop = 0; loop < 100; ++loop)
+  for(int loop = 0; loop < 50; ++loop)
     pool.for_each(64, 1, count);
   CHECK(by_worker == 0);
   for(int loop = 0; loop < 1000; ++loop)

@@ -219,7 +219,7 @@ private:
   std::size_t m_size = 0, m_grain = 1;
   std::exception_ptr m_error; // the first that a call has thrown
   std::size_t m_alone = 0,
-              m_next_alone = 1 << 15; // calls that the caller does without workers, and the next time
+              m_next_alone = 1 << 12; // calls that the caller does without workers, and the next time
 
   // Each in a cache line of its own: who waits reads the first of them all the time.
   alignas(cache_line) std::atomic<std::uint64_t> m_gate{0};
