@@ -17,6 +17,7 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 #include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>
 #include <CGAL/Spectral_geometry/internal/flips/edge_flips_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/eigenpairs/filtered_signals_impl.h>
 #include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>
 #include <CGAL/Spectral_geometry/internal/maps/functional_map_estimation_impl.h>
 #include <CGAL/Spectral_geometry/internal/maps/functional_map_impl.h>
