@@ -25,7 +25,7 @@ struct Filtered_signals_options
   Eigen::Index signals = 16; ///< r, at least 1; computed eight at a time
   std::uint64_t seed = 1;    ///< of the noise
   /// m, solves with the factor for eight signals, from 3 to 32; the more, the sharper the filter
-  int solves = 8;
+  int solves = 5;
   int threads = 1; ///< at least 1; the result does not depend on it
   /// is called with the fraction done, in [0, 1]; returns false to cancel
   std::function<bool(double)> progress;

@@ -62,17 +62,24 @@ struct Low_pass
   static constexpr double rho = 2.; // s / lambda_K
 };
 
-/// Random signs for the vectors that B is a sum of, one word of 64 for each.
+/// Random signs for the vectors that B is a sum of: eight of them, those of one panel, for a pair of
+/// vertices.
 class Signs
 {
 public:
-  explicit Signs(std::uint64_t seed)
-    : m_seed(mixed(seed))
-  {}
-
-  std::uint64_t operator()(std::uint64_t i, std::uint64_t j, std::uint64_t word) const
+  Signs(std::uint64_t seed, Index panel)
+    : m_key(mixed(mixed(seed) + std::uint64_t(panel / 8)))
+    , m_shift(int(panel % 8) * 8)
   {
-    return mixed(mixed(mixed(m_seed + i) + j) + word);
+    for(int byte = 0; byte < 256; ++byte)
+      for(int c = 0; c < panel_width; ++c)
+        m_rows[byte][c] = (byte >> c & 1) != 0 ? 1. : -1.;
+  }
+
+  const double* operator()(int u, int v) const
+  {
+    const auto [low, high] = std::minmax(std::uint64_t(u), std::uint64_t(v));
+    return m_rows[mixed(m_key ^ (high << 32 | low)) >> m_shift & 255];
   }
 
 private:
@@ -85,7 +92,9 @@ private:
     return z ^ (z >> 31);
   }
 
-  std::uint64_t m_seed;
+  std::uint64_t m_key;
+  int m_shift;
+  double m_rows[256][panel_width];
 };
 
 /// Counts eigenvalues, then filters noise, with one structure of the factor for both.
@@ -173,32 +182,22 @@ private:
     }
   }
 
-  // b = B w / sqrt(r), eight columns.
-  void add_noise(Index panel, Panel& b) const
+  // b = factor B w / sqrt(r), eight columns.
+  void make_noise(Index panel, double factor, Panel& b) const
   {
-    const Signs signs(m_options.seed);
-    const double scale = 1. / std::sqrt(double(m_options.signals));
+    const Signs signs(m_options.seed, panel);
+    factor /= std::sqrt(double(m_options.signals));
     for_each_range([&](Index first, Index last) {
       for(Index i = first; i < last; ++i) {
-        const std::uint64_t v = std::uint64_t(m_factor.order()[std::size_t(i)]);
-        Panel_row sum = Panel_row::Zero();
-        const auto add = [&](std::uint64_t u, double positive, double negative) {
-          const std::uint64_t bits =
-              signs((std::min)(u, v), (std::max)(u, v), std::uint64_t(panel / 8)) >>
-              (panel % 8 * 8);
-          for(int c = 0; c < panel_width; ++c)
-            sum[c] += (bits >> c & 1) != 0 ? positive : negative;
-        };
+        const int v = m_factor.order()[std::size_t(i)];
+        Panel_row sum = m_rest[i] * Panel_row::Map(signs(v, v));
         for(Sparse_matrix::InnerIterator it(m_roots, i); it; ++it) {
           // One end of a pair of negative mass has the other sign.
-          const std::uint64_t u = std::uint64_t(m_factor.order()[std::size_t(it.row())]);
-          const double root = it.value() < 0. && u > v ? it.value() : std::abs(it.value());
-          if(u == v)
-            add(u, m_rest[i], -m_rest[i]);
-          else
-            add(u, root, -root);
+          const int u = m_factor.order()[std::size_t(it.row())];
+          const double root = u > v ? it.value() : std::abs(it.value());
+          sum += root * Panel_row::Map(signs(u, v));
         }
-        Panel_row::Map(b.row(i)) = scale * sum;
+        Panel_row::Map(b.row(i)) = factor * sum;
       }
     });
   }
@@ -223,9 +222,8 @@ private:
         m_problem.report(0.3 + 0.7 * done / double(m_panels * m_options.solves));
       };
       // last = T_j X w, before = T_{j-1} X w, y = their sum so far
-      add_noise(panel, x);
-      for_each_range([&](Index first, Index end) { rows(x, first, end) *= s; });
-      solve(x, last);
+      make_noise(panel, s, b);
+      solve(b, last);
       for_each_range(
           [&](Index first, Index end) { rows(y, first, end) = a[0] * rows(last, first, end); });
       for(Index j = 1; j < a.size(); ++j) {
