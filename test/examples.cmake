@@ -82,11 +82,12 @@ endif()
 
 if(TARGET spectral_simplification AND TARGET spectral_simplify)
   function(spectral_add_python_test name)
-    add_test(NAME "${name}" COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=$<TARGET_FILE_DIR:spectral_simplification>"
+    add_test(NAME "${name}" COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${PROJECT_BINARY_DIR}/examples/python"
                                     PYTHONDONTWRITEBYTECODE=1 "${SPECTRAL_PYTHON_EXECUTABLE}" ${ARGN})
     set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT 600 COST 145) # long ones come first
   endfunction()
   spectral_add_python_test("python" "${CMAKE_CURRENT_SOURCE_DIR}/python_test.py" $<TARGET_FILE:spectral_simplify>)
+  spectral_add_python_test("python-package" "${CMAKE_CURRENT_SOURCE_DIR}/python_package_test.py" $<TARGET_FILE:spectral_simplify>)
   set(adapters_test "${CMAKE_CURRENT_SOURCE_DIR}/python_adapters_test.py" "${PROJECT_SOURCE_DIR}/examples/python")
   spectral_add_python_test("python-adapters" ${adapters_test} Adapters)
   execute_process(COMMAND "${SPECTRAL_PYTHON_EXECUTABLE}" -c "import matplotlib" RESULT_VARIABLE no_matplotlib

@@ -2,7 +2,7 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python_adapters_test.py ADAPTERS Adapters|Script: the adapters of the folder ADAPTERS against what pyFM and geomfum have, as far as the adapters use
+# python_adapters_test.py FOLDER Adapters|Script: the adapters of the package against what pyFM and geomfum have, as far as the adapters use
 # it; where these packages are installed they are used themselves. And the script, which needs Matplotlib.
 
 import importlib.util
@@ -18,8 +18,7 @@ import spectral_simplification as ss
 from python_shapes import sphere
 
 if len(sys.argv) > 1:
-    ADAPTERS = os.path.abspath(sys.argv.pop(1))
-    sys.path.append(ADAPTERS)
+    FOLDER = os.path.abspath(sys.argv.pop(1))
 
 
 def record(names):
@@ -117,7 +116,7 @@ V, F = sphere(3)
 class Adapters(unittest.TestCase):
     def test_pyFM(self):
         from pyFM.mesh import TriMesh
-        import pyfm_mesh
+        from spectral_simplification import pyfm_mesh
         fine = TriMesh(V, F)
         coarse, run = pyfm_mesh.simplified(fine, 150, 30, preset="paper")
         self.assertEqual(len(coarse.vertlist), 150)
@@ -131,13 +130,13 @@ class Adapters(unittest.TestCase):
 
     def test_pyFM_with_signals(self):
         from pyFM.mesh import TriMesh
-        import pyfm_mesh
+        from spectral_simplification import pyfm_mesh
         fine = TriMesh(V, F)
         coarse, _ = pyfm_mesh.simplified(fine, 150, signals=V)
         self.assertEqual((fine.eigenvectors.shape, coarse.eigenvectors.shape), ((642, 3), (150, 3)))
 
     def test_geomfum_with_signals(self):
-        import geomfum_hierarchy  # registers
+        from spectral_simplification import geomfum_hierarchy  # registers
         from geomfum.shape.hierarchical import HierarchicalMesh
         from geomfum.shape.mesh import TriangleMesh
         both = HierarchicalMesh.from_registry(TriangleMesh(V, F), which="spectral_simplification", min_n_samples=150,
@@ -145,7 +144,7 @@ class Adapters(unittest.TestCase):
         self.assertEqual(both.low.basis.full_vecs.shape, (150, 3))
 
     def test_geomfum(self):
-        import geomfum_hierarchy
+        from spectral_simplification import geomfum_hierarchy
         from geomfum.shape.hierarchical import HierarchicalMesh
         from geomfum.shape.mesh import TriangleMesh
         mesh = TriangleMesh(V, F)
@@ -175,7 +174,7 @@ class Script(unittest.TestCase):
             try:
                 os.chdir(folder)
                 sys.argv = ["simplify_match_plot.py", "X.off", "Y.off", "picture.png", "150"]
-                with open(os.path.join(ADAPTERS, sys.argv[0])) as file:
+                with open(os.path.join(FOLDER, sys.argv[0])) as file:
                     names = {}
                     exec(compile(file.read(), sys.argv[0], "exec"), names)
                 self.assertGreater(os.path.getsize("picture.png"), 10000)

@@ -479,10 +479,9 @@ class Memory(Shapes):
             peaks.append(tracemalloc.get_traced_memory()[1])
             tracemalloc.stop()
         results = sum(a.nbytes for a in (run.V, run.F, run.vertex_map, run.P.data, run.P.indices, run.P.indptr))
-        self.assertLess(peaks[0], results + 60e3)
-        self.assertGreater(V.nbytes, 200e3)
-        self.assertGreater(peaks[1], F.nbytes)
-        self.assertGreater(F.nbytes, results + 60e3)
+        # The result has a copy of the mesh, which its owner may change.
+        self.assertLess(peaks[0], results + run.collapses.nbytes + V.nbytes + F.nbytes + 100e3)
+        self.assertGreater(peaks[1], results + V.nbytes + 2 * F.nbytes)
 
     def test_eigenvectors_are_views(self):
         pairs = self.run_.eigenpairs
@@ -556,7 +555,6 @@ class Wrong_input(Shapes):
                 (ValueError, r"F\[5, 2\] is 2562, but V has 2562 vertices: they are counted from 0", V, foreign),
                 (ValueError, r"F\[6, 0\] is -1", V, negative),
                 (ValueError, "face 7 .counted from 0. uses a vertex twice", V, twice),
-                (ValueError, "vertex 2562 .counted from 0. is isolated", np.vstack([V, [[9, 9, 9]]]), F),
                 (ValueError, "has the vertices of face 0: remove", V, self.with_face(*F[0])),
                 (ValueError, "has more than two faces", V, self.with_face(b, a, c)),
                 (ValueError, "run along their common edge in the same direction", V, turned),
@@ -597,7 +595,13 @@ class Wrong_input(Shapes):
                 (ValueError, "fit_operators fits to eigenvectors, but signals are given",
                  dict(signals=V, fit_operators=True)),
                 (ValueError, r"keep\[1\] is 2562, but V has 2562 vertices", dict(keep=[0, 2562])),
-                (TypeError, "keep has the dtype bool, it must hold integers", dict(keep=np.ones(2562, bool))),
+                (ValueError, r"keep has the shape \(5,\), but V has 2562 vertices: give True or False", dict(keep=np.ones(5, bool))),
+                (ValueError, "keep has a 0 or a 1 for each vertex of V, but integers are indices: pass booleans",
+                 dict(keep=np.ones(2562, int))),
+                (TypeError, "keep has the dtype float64, it must hold integers", dict(keep=np.ones(3))),
+                (ValueError, "mask has the dtype int64, it must hold booleans", dict(mask=np.ones(2562, int))),
+                (ValueError, r"mask has the shape \(5,\), it must be \(2562,\)", dict(mask=np.ones(5, bool))),
+                (ValueError, "mask leaves no face", dict(mask=np.zeros(2562, bool))),
                 (ValueError, r"keep has the shape \(1, 2\), it must be \(n,\)", dict(keep=[[1, 2]])),
                 (ValueError, "signals has 9 rows, but V has 2562 vertices", dict(signals=V[:9])),
                 (ValueError, r"signals\[9, 1\] is not a finite number", dict(signals=signals)),
@@ -676,20 +680,19 @@ class Documentation(unittest.TestCase):
         self.assertLess(abs(names["back"] - V[:, 2]).max(), 0.1)
 
     def test_help_says_what_each_argument_is(self):
-        functions = [f for name, f in vars(ss).items() if inspect.isfunction(f)]
-        self.assertEqual(len(functions), 12)
-        self.assertLess({f.__name__ for f in functions}, set(ss.__all__))
-        self.assertEqual(len(ss.__all__), 12 + 6 + hasattr(ss, "Match"))
+        functions = [getattr(ss, name) for name in ss.__all__ if inspect.isfunction(getattr(ss, name))]
+        self.assertEqual(set(dir(ss)), set(ss.__all__) | {"__version__", "__doc__"})
         for function in functions:
+            self.assertEqual(function.__module__, "spectral_simplification")
+            doc = inspect.getdoc(function)
             for name, parameter in inspect.signature(function).parameters.items():
                 self.assertIsNot(parameter.annotation, parameter.empty)
-                if function not in (ss.wave_kernel_energies, ss.wave_kernel_signature, ss.heat_kernel_signature):
-                    words = {"coarse_eigenpairs": "coarse", "sources": "sources"}.get(name, name)
-                    self.assertRegex(function.__doc__, r"\b%s\b" % words)
-            self.assertLess(max(map(len, function.__doc__.split("\n"))), 120)
+                self.assertRegex(doc, r"(?m)^([\w*]+, )*[*]*%s(, \w+)*( : |$)" % name, function.__name__)
+            self.assertIn("Parameters\n----------", doc)
+            self.assertLess(max(map(len, doc.split("\n"))), 140)
 
     def test_objects_are_described(self):
-        for kind in ss.Eigenpairs, ss.Fitted_operators, ss.Level, ss.Simplification, ss.Evaluation, ss.Cancelled:
+        for kind in (getattr(ss, name) for name in ss.__all__ if inspect.isclass(getattr(ss, name))):
             self.assertTrue(kind.__doc__)
             for name, member in vars(kind).items():
                 if isinstance(member, property):

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,12 @@ namespace py = pybind11;
 namespace SG = CGAL::Spectral_geometry;
 using Eigen::Index;
 using std::to_string;
+
+// An argument of a type that it cannot have.
+struct Wrong_type : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
 
 [[noreturn]] inline void refuse(const std::string& sentence)
 {
@@ -72,7 +79,7 @@ public:
     const std::string sentence =
         std::string(name) + " is " + shown((*this)[name]) + ", it must be " + wanted + ".";
     if(is_type)
-      throw py::type_error(sentence);
+      throw Wrong_type(sentence);
     throw py::value_error(sentence);
   }
 
@@ -189,12 +196,11 @@ public:
     } catch(const py::error_already_set& error) {
       if(!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError))
         throw;
-      throw py::type_error(label + " is not an array of numbers: give each row the same length.");
+      throw Wrong_type(label + " is not an array of numbers: give each row the same length.");
     }
     if(kinds.find(array.dtype().kind()) == std::string::npos && array.size() != 0)
-      throw py::type_error(label + " has the dtype " + std::string(py::str(array.dtype())) +
-                           ", it must hold " +
-                           (real ? "real numbers: pass float64." : "integers: pass int32 or int64."));
+      throw Wrong_type(label + " has the dtype " + std::string(py::str(array.dtype())) + ", it must hold " +
+                       (real ? "real numbers: pass float64." : "integers: pass int32 or int64."));
     if(array.ndim() != (columns == 0 ? 1 : 2) || (columns > 0 && array.shape(1) != columns))
       refuse(label + " has the shape " + shown(array.attr("shape")) + ", it must be " +
              (columns == 0  ? "(n,)"
@@ -209,8 +215,25 @@ public:
   // Indices in [0, n).
   std::vector<std::size_t> indices(const char* name, const std::size_t n, const std::string& of) const
   {
-    const auto values = array<std::int64_t>(name, 0, "vertex");
     std::vector<std::size_t> result;
+    const py::object given = py::module_::import("numpy").attr("asarray")((*this)[name]);
+    if(std::string(py::str(given.attr("dtype").attr("kind"))) == "b") { // one for each vertex
+      const auto flags = py::array_t<bool>(given);
+      if(flags.ndim() != 1 || flags.size() != py::ssize_t(n))
+        refuse(std::string(name) + " has the shape " + shown(flags.attr("shape")) + ", but " + of + " has " +
+               to_string(n) + " vertices: give True or False for each.");
+      for(py::ssize_t i = 0; i < flags.size(); ++i)
+        if(flags.at(i))
+          result.push_back(std::size_t(i));
+      return result;
+    }
+    const auto values = array<std::int64_t>(name, 0, "vertex");
+    // Zeros and ones, as many as vertices, are no indices.
+    if(values.size() == py::ssize_t(n) && n > 2 &&
+       std::all_of(values.data(), values.data() + values.size(),
+                   [](const std::int64_t v) { return v == 0 || v == 1; }))
+      refuse(std::string(name) + " has a 0 or a 1 for each vertex of " + of +
+             ", but integers are indices: pass booleans, or " + name + ".nonzero()[0].");
     for(py::ssize_t i = 0; i < values.size(); ++i) {
       if(values.at(i) < 0 || values.at(i) >= std::int64_t(n))
         refuse(std::string(name) + "[" + to_string(i) + "] is " + to_string(values.at(i)) + ", but " + of +
@@ -262,8 +285,8 @@ public:
     const py::module_ scipy = py::module_::import("scipy.sparse");
     const py::object value = (*this)[name];
     if(!scipy.attr("issparse")(value).cast<bool>())
-      throw py::type_error(std::string(name) + " is " + type_name(value) +
-                           ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
+      throw Wrong_type(std::string(name) + " is " + type_name(value) +
+                       ", it must be a sparse matrix: pass scipy.sparse.csr_matrix(" + name + ").");
     if(py::len(value.attr("shape")) != 2 ||
        (rows >= 0 && value.attr("shape").attr("__getitem__")(0).cast<Index>() != rows) ||
        value.attr("shape").attr("__getitem__")(1).cast<Index>() != columns)
@@ -271,8 +294,8 @@ public:
              (rows < 0 ? "any" : to_string(rows)) + ", " + to_string(columns) + "), " + what + ".");
     const std::string kind = py::str(value.attr("dtype").attr("kind"));
     if(kind != "f" && kind != "i" && kind != "u")
-      throw py::type_error(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +
-                           ", it must hold real numbers: pass float64.");
+      throw Wrong_type(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +
+                       ", it must hold real numbers: pass float64.");
     py::object matrix = scipy.attr("csc_matrix")(value, py::arg("dtype") = "float64");
     if(!matrix.attr("has_canonical_format").cast<bool>()) {
       matrix = matrix.attr("copy")();

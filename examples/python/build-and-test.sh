@@ -24,5 +24,6 @@ PYTHONPATH=$build/examples/python
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$python" "$root/test/python_test.py" "$build/examples/spectral_simplify"
+"$python" "$root/test/python_package_test.py" "$build/examples/spectral_simplify"
 "$python" "$root/test/python_adapters_test.py" "$root/examples/python" Adapters
 echo "The module is in $PYTHONPATH: add that to PYTHONPATH."

@@ -15,15 +15,8 @@
 #include <cstdint>
 #include <string>
 
-struct Matched
-{
-  py::array map;
-  Eigen::MatrixXd C;
-  double condition, relative_residual;
-};
-
 // What the program shape_matching does.
-inline Matched match(const Arguments& a)
+inline py::dict match(const Arguments& a)
 {
   const SG::Mesh_matrices X = a.mesh("VX", "FX"), Y = a.mesh("VY", "FY");
   checked(X, "VX, FX");
@@ -80,7 +73,12 @@ inline Matched match(const Arguments& a)
         options.threads, [&] { return coarse(fine_X); }, [&] { return coarse(fine_Y); });
     return match_over_proxies(x, coarse_X, y, coarse_Y, landmarks, options, going("match", 2. / 3));
   });
-  return {array_of(match.map), match.C, match.condition, match.relative_residual};
+  py::dict result;
+  result["map"] = array_of(match.map);
+  result["C"] = match.C;
+  result["condition"] = match.condition;
+  result["relative_residual"] = match.relative_residual;
+  return result;
 }
 
 #endif // SPECTRAL_PYTHON_MATCH_H

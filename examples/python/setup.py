@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# pip install ./examples/python: CMake compiles the module from the folder two levels up. CMAKE_ARGS are handed to it.
+# pip install ./examples/python: CMake compiles the module from the folder two levels up, or from what the source distribution has of
+# it. CMAKE_ARGS are handed to CMake, JOBS says how many compile at a time.
 
 import os
 import pathlib
@@ -14,10 +15,22 @@ import sys
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
+CARRIED = "source"  # in a source distribution
+ROOT = HERE / CARRIED if (HERE / CARRIED).is_dir() else HERE.parent.parent
+if not (ROOT / "include" / "CGAL").is_dir():
+    sys.exit(f"The headers are missing in {ROOT / 'include'}: run pip on examples/python of a whole clone, or on a source distribution.")
 VERSION = re.search(r"VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text().partition("project(")[2])[1]
+
+
+def pybind11_folder():
+    try:
+        import pybind11
+        return ["-Dpybind11_DIR=" + pybind11.get_cmake_dir()]
+    except ImportError:
+        return []  # CMake looks for it
 
 
 class CMake_build(build_ext):
@@ -26,14 +39,41 @@ class CMake_build(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         if shutil.which("ninja") and not (build / "CMakeCache.txt").exists():
             os.environ.setdefault("CMAKE_GENERATOR", "Ninja")  # as the scripts do: a machine may have no make
-        subprocess.run(["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
-                        "-DSPECTRAL_PYTHON=REQUIRED", "-DSPECTRAL_BUILD_TESTS=OFF", "-DPython_EXECUTABLE=" + sys.executable,
-                        *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
-        subprocess.run(["cmake", "--build", build, "--target", extension.name, "-j", os.environ.get("JOBS", "2")],
-                       check=True)
+        configure = ["cmake", "-S", str(ROOT), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG",
+                     "-DSPECTRAL_PYTHON=REQUIRED", "-DSPECTRAL_PYTHON_WHEEL=ON", "-DSPECTRAL_BUILD_TESTS=OFF",
+                     "-DSPECTRAL_QUICK_BUILD=ON", "-DPython_EXECUTABLE=" + sys.executable, *pybind11_folder(),
+                     *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
+        compiling = ["cmake", "--build", str(build), "--target", "spectral_simplification", "-j", os.environ.get("JOBS", "2")]
+        for command in configure, compiling:
+            try:
+                subprocess.run(command, check=True)
+            except FileNotFoundError:
+                sys.exit("cmake was not found: pip install cmake, or on Debian apt-get install cmake.")
+            except subprocess.CalledProcessError:
+                sys.exit("The module was not built, the reason is above. It needs a C++17 compiler, CGAL 5.5 or later, Eigen, Boost, "
+                         "pybind11, nlohmann-json and the headers of this Python, " + sys.executable + " (on Debian: apt-get install g++ "
+                         "ninja-build cmake libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev pybind11-dev python3-dev).")
         target.parent.mkdir(parents=True, exist_ok=True)
-        self.copy_file(build / "examples" / "python" / target.name, target)
+        self.copy_file(str(build / "examples" / "python" / "spectral_simplification" / target.name), str(target))
 
 
-setup(version=VERSION, ext_modules=[Extension("spectral_simplification", [])], py_modules=[],
-      cmdclass={"build_ext": CMake_build})
+class Whole_sdist(sdist):
+    """With what CMake compiles, which a clone has two levels up."""
+
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        source = pathlib.Path(base_dir) / CARRIED
+        for name in "CMakeLists.txt", "LICENSE", "README.md", "CHANGES.md", "CITATION.cff":
+            source.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, source / name)
+        for folder in "include", "cmake", "examples":
+            # Of what is made here nothing, and no copy of a copy.
+            shutil.copytree(ROOT / folder, source / folder, dirs_exist_ok=True,
+                            ignore=shutil.ignore_patterns("build", "dist", "*.egg-info", "__pycache__", CARRIED))
+        (source / "doc").mkdir(exist_ok=True)
+        (source / "doc" / "CMakeLists.txt").write_text("# The manual is not in a source distribution.\n")
+
+
+setup(version=VERSION, ext_modules=[Extension("spectral_simplification._core", [])],
+      cmdclass={"build_ext": CMake_build, "sdist": Whole_sdist},
+      setup_requires=[] if shutil.which("cmake") else ["cmake>=3.16", "ninja"])

@@ -6,6 +6,7 @@
 #define SPECTRAL_PYTHON_SPECTRA_H
 
 #include "arguments.h"
+#include "arrays.h"
 #include "meshes.h"
 #include "watch.h"
 
@@ -13,7 +14,10 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
+#include <CGAL/Spectral_geometry/relocation.h>
+#include <CGAL/Spectral_geometry/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <algorithm>
@@ -22,6 +26,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
@@ -67,12 +72,19 @@ inline Fitted_pairs fitted_pairs(SG::Operator_fit_result fit, const SG::Operator
   return result;
 }
 
+// What a result of Python's is made of.
+inline py::object core_of(const py::object& value)
+{
+  return py::getattr(value, "_core", value);
+}
+
 inline const Pairs& pairs_of(const Arguments& a, const char* name)
 {
-  if(!py::isinstance<Pairs>(a[name]))
-    throw py::type_error(std::string(name) + " is " + type_name(a[name]) +
-                         ", it must be Eigenpairs: pass what eigenpairs() returns.");
-  return a[name].cast<const Pairs&>();
+  const py::object core = core_of(a[name]);
+  if(!py::isinstance<Pairs>(core))
+    throw Wrong_type(std::string(name) + " is " + type_name(a[name]) +
+                     ", it must be Eigenpairs: pass what eigenpairs() or Eigenpairs.from_arrays() returns.");
+  return core.cast<const Pairs&>();
 }
 
 inline void check_rows(const Pairs& pairs, const char* name, const Index n, const char* of)
@@ -82,14 +94,27 @@ inline void check_rows(const Pairs& pairs, const char* name, const Index n, cons
            to_string(n) + ": pass the eigenpairs of that mesh.");
 }
 
+inline SG::Eigenpairs_options solver_options(const Arguments& a, Watch& watch)
+{
+  SG::Eigenpairs_options options;
+  options.tolerance = a.number("tolerance", 0, false, 0.5);
+  options.threads = a.threads();
+  options.progress = [&watch](const double fraction) { return watch("eigenpairs", fraction); };
+  return options;
+}
+
 // Eigenpairs of the mesh of n vertices in the mass, k at least.
 inline const Pairs& given_pairs(const Arguments& a, const Index n, const SG::Mass mass, const Index k)
 {
   const Pairs& given = pairs_of(a, "eigenpairs");
   check_rows(given, "eigenpairs", n, "V");
   if(given.mass != SG::mass_name(mass))
-    refuse("eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) +
-           " one is wanted: pass mass='" + given.mass + "'.");
+    refuse(
+        "eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) + " one is wanted: " +
+        (SG::mass_name(SG::Mass::lumped) == given.mass || SG::mass_name(SG::Mass::averaged) == given.mass ||
+                 SG::mass_name(SG::Mass::voronoi) == given.mass
+             ? "pass mass='" + given.mass + "'."
+             : "compute them in that mass."));
   if(given.pairs->size() < k)
     refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
            ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
@@ -112,21 +137,87 @@ inline Pairs eigenpairs(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const Index k = a.integer("k", 1, mesh.V.rows());
-  const SMS::Spectral_options of = operator_options(a, mesh.V.rows());
+  const std::string mass = a.word("mass", {"lumped", "averaged", "consistent", "voronoi"});
+  SMS::Spectral_options of;
+  if(mass != "consistent")
+    of.mass = a.mass();
+  of.coefficients = a.coefficients(mesh.V.rows());
+  of.boundary = a.boundary();
+  of.intrinsic_delaunay = a.intrinsic_delaunay();
+  if(of.intrinsic_delaunay && mass == "consistent")
+    refuse("intrinsic_delaunay has no consistent mass: pass another mass, or leave it out.");
   Watch watch(a);
-  SG::Eigenpairs_options options;
-  options.tolerance = a.number("tolerance", 0, false, 0.5);
-  options.threads = a.threads();
-  options.progress = [&](const double fraction) { return watch("eigenpairs", fraction); };
+  SG::Eigenpairs_options options = solver_options(a, watch);
   return watch.run([&] {
-    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, of, "V, F"));
+    SG::Local_operator consistent(1.);
+    consistent.coefficients = of.coefficients;
+    consistent.boundary = of.boundary;
+    auto op = std::make_shared<SG::Laplace_operator>(
+        mass == "consistent" ? named("V, F", [&] { return SG::laplace_operator(mesh.V, mesh.T, consistent); })
+                             : operator_of(mesh, of, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
-    return Pairs{std::move(pairs), std::move(op), SG::mass_name(of.mass)};
+    return Pairs{std::move(pairs), std::move(op), mass};
   });
 }
 
+// Eigenpairs of a pencil that has no mesh.
+inline Pairs eigsh(const Arguments& a)
+{
+  auto op = std::make_shared<SG::Laplace_operator>();
+  op->L = a.sparse("L", -1, a["L"].attr("shape").attr("__getitem__")(-1).cast<Index>(), "rows x columns");
+  op->B = a.sparse("M", op->L.rows(), op->L.rows(), "as L");
+  const Index k = a.integer("k", 1, op->L.rows(), ", the rows of L");
+  Watch watch(a);
+  SG::Eigenpairs_options options = solver_options(a, watch);
+  return watch.run([&] {
+    auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op->L, op->B, k, options));
+    return Pairs{std::move(pairs), std::move(op), "given"};
+  });
+}
+
+// Pairs that another solver found, or that were stored.
+inline py::object pairs_of_arrays(const Arguments& a)
+{
+  SG::Laplace_operator op;
+  auto pairs = std::make_shared<SG::Eigenpairs>();
+  pairs->values = a.array<double>("values", 0, "eigenvalue").cast<Eigen::VectorXd>();
+  const Index k = pairs->values.size(), n = a["vectors"].attr("shape").attr("__getitem__")(0).cast<Index>();
+  pairs->vectors = a.matrix("vectors", n, "the mesh");
+  op.L = a.sparse("L", n, n, "as vectors has rows");
+  op.B = a.sparse("M", n, n, "as vectors has rows");
+  op.mass = a.has("row_masses")
+                ? Eigen::VectorXd(a.array<double>("row_masses", 0, "vertex").cast<Eigen::VectorXd>())
+                : Eigen::VectorXd(op.B * Eigen::VectorXd::Ones(n));
+  op.theta = a.number("theta", 0, true, 1);
+  const std::string mass = a["mass"].cast<std::string>();
+  op.voronoi = mass == "voronoi";
+  op.boundary = a.boundary();
+  op.vanishing = a.integer("vanishing", 0);
+  op.has_coefficients = a.flag("has_coefficients");
+  pairs->residuals = a.array<double>("residuals", 0, "eigenvalue").cast<Eigen::VectorXd>();
+  if(pairs->vectors.cols() != k || pairs->residuals.size() != k)
+    refuse("vectors has " + to_string(pairs->vectors.cols()) + " columns, but values has " + to_string(k) +
+           ": give one column for each.");
+  pairs->solver = a["solver"].cast<std::string>();
+  pairs->complete = a.flag("complete");
+  pairs->zeros = a.has("zeros") ? a.integer("zeros", 0) : SG::number_of_zero_eigenvalues(op);
+  Pairs result{std::move(pairs), std::make_shared<SG::Laplace_operator>(std::move(op)), mass};
+  if(!a.has("fit"))
+    return py::cast(std::move(result));
+  Fitted_pairs fitted;
+  static_cast<Pairs&>(fitted) = std::move(result);
+  const auto fit = a["fit"].cast<py::tuple>();
+  fitted.fit.objective_before = fit[0].cast<double>();
+  fitted.fit.objective_after = fit[1].cast<double>();
+  fitted.fit.iterations = fit[2].cast<int>();
+  fitted.fit.converged = fit[3].cast<bool>();
+  fitted.fit.unknowns = fit[4].cast<Index>();
+  fitted.fit.at_bound = fit[5].cast<Index>();
+  return py::cast(std::move(fitted));
+}
+
 // How well the spectrum was kept, with tight pairs; a tenth more coarse modes tells loss from exchange at the cut.
-inline SG::Spectral_evaluation evaluate(const Arguments& a)
+inline py::dict evaluate(const Arguments& a)
 {
   const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
@@ -143,8 +234,8 @@ inline SG::Spectral_evaluation evaluate(const Arguments& a)
   if(a.has("eigenpairs"))
     given = given_pairs(a, n, of.mass, k);
   if(a.has("operators")) {
-    if(!py::isinstance<Fitted_pairs>(a["operators"]))
-      throw py::type_error("operators must be Fitted_operators: pass what fit_operators() returns.");
+    if(!py::isinstance<Fitted_pairs>(core_of(a["operators"])))
+      throw Wrong_type("operators must be Fitted_operators: pass what fit_operators() returns.");
     fitted = pairs_of(a, "operators");
     check_rows(*fitted, "operators", N, "Vc");
     if(fitted->pairs->size() < (std::min)(k, N))
@@ -155,7 +246,7 @@ inline SG::Spectral_evaluation evaluate(const Arguments& a)
   SG::Eigenpairs_options options;
   options.threads = a.threads();
   options.progress = [&](const double fraction) { return watch("evaluation", fraction); };
-  return watch.run([&] {
+  const SG::Spectral_evaluation e = watch.run([&] {
     const SG::Laplace_operator fine_op = operator_of(fine, of, "V, F");
     if(given && ((fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm() ||
                  (fine_op.mass - given->op->mass).norm() > 1e-12 * fine_op.mass.norm()))
@@ -167,6 +258,20 @@ inline SG::Spectral_evaluation evaluate(const Arguments& a)
                : SG::eigenpairs(coarse_op, (std::min)(N - coarse_op.vanishing, k + (k + 9) / 10), options);
     return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
   });
+  py::dict result;
+  result["C"] = e.C;
+  result["C_L"] = e.norm_L;
+  result["C_D"] = e.norm_D;
+  result["floor_C_L"] = e.floor_norm_L;
+  result["floor_C_D"] = e.floor_norm_D;
+  result["eigenvalue_error"] = e.errors.mean;
+  result["eigenvalue_error_max"] = e.errors.max;
+  result["eigenvalue_error_low"] = e.errors_low.mean;
+  result["values"] = e.fine_values;
+  result["coarse_values"] = e.coarse_values;
+  result["judged_modes"] = e.judged_modes;
+  result["area_ratio"] = e.area_ratio;
+  return result;
 }
 
 inline Fitted_pairs fit_operators(const Arguments& a)
@@ -225,6 +330,75 @@ inline Eigen::MatrixXd functional_map(const Arguments& a)
   const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.op->L.rows(), fine.op->L.rows());
   const py::gil_scoped_release no_gil;
   return SG::functional_map(coarse.pairs->vectors, coarse.op->B, P, fine.pairs->vectors);
+}
+
+// The vertices of a mesh of any origin moved so that its spectrum comes closer to that of a fine one.
+inline py::dict relocate(const Arguments& a)
+{
+  const SG::Mesh_matrices fine = a.mesh("V", "F");
+  SG::Mesh_matrices coarse = a.mesh("Vc", "Fc");
+  const Pairs pairs = pairs_of(a, "eigenpairs");
+  check_rows(pairs, "eigenpairs", fine.V.rows(), "V");
+  const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.V.rows());
+  SG::Local_operator op(pairs.op->theta);
+  op.voronoi = pairs.op->voronoi;
+  op.boundary = pairs.op->boundary;
+  std::vector<bool> fixed(std::size_t(coarse.V.rows()), false);
+  for(const std::size_t v : a.indices("fixed", fixed.size(), "Vc"))
+    fixed[v] = true;
+  Watch watch(a);
+  SG::Relocation_options options;
+  options.signals = value_of(relocation_words, a.word("signals", words_of(relocation_words)));
+  options.threads = a.threads();
+  options.progress = [&](const double fraction) { return watch("relocation", fraction); };
+  const SG::Relocation_result done = watch.run([&] {
+    const SG::Eigenpairs& phi = *pairs.pairs;
+    return SG::relocate_positions(coarse.V, coarse.T, P, fine, phi.vectors,
+                                  phi.vectors * phi.values.asDiagonal(), op, fixed, options);
+  });
+  py::dict result;
+  result["V"] = py::cast(Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>(coarse.V));
+  result["P"] = csr(done.restriction);
+  return result;
+}
+
+inline py::dict lift_functional_map(const Arguments& a)
+{
+  const auto read = [&](const char* name) {
+    const Index rows = a.array<double>(name, -1, "mode").shape(0);
+    return a.matrix(name, rows, name);
+  };
+  const SG::Lifted_functional_map lifted =
+      SG::lift_functional_map(read("source_restriction"), read("coarse"), read("target_restriction"),
+                              a.number("tolerance", 0, true, 1));
+  py::dict result;
+  result["C"] = lifted.C;
+  result["condition"] = lifted.condition;
+  result["rank"] = lifted.rank;
+  result["relative_residual"] = lifted.relative_residual;
+  return result;
+}
+
+// For each vertex of the target one of the source.
+inline py::array point_map(const Arguments& a)
+{
+  const Pairs source = pairs_of(a, "source"), target = pairs_of(a, "target");
+  const Index rows = a.array<double>("C", -1, "mode of the target").shape(0);
+  const Eigen::MatrixXd C = a.matrix("C", rows, "the target");
+  const int threads = a.threads();
+  const std::vector<Index> map = interruptible([&] {
+    constexpr Index step = 20000; // vertices between two questions for signals
+    const Eigen::MatrixXd& phi = target.pairs->vectors;
+    std::vector<Index> all;
+    for(Index first = 0; first < phi.rows(); first += step) {
+      const std::vector<Index> part = SG::target_to_source_map(
+          C, source.pairs->vectors, phi.middleRows(first, (std::min)(step, phi.rows() - first)), threads);
+      all.insert(all.end(), part.begin(), part.end());
+      check_signals();
+    }
+    return all;
+  });
+  return array_of(map);
 }
 
 #endif // SPECTRAL_PYTHON_SPECTRA_H

@@ -15,6 +15,26 @@
 #include <optional>
 #include <utility>
 
+// Raises what Ctrl-C raises. For code without the GIL.
+inline void check_signals()
+{
+  const py::gil_scoped_acquire gil;
+  if(PyErr_CheckSignals() != 0)
+    throw py::error_already_set();
+}
+
+// What `work` returns, which does without the GIL and calls check_signals() now and then.
+template <class Work>
+auto interruptible(const Work& work)
+{
+  std::optional<decltype(work())> result;
+  {
+    const py::gil_scoped_release no_gil;
+    result = work();
+  }
+  return std::move(*result);
+}
+
 // Between a computation, which has no GIL, and Python: asks for signals and calls the callback twenty times a second and at the
 // begin of each phase. May be asked by several threads.
 class Watch

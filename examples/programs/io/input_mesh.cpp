@@ -182,16 +182,16 @@ std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
 
 // Makes the mesh of a soup without what `diagnosis` calls isolated vertices. `vertex` says which vertex of the soup stands for
 // each vertex of the file, or is `no_vertex`; `origin` says where each vertex of the soup is in the file.
-void build(Input_mesh& input, const std::string& path, const Mending mending, Polygon_soup soup,
+void build(Input_mesh& input, const std::string& name, const Mending mending, Polygon_soup soup,
            const std::vector<std::size_t>& vertex, const std::vector<std::size_t>& origin)
 {
   Mesh_diagnosis& diagnosis = input.diagnosis;
   const std::vector<std::string> obstacles = diagnosis.obstacles();
   if(!obstacles.empty())
-    throw std::runtime_error("'" + path + "' cannot be used as it is: " + obstacles.front() +
+    throw std::runtime_error(name + " cannot be used as it is: " + obstacles.front() +
                              help_with(diagnosis, mending) + ".");
   if(diagnosis.number_of_faces == 0)
-    throw std::runtime_error("'" + path + "' has no faces left" + help_with(diagnosis, mending) + ".");
+    throw std::runtime_error(name + " has no faces left" + help_with(diagnosis, mending) + ".");
   std::vector<std::size_t> place(soup.points.size(), no_vertex), file_vertices;
   for(const auto& p : soup.polygons)
     for(const std::size_t v : p)
@@ -288,7 +288,12 @@ std::string Input_mesh::changes_of(const std::string& path) const
 
 Input_mesh read_input_mesh(const std::string& path, const Mending mending, const bool with_attributes)
 {
-  Polygon_soup soup = read_polygon_soup(path);
+  return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes);
+}
+
+Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending mending,
+                      const bool with_attributes)
+{
   Input_mesh input;
   const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
   const Polygons polygons = texture.empty() ? Polygons() : soup.polygons;
@@ -305,8 +310,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending, const
     try {
       repaired = repaired_soup(soup, log, vertex, origin);
     } catch(const CGAL::Failure_exception&) {
-      throw std::runtime_error("'" + path +
-                               "' cannot be repaired: CGAL's functions contradict themselves on it.");
+      throw std::runtime_error(name + " cannot be repaired: CGAL's functions contradict themselves on it.");
     }
     input.diagnosis = diagnose(repaired);
     input.diagnosis.cracks.clear(); // sheets that the repair has separated
@@ -352,7 +356,7 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending, const
     }
   }
   input.changes = log.changes();
-  build(input, path, mending, std::move(soup), vertex, origin);
+  build(input, name, mending, std::move(soup), vertex, origin);
   if(!texture.empty())
     set_texture(input, polygons, texture);
   return input;

@@ -47,4 +47,8 @@ inline Mending mending(const bool strict, const bool repair)
 // obstacle that is left. `with_attributes`: keeps what vertices and corners have beside positions.
 Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false);
 
+// A mesh that has been read, or was never in a file; `name` begins what is said of it.
+Input_mesh input_mesh(Polygon_soup soup, const std::string& name, Mending mending,
+                      bool with_attributes = false);
+
 #endif // SPECTRAL_EXAMPLES_IO_INPUT_MESH_H

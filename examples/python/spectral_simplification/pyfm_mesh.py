@@ -4,6 +4,7 @@
 #
 # For pyFM (github.com/RobinMagnet/pyFM): meshes with eigenpairs that are ready, and the coarse mesh of one.
 #
+#     from spectral_simplification.pyfm_mesh import simplified
 #     fine = TriMesh("cat.off")
 #     coarse, run = simplified(fine, 600)
 #     model = FunctionalMapping(coarse, other_coarse)

@@ -4,7 +4,7 @@
 #
 # For geomfum (github.com/luisfpereira/geomfum): a hierarchical mesh, in the place that ReMatching has in its registry.
 #
-#     import geomfum_hierarchy
+#     import spectral_simplification.geomfum_hierarchy
 #     hmesh = HierarchicalMesh.from_registry(mesh, which="spectral_simplification", min_n_samples=1000)
 #     hmesh.extend_basis()
 #

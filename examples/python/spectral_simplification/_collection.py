@@ -1,0 +1,388 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Many meshes in one call: in this process, on the cores of this machine, or on a cluster of Dask, which brings the scheduler.
+
+from __future__ import annotations
+
+import concurrent.futures
+import concurrent.futures.process
+import json
+import os
+import pathlib
+import sys
+import time
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+import numpy
+
+from ._interface import eigenpairs, simplify
+from ._meshes import clean, read_mesh
+from ._results import Level, Simplification, _Result, load
+
+_ATTEMPTS = 3  # of a mesh whose process dies
+
+
+class Collection_row(_Result):
+    """What became of one mesh of simplify_collection().
+
+    Attributes
+    ----------
+    name : str
+        The file's name without its ending, or the number of the mesh in the collection.
+    error : str or None
+        Why there is no result, in one sentence.
+    path : str or None
+        The file of the result, with output=.
+    seconds : float
+        That it took; 0 where the result was there already.
+    """
+
+    name: str
+    error: str | None
+    path: str | None
+    seconds: float
+    _result: Any
+
+    @property
+    def result(self) -> Level:
+        """The Simplification, or the Level with a shared connectivity; read from the file where there is one.
+
+        Raises
+        ------
+        ValueError
+            If there is none: with the error of the row.
+        """
+        if self.error is not None:
+            raise ValueError(f"{self.name} has no result: {self.error}")
+        return self._result if self.path is None else load(self.path)
+
+    def __repr__(self) -> str:
+        return f"<Collection_row: {self.name}, {self.error or f'{self.seconds:.1f} s'}>"
+
+
+def _taken(mesh: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """V and F of an item, which may be a file's name."""
+    if isinstance(mesh, (str, os.PathLike)):
+        return read_mesh(mesh)
+    V, F = mesh
+    return numpy.asarray(V), numpy.asarray(F)
+
+
+def _one(mesh: Any, n: int, options: dict[str, Any]) -> Simplification:
+    """A mesh as it comes: cleaned as the programs do, and numbered as it came."""
+    V, F = _taken(mesh)
+    if options.get("mask") is not None or any(options.get(name) is not None for name in ("keep", "signals", "coefficients")):
+        return simplify(V, F, n, **options)  # these number the vertices as they come
+    cleaned = clean(V, F)
+    run = simplify(cleaned.V, cleaned.F, n, **options)
+    return run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin) if cleaned.changes else run
+
+
+def _pairs(mesh: Any, k: int, mass: str, threads: int | None):
+    V, F = _taken(mesh)
+    return eigenpairs(V, F, k, mass, tolerance=1e-8, threads=threads)
+
+
+def _posed(mesh: Any, run: Simplification, pairs: Any, relocate: bool) -> Level:
+    V, _ = _taken(mesh)
+    return run.apply(V, relocate=relocate, eigenpairs=pairs if relocate else None)
+
+
+def _guarded(function: Callable, arguments: tuple) -> tuple[Any, str | None, float]:
+    """What a worker does: a result, or a sentence. Nothing that one mesh causes ends the others."""
+    import warnings
+    begin = time.perf_counter()
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # they are in the report
+            return function(*arguments), None, time.perf_counter() - begin
+    except Exception as error:
+        return None, str(error) or type(error).__name__, time.perf_counter() - begin
+
+
+def _here(tasks: Iterable[tuple[int, Callable, tuple]]) -> Iterator[tuple[int, Any, str | None, float]]:
+    for i, function, arguments in tasks:
+        yield i, *_guarded(function, arguments)
+
+
+def _on_processes(tasks, workers: int):
+    """Processes of this machine; a mesh whose process dies is tried again, beside none but itself at last."""
+    import multiprocessing
+    context = multiprocessing.get_context("spawn")  # libraries have threads, which fork loses
+    waiting, died, tasks = [], {}, iter(tasks)
+    while True:
+        running = {}
+        with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context) as pool:
+            try:
+                while True:
+                    while len(running) < 2 * workers:
+                        task = waiting.pop(0) if waiting else next(tasks, None)
+                        if task is None:
+                            break
+                        try:
+                            running[pool.submit(_guarded, task[1], task[2])] = task
+                        except concurrent.futures.process.BrokenProcessPool:
+                            waiting.insert(0, task)
+                            raise
+                    if not running:
+                        return
+                    done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
+                    for future in done:
+                        result = future.result()
+                        yield running.pop(future)[0], *result
+            except concurrent.futures.process.BrokenProcessPool:
+                for future, task in running.items():
+                    if future.done() and future.exception() is None:
+                        yield task[0], *future.result()
+                        continue
+                    died[task[0]] = died.get(task[0], 0) + 1
+                    if died[task[0]] < _ATTEMPTS * len(running):
+                        waiting.append(task)
+                    else:
+                        yield task[0], None, "the process that computed it died each time: it may need more memory.", 0.0
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+
+
+def _on_dask(tasks, client):
+    try:
+        import distributed
+    except ImportError:
+        raise ValueError("a cluster needs the package distributed, which is not installed: pip install distributed, or on Debian "
+                         "apt-get install python3-distributed.") from None
+    own = None
+    if isinstance(client, str):
+        try:
+            client = own = distributed.Client(client, timeout=10)
+        except OSError as error:
+            raise ValueError(f"no scheduler of Dask answers at {client}: {error}.") from None
+    running, futures, tasks = {}, {}, iter(tasks)
+    try:
+        completed = distributed.as_completed()
+
+        def submit() -> bool:
+            task = next(tasks, None)
+            if task is None:
+                return False
+            future = client.submit(_guarded, task[1], task[2], pure=False, retries=_ATTEMPTS - 1)
+            running[future.key], futures[future.key] = task[0], future
+            completed.add(future)
+            return True
+
+        # A few more than there are threads, so that meshes are read as they are wanted.
+        while len(running) < 2 * max(1, sum(client.nthreads().values())) and submit():
+            pass
+        while running:
+            future = next(completed)
+            i = running.pop(future.key)
+            del futures[future.key]
+            submit()
+            try:
+                result = future.result()
+            except Exception as error:  # distributed.KilledWorker, and what a broken cluster says
+                result = None, f"the cluster lost it, {type(error).__name__}: {error}", 0.0
+            yield i, *result
+    finally:
+        client.cancel(list(futures.values()))
+        if own is not None:
+            own.close()
+
+
+def _scheduled(tasks, workers):
+    if isinstance(workers, str) and workers != "all" or hasattr(workers, "submit"):
+        return _on_dask(tasks, workers)
+    if workers == "all":
+        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return _here(tasks) if workers == 1 else _on_processes(tasks, workers)
+
+
+def _bar(done: int, total: int | None, name: str) -> None:
+    width = 30
+    filled = width * done // total if total else 0
+    of = f" of {total}" if total else ""
+    print(f"\r[{'#' * filled}{'.' * (width - filled)}] {done}{of} {name[:30]:30}", end="", file=sys.stderr, flush=True)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, (str, int, float, bool, type(None))):
+        return value
+    array = numpy.ascontiguousarray(value)
+    import hashlib
+    return f"{array.dtype}{array.shape}{hashlib.sha256(array.tobytes()).hexdigest()}"
+
+
+def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, workers: Any = 1, shared_connectivity: bool = False,
+                        progress: bool | Callable[[int, Any, str], Any] | None = None, **options: Any) -> list[Collection_row]:
+    """Simplifies many meshes: of each a row, with its result or with the sentence that says why there is none.
+
+    Parameters
+    ----------
+    meshes : iterable
+        File names, see read_mesh(), or pairs (V, F). Read as they are wanted, but for a shared connectivity. Each is cleaned as
+        clean() does, and results are numbered as the mesh came.
+    n : int
+        Vertices of each result.
+    output : folder, optional
+        Where results are written as they come, NAME.npz each, which load() reads. A second call with the same arguments goes on where
+        the first one ended. None: the rows hold the results.
+    workers : int, 'all', address or client
+        1: this process; more, or 'all': processes of this machine; an address such as 'tcp://host:8786', or a distributed.Client: a
+        cluster of Dask, whose workers see the files and have this package.
+    shared_connectivity : bool
+        All meshes have the same faces, as poses of one figure: the results have one connectivity, too, and vertex i of them is in the same
+        place. The merges are decided by the eigenvectors of all, and each result is relocated for its own.
+    progress : bool or function, optional
+        True: a bar on stderr, the default at a terminal. A function gets how many are done, of how many, or None, and the name; where it
+        returns False the call ends, with Cancelled, and what is written stays.
+    **options
+        Of simplify(), for all meshes.
+
+    Returns
+    -------
+    list of Collection_row
+        In the order of meshes.
+
+    Raises
+    ------
+    ValueError
+        If output has results of other arguments, or an option cannot be meant.
+    """
+    if "progress" in options or "eigenpairs" in options:
+        raise ValueError("eigenpairs belong to one mesh: leave them out.")
+    if isinstance(workers, bool) or not (isinstance(workers, (int, str)) or hasattr(workers, "submit")) or \
+            isinstance(workers, int) and workers < 1:
+        raise ValueError(f"workers is {workers!r}, it must be 1 or more, 'all', an address or a distributed.Client.")
+    import inspect
+    for name in options:
+        if name not in inspect.signature(simplify).parameters or name in ("V", "F", "n"):
+            raise ValueError(f"simplify() has no option {name!r}.")
+    if workers != 1:
+        options.setdefault("threads", 1)
+    folder = None
+    if output is not None:
+        folder = pathlib.Path(output)
+        folder.mkdir(parents=True, exist_ok=True)
+        settings = {"n": n, "shared_connectivity": shared_connectivity,
+                    **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"}}
+        kept = folder / "settings.json"
+        if kept.exists():
+            if json.loads(kept.read_text()) != settings:
+                raise ValueError(f"{folder} has results of other arguments, {kept.name} says which: choose another folder, or empty it.")
+        else:
+            kept.write_text(json.dumps(settings))
+    total = len(meshes) if hasattr(meshes, "__len__") else None
+    if progress is None:
+        progress = sys.stderr.isatty()
+    tell = _bar if progress is True else progress or None
+
+    rows: dict[int, Collection_row] = {}
+    names: dict[int, str] = {}
+    known: set[str] = set()
+
+    def named(i: int, mesh: Any) -> str:
+        name = pathlib.Path(mesh).name.rpartition(".")[0] or pathlib.Path(mesh).name if isinstance(mesh, (str, os.PathLike)) else f"{i:04d}"
+        while name in known:
+            name += "+"
+        known.add(name)
+        names[i] = name
+        return name
+
+    def there(i: int) -> bool:
+        """Whether a former call has written this one."""
+        path = folder / (names[i] + ".npz") if folder else None
+        if path is None or not path.exists():
+            return False
+        rows[i] = Collection_row._from_state(dict(name=names[i], error=None, path=str(path), seconds=0.0, _result=None))
+        said(i)
+        return True
+
+    def said(i: int) -> None:
+        if tell is not None and tell(len(rows), total, names[i]) is False:
+            from ._core import Cancelled
+            raise Cancelled("The progress function returned False.")
+
+    def ended(i: int, result: Any, error: str | None, seconds: float) -> None:
+        path = None
+        if error is None and folder is not None:
+            path = str(folder / (names[i] + ".npz"))
+            result.save(path + ".part")  # a name that no later call takes for a result
+            os.replace(path + ".part", path)
+            result = None
+        rows[i] = Collection_row._from_state(dict(name=names[i], error=error, path=path, seconds=seconds, _result=result))
+        said(i)
+
+    if shared_connectivity:
+        _shared(list(meshes), n, options, workers, named, there, ended)
+    else:
+        def tasks():
+            for i, mesh in enumerate(meshes):
+                named(i, mesh)
+                if not there(i):
+                    yield i, _one, (mesh, n, options)
+        for i, result, error, seconds in _scheduled(tasks(), workers):
+            ended(i, result, error, seconds)
+    if tell is _bar:
+        print(file=sys.stderr)
+    return [rows[i] for i in sorted(rows)]
+
+
+def _shared(meshes: list, n: int, options: dict, workers: Any, named: Callable, there: Callable, ended: Callable) -> None:
+    """Merges that all poses decide: random mixtures of the eigenvectors of all are the signals, since a sketch of all side by side has
+    the metric of all. Then each pose gets the coarse mesh, and is relocated by its own eigenvectors."""
+    for name in "signals", "keep", "coefficients", "fit_operators", "mask", "pre_simplify":
+        if options.get(name) is not None:
+            raise ValueError(f"{name} is not for meshes of one connectivity: leave it out.")
+    for i, mesh in enumerate(meshes):
+        named(i, mesh)
+    first = None  # faces, and whose
+    going: dict[int, Any] = {}
+    for i, mesh in enumerate(meshes):
+        try:
+            V, F = _taken(mesh)
+            if first is None:
+                cleaned = clean(V, F)
+                if cleaned.changes:
+                    raise ValueError(f"meshes of one connectivity must be usable as they are: {', '.join(cleaned.changes)} by clean().")
+                first = V, F, i
+            elif V.shape != first[0].shape or not numpy.array_equal(F, first[1]):
+                raise ValueError(f"it has not the faces of mesh {first[2]}: leave it out, or simplify without shared_connectivity.")
+            elif not numpy.isfinite(V).all():
+                raise ValueError("V holds a number that is not finite.")
+            going[i] = (V, F)
+        except Exception as error:
+            ended(i, None, str(error), 0.0)
+    if not going:
+        return
+    preset = options.get("preset", "best")
+    mass = options.get("mass") or ("lumped" if preset == "paper" else "averaged")
+    k = options.get("k") or 100
+    relocate = (options.get("relocate") or ("none" if preset == "paper" else "sampled")) != "none"
+    pairs = {}
+    for i, result, error, seconds in _scheduled([(i, _pairs, (m, k, mass, options.get("threads"))) for i, m in going.items()], workers):
+        if error is None:
+            pairs[i] = result
+        else:
+            del going[i]
+            ended(i, None, error, seconds)
+    if not going:
+        return
+    random = numpy.random.default_rng(1)
+    signals = 0
+    columns = min(max(k, 32), 100)
+    for i in sorted(going):
+        unit = numpy.sqrt(pairs[i].M.sum() / len(going))
+        signals = signals + unit * pairs[i].vectors @ random.standard_normal((k, columns)) / numpy.sqrt(columns)
+    one = min(going)
+    import warnings
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        decided = {**options, "relocate": "none", "k": None}
+        run = simplify(*going[one], n, signals=signals, **decided)
+    run.report["eigenvectors"] = k
+    tasks = [(i, _posed, (m, run, pairs[i], relocate)) for i, m in going.items() if not there(i)]
+    for i, result, error, seconds in _scheduled(tasks, workers):
+        ended(i, result, error, seconds)

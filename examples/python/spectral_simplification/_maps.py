@@ -1,0 +1,246 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Maps between meshes, whoever found them.
+#
+# A functional map C takes functions on a source to functions on a target, modes of the target x modes of the source. A point map says
+# for each vertex of the target which vertex of the source it is.
+
+from __future__ import annotations
+
+import numpy
+import scipy.sparse
+
+from . import _core
+from ._results import Alignment, Eigenpairs, Simplification
+
+
+def _pairs(name: str, value) -> Eigenpairs:
+    if not isinstance(value, Eigenpairs):
+        raise _core.Wrong_type(f"{name} is of the type {type(value).__name__}, it must be Eigenpairs: pass what eigenpairs() or "
+                               "Eigenpairs.from_arrays() returns.")
+    return value
+
+
+def _modes(name: str, C, target: Eigenpairs, source: Eigenpairs) -> numpy.ndarray:
+    C = numpy.asarray(C, float)
+    if C.ndim != 2 or C.shape[0] > len(target) or C.shape[1] > len(source):
+        raise ValueError(f"{name} has the shape {C.shape}, it must be modes of the target x modes of the source, at most "
+                         f"({len(target)}, {len(source)}).")
+    if not numpy.isfinite(C).all():
+        raise ValueError(f"{name} holds a number that is not finite.")
+    return C
+
+
+def _point_map(name: str, T, target: int, source: int) -> numpy.ndarray:
+    T = numpy.asarray(T)
+    if T.shape != (target,) or T.dtype.kind not in "iu":
+        raise ValueError(f"{name} has the shape {T.shape} and the dtype {T.dtype}, it must be ({target},) integers, for each vertex of "
+                         "the target one of the source.")
+    if T.min(initial=0) < 0 or T.max(initial=0) >= source:
+        bad = int(((T < 0) | (T >= source)).argmax())
+        raise ValueError(f"{name}[{bad}] is {T[bad]}, but the source has {source} vertices: they are counted from 0.")
+    return T
+
+
+def functional_map_of_point_map(T: numpy.ndarray, source: Eigenpairs, target: Eigenpairs) -> numpy.ndarray:
+    """The functional map of a point map, at the scale of the meshes.
+
+    Parameters
+    ----------
+    T : (target vertices,) integers
+        For each vertex of the target one of the source.
+    source, target : Eigenpairs
+        Of both meshes.
+
+    Returns
+    -------
+    (k_target, k_source) array
+    """
+    source, target = _pairs("source", source), _pairs("target", target)
+    T = _point_map("T", T, len(target.vectors), len(source.vectors))
+    return target.vectors.T @ (target.M @ source.vectors[T])
+
+
+def point_map(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, threads: int | None = None) -> numpy.ndarray:
+    """The point map of a functional map: for each vertex of the target the one of the source whose image is nearest.
+
+    Parameters
+    ----------
+    C : (k_target, k_source) array
+        At most as many modes as the eigenpairs have.
+    source, target : Eigenpairs
+        Of both meshes, which have the same area, about.
+    threads : int, optional
+        All cores by default.
+
+    Returns
+    -------
+    (target vertices,) int64
+    """
+    C = _modes("C", C, _pairs("target", target), _pairs("source", source))
+    return _core.point_map(locals())
+
+
+def zoom_out(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, k: int | None = None, step: int = 1,
+             threads: int | None = None) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Refines a functional map by ZoomOut (Melzi et al. 2019): to a point map and back, with more modes each time.
+
+    Parameters
+    ----------
+    C : (k0, k0) array
+        A map of a few modes, square.
+    source, target : Eigenpairs
+        Of both meshes.
+    k : int, optional
+        Modes at the end; as many as both have.
+    step : int
+        How many are added each time.
+    threads : int, optional
+        All cores by default.
+
+    Returns
+    -------
+    C : (k, k) array
+        The refined map.
+    T : (target vertices,) int64
+        The point map of it.
+    """
+    C = _modes("C", C, _pairs("target", target), _pairs("source", source))
+    most = min(len(source), len(target))
+    k = most if k is None else k
+    if C.shape[0] != C.shape[1]:
+        raise ValueError(f"C has the shape {C.shape}, it must be square: pass as many modes of both.")
+    if not len(C) <= k <= most:
+        raise ValueError(f"k is {k}, it must be from {len(C)}, the modes of C, to {most}, those of both eigenpairs.")
+    if step < 1:
+        raise ValueError(f"step is {step}, it must be 1 or more.")
+    phi, image = source.vectors, target.M @ target.vectors
+    T = point_map(C, source, target, threads)
+    while len(C) < k:
+        n = min(len(C) + step, k)
+        C = image[:, :n].T @ phi[T, :n]
+        T = point_map(C, source, target, threads)
+    return C, T
+
+
+def lift_functional_map(C: numpy.ndarray, source: Simplification, target: Simplification,
+                        source_eigenpairs: Eigenpairs, target_eigenpairs: Eigenpairs,
+                        tolerance: float = 0.05) -> numpy.ndarray:
+    """Lifts a functional map between two simplified meshes, found by anything, to the meshes they were made from (Lescoat et al.,
+    section 5.2).
+
+    Parameters
+    ----------
+    C : (k_target, k_source) array
+        Between the simplified meshes, in the eigenpairs that are given.
+    source, target : Simplification
+        What simplify() returned for both.
+    source_eigenpairs, target_eigenpairs : Eigenpairs
+        Of the simplified meshes, such as run.coarse_eigenpairs().
+    tolerance : float
+        Singular values below so many times the largest are cut off; from 0, below 1.
+
+    Returns
+    -------
+    (fine modes of target, fine modes of source) array
+        In run.fine_eigenpairs of both, at the scale of the meshes.
+    """
+    C = _modes("C", C, _pairs("target_eigenpairs", target_eigenpairs), _pairs("source_eigenpairs", source_eigenpairs))
+    down = []
+    for run, pairs, modes in (source, source_eigenpairs, C.shape[1]), (target, target_eigenpairs, C.shape[0]):
+        if not isinstance(run, Simplification):
+            raise _core.Wrong_type("source and target must be Simplifications: pass what simplify() returns.")
+        if len(pairs.vectors) != len(run.V):
+            raise ValueError(f"eigenpairs of {len(pairs.vectors)} vertices were given for a mesh of {len(run.V)}: pass "
+                             "run.coarse_eigenpairs().")
+        fine = run.fine_eigenpairs
+        k = min(len(fine), modes)
+        down.append(pairs.vectors[:, :modes].T @ (pairs.M @ (run._part_P() @ fine.vectors[:, :k])))
+    return _core.lift_functional_map(dict(source_restriction=down[0], coarse=C, target_restriction=down[1], tolerance=tolerance))["C"]
+
+
+def lift_point_map(T: numpy.ndarray, source: Simplification, target: Simplification, k: int | None = None,
+                   threads: int | None = None) -> numpy.ndarray:
+    """Lifts a point map between two simplified meshes, found by anything, to the meshes they were made from: by its functional map.
+
+    Parameters
+    ----------
+    T : (vertices of target.V,) integers
+        For each the vertex of source.V.
+    source, target : Simplification
+        What simplify() returned for both.
+    k : int, optional
+        How many modes; as many as both runs kept.
+    threads : int, optional
+        All cores by default.
+
+    Returns
+    -------
+    (u,) int64
+        For each vertex of the target's input that was used one of the source's.
+    """
+    most = min(source.report["eigenvectors"], target.report["eigenvectors"], len(source.V), len(target.V))
+    k = most if k is None else k
+    if not 1 <= k <= most:
+        raise ValueError(f"k is {k}, it must be from 1 to {most}, what both runs kept.")
+    pairs = source.coarse_eigenpairs(k), target.coarse_eigenpairs(k)
+    C = lift_functional_map(functional_map_of_point_map(T, *pairs), source, target, *pairs)
+    return source.used[point_map(C, source.fine_eigenpairs, target.fine_eigenpairs, threads)]
+
+
+def align(first: Eigenpairs, second: Eigenpairs, T: numpy.ndarray | scipy.sparse.spmatrix | None = None,
+          mixing: float = 0.3) -> Alignment:
+    """Turns the eigenvectors of a mesh so that they agree with those of another: signs, and rotations within clusters.
+
+    A cluster is the least set of neighbouring modes such that the modes below and above it do not mix with it, as far as the map
+    between the meshes tells.
+
+    Parameters
+    ----------
+    first, second : Eigenpairs
+        Of two meshes.
+    T : (vertices of first,) integers or sparse matrix, optional
+        For each vertex of the first the one of the second, or an interpolation (first x second). None: both have the same
+        connectivity.
+    mixing : float
+        How large the part of modes may be that goes to the other side of a cut between clusters; from 0 to 1.
+
+    Returns
+    -------
+    Alignment
+        vectors, rotation, clusters; of as many modes as both have.
+    """
+    first, second = _pairs("first", first), _pairs("second", second)
+    if not 0 <= mixing <= 1:
+        raise ValueError(f"mixing is {mixing}, it must be from 0 to 1.")
+    n, m = len(first.vectors), len(second.vectors)
+    k = min(len(first), len(second))
+    phi = second.vectors[:, :k]
+    if T is None:
+        if n != m:
+            raise ValueError(f"first has {n} vertices and second {m}: pass T, which says where they correspond.")
+        moved = phi
+    elif scipy.sparse.issparse(T):
+        if T.shape != (n, m):
+            raise ValueError(f"T has the shape {T.shape}, it must be ({n}, {m}).")
+        moved = T @ phi
+    else:
+        moved = phi[_point_map("T", T, n, m)]
+    C = first.vectors[:, :k].T @ (first.M @ moved)
+    C /= numpy.maximum(numpy.linalg.norm(C, axis=0), 1e-300)
+    # What goes across the cut before mode i, from below and from above.
+    squares = C ** 2
+    cuts = [0]
+    for i in range(1, k):
+        across = max(squares[i:, cuts[-1]:i].sum(axis=0).max(), squares[:i, i:].sum(axis=0).max())
+        if across <= mixing ** 2:
+            cuts.append(i)
+    cuts.append(k)
+    clusters = [(int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:])]
+    rotation = numpy.zeros((k, k))
+    for a, b in clusters:
+        U, _, W = numpy.linalg.svd(C[a:b, a:b])
+        rotation[a:b, a:b] = (U @ W).T
+    return Alignment._from_state(dict(vectors=phi @ rotation, rotation=rotation, clusters=clusters))

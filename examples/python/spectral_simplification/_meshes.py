@@ -1,0 +1,415 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# Meshes as they come: from files, with faults, with vertices that are masked.
+
+from __future__ import annotations
+
+import base64
+import os
+import pathlib
+import tempfile
+import xml.etree.ElementTree
+import zlib
+from typing import Any
+
+import numpy
+
+from . import _core
+from ._results import _Result
+
+
+class Cleaned(_Result):
+    """What clean() returns.
+
+    Attributes
+    ----------
+    V : (n, 3) float64
+        Positions.
+    F : (m, 3) int32
+        Triangles.
+    place : (v,) int64
+        Where each vertex that was given is now; -1 where it was left out.
+    origin : (n,) int64
+        Which of those that were given each vertex is.
+    changes : list of str
+        What was changed, with numbers; empty if nothing.
+    """
+
+    V: numpy.ndarray
+    F: numpy.ndarray
+    place: numpy.ndarray
+    origin: numpy.ndarray
+    changes: list
+
+    def __repr__(self) -> str:
+        return f"<Cleaned: {len(self.V)} vertices, {', '.join(self.changes) or 'nothing changed'}>"
+
+
+class Diagnosis(_Result):
+    """What diagnose() returns.
+
+    Attributes
+    ----------
+    usable : bool
+        Whether simplify() takes the mesh as it is.
+    obstacles : list of str
+        One clause for each kind of fault: how many, where first, what helps. The most elementary comes first.
+    remarks : list of str
+        What is unusual, but handled.
+    components : list of (vertices, faces, closed, first vertex)
+        The connected parts.
+    """
+
+    usable: bool
+    obstacles: list
+    remarks: list
+    components: list
+
+    def __repr__(self) -> str:
+        return f"<Diagnosis: {'usable' if self.usable else '; '.join(self.obstacles) or 'no faces'}>"
+
+
+def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
+    """Makes a mesh usable as the programs do by themselves: turns faces round, leaves out isolated vertices and copies of faces,
+    closes edges without length. The surface stays as it is.
+
+    Parameters
+    ----------
+    V : (v, 3) array
+        Positions.
+    F : (f, 3) array
+        Triangles.
+    repair : bool
+        Does what --repair does as well: merges vertices of equal position, closes cracks, separates sheets, removes faces.
+
+    Returns
+    -------
+    Cleaned
+        V, F, the index maps place and origin, and changes.
+
+    Raises
+    ------
+    ValueError
+        If the mesh cannot be used afterwards, with the first obstacle.
+    """
+    return Cleaned._from_state(_core.clean(locals()))
+
+
+def diagnose(V: numpy.ndarray, F: numpy.ndarray) -> Diagnosis:
+    """Says what is wrong with a mesh, if anything. Changes nothing.
+
+    Parameters
+    ----------
+    V : (v, 3) array
+        Positions.
+    F : (f, 3) array
+        Triangles, with any fault.
+
+    Returns
+    -------
+    Diagnosis
+        usable, obstacles, remarks, components.
+    """
+    return Diagnosis._from_state(_core.diagnose(locals()))
+
+
+def used_part(V: numpy.ndarray, F: numpy.ndarray, mask: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None:
+    """The vertices that faces use, within the mask, and these faces numbered by all vertices and by those; None where these are all, or
+    V and F are no mesh, which is for others to say."""
+    if V.ndim != 2 or F.ndim != 2 or F.shape[1] != 3 or F.dtype.kind not in "iu" or F.size == 0 or F.min() < 0 or F.max() >= len(V):
+        return None
+    if mask is not None:
+        mask = numpy.asarray(mask)
+        if mask.dtype.kind != "b":
+            raise ValueError(f"mask has the dtype {mask.dtype}, it must hold booleans, True for vertices that stay: pass mask != 0.")
+        if mask.shape != (len(V),):
+            raise ValueError(f"mask has the shape {mask.shape}, it must be ({len(V)},), one for each vertex of V.")
+        F = F[mask[F].all(axis=1)]
+        if len(F) == 0:
+            raise ValueError("mask leaves no face: a face stays where all of its corners do.")
+    is_used = numpy.zeros(len(V), bool)
+    is_used[F] = True
+    if is_used.all():
+        return None
+    return numpy.flatnonzero(is_used), F, (numpy.cumsum(is_used) - 1)[F]
+
+
+# Files. The compiled module reads what the programs read; nibabel, meshio and a few lines here the rest.
+
+_OWN = ".off", ".obj", ".ply", ".stl"
+_FREESURFER = ".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm", ".reg", ".midthickness"
+_MESHIO = ".vtu", ".msh", ".xdmf", ".mesh", ".inp", ".vtk"
+
+
+def _needed(package: str, path: Any):
+    try:
+        return __import__(package)
+    except ImportError:
+        raise ValueError(f"{path} needs the package {package}, which is not installed: pip install {package}, or on Debian "
+                         f"apt-get install python3-{package}.") from None
+
+
+def _mesh(V: Any, F: Any, path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
+    V, F = numpy.asarray(V, float), numpy.asarray(F)
+    if V.ndim != 2 or V.shape[1] != 3 or F.ndim != 2 or F.shape[1] != 3 or len(F) == 0:
+        raise ValueError(f"{path} holds no mesh of triangles.")
+    return numpy.ascontiguousarray(V), numpy.ascontiguousarray(F, numpy.int64)
+
+
+def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Reads the triangles of a file as they are; see clean() for faults.
+
+    Parameters
+    ----------
+    path : str or path
+        .off, .obj, .ply, .stl; .vtk and .vtp of polygons; .gii and surfaces of FreeSurfer, such as lh.pial, through nibabel; what
+        meshio reads through meshio.
+
+    Returns
+    -------
+    V : (v, 3) float64
+        Positions.
+    F : (f, 3) int64
+        Triangles.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, or the package is missing that reads it.
+    FileNotFoundError
+        If there is no such file.
+    """
+    path = pathlib.Path(path)
+    if not path.exists():
+        raise FileNotFoundError(f"{path} does not exist.")
+    ending = path.suffix.lower()
+    try:
+        if ending in _OWN:
+            return _mesh(*_core.read_mesh(str(path)), path)
+        if ending == ".gii":
+            arrays = _needed("nibabel", path).load(str(path))
+            sets = [arrays.agg_data(intent) for intent in ("pointset", "triangle")]
+            if any(isinstance(s, tuple) for s in sets):
+                raise ValueError("it has no points or no triangles")
+            return _mesh(*sets, path)
+        if ending in _FREESURFER:
+            _needed("nibabel", path)
+            from nibabel.freesurfer import read_geometry
+            return _mesh(*read_geometry(str(path))[:2], path)
+        if ending == ".vtp":
+            return _mesh(*_read_vtp(path), path)
+        if ending == ".vtk" and b"POLYDATA" in path.read_bytes()[:1000]:
+            return _mesh(*_read_vtk(path), path)
+        if ending in _MESHIO:
+            mesh = _needed("meshio", path).read(str(path))
+            return _mesh(mesh.points, mesh.cells_dict.get("triangle", ()), path)
+    except ValueError as error:
+        said = str(error)
+        raise ValueError(said if str(path) in said else f"{path} cannot be read: {said.rstrip('.')}.") from None
+    except (SystemExit, Exception) as error:
+        if isinstance(error, (KeyboardInterrupt, MemoryError)):
+            raise
+        raise ValueError(f"{path} cannot be read: {type(error).__name__}, {error}.") from None
+    raise ValueError(_unknown(path))
+
+
+def _unknown(path: pathlib.Path) -> str:
+    return (f"{path} ends in {path.suffix!r}, which is not known: use {', '.join(_OWN)}, .vtk, .vtp, .gii, a surface of FreeSurfer "
+            f"such as {_FREESURFER[0]}, or {', '.join(_MESHIO[:4])}.")
+
+
+def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
+    """Writes a mesh; the file is there wholly or not at all.
+
+    Parameters
+    ----------
+    path : str or path
+        As of read_mesh().
+    V : (v, 3) array
+        Positions.
+    F : (f, 3) array
+        Triangles.
+
+    Raises
+    ------
+    ValueError
+        If the ending is not known, the package is missing that writes it, or V and F are no mesh.
+    """
+    path = pathlib.Path(path)
+    V, F = _mesh(V, F, "what is to be written")
+    if F.min() < 0 or F.max() >= len(V):
+        raise ValueError(f"F has an index that is not one of the {len(V)} vertices of V.")
+    if not numpy.isfinite(V).all():
+        raise ValueError("V holds a number that is not finite.")
+    ending = path.suffix.lower()
+    if ending not in _OWN + _FREESURFER + _MESHIO + (".gii", ".vtp"):
+        raise ValueError(_unknown(path))
+    if ending == ".gii" or ending in _FREESURFER:
+        _needed("nibabel", path)
+    elif ending in _MESHIO and ending != ".vtk":
+        _needed("meshio", path)
+    handle, temporary = tempfile.mkstemp(suffix=path.suffix, prefix=".", dir=path.parent)
+    os.close(handle)
+    try:
+        if ending == ".gii":
+            import nibabel
+            image = nibabel.gifti.GiftiImage()
+            for data, intent, kind in (V.astype(numpy.float32), "NIFTI_INTENT_POINTSET", "NIFTI_TYPE_FLOAT32"), \
+                    (F.astype(numpy.int32), "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32"):
+                image.add_gifti_data_array(nibabel.gifti.GiftiDataArray(data, intent=intent, datatype=kind))
+            nibabel.save(image, temporary)
+        elif ending in _FREESURFER:
+            from nibabel.freesurfer import write_geometry
+            write_geometry(temporary, V, F)
+        elif ending in _MESHIO and ending != ".vtk":
+            import meshio
+            meshio.Mesh(V, [("triangle", F)]).write(temporary)
+        else:
+            with open(temporary, "w") as file:
+                {".off": _write_off, ".obj": _write_obj, ".ply": _write_ply, ".stl": _write_stl, ".vtk": _write_vtk,
+                 ".vtp": _write_vtp}[ending](file, V, F)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def _rows(file: Any, array: numpy.ndarray, begin: str = "") -> None:
+    form = "%.17g" if array.dtype.kind == "f" else "%d"
+    numpy.savetxt(file, array, fmt=begin + " ".join([form] * array.shape[1]))
+
+
+def _write_off(file, V, F):
+    file.write(f"OFF\n{len(V)} {len(F)} 0\n")
+    _rows(file, V)
+    _rows(file, F, "3 ")
+
+
+def _write_obj(file, V, F):
+    _rows(file, V, "v ")
+    _rows(file, F + 1, "f ")
+
+
+def _write_ply(file, V, F):
+    file.write(f"ply\nformat ascii 1.0\nelement vertex {len(V)}\nproperty double x\nproperty double y\nproperty double z\n"
+               f"element face {len(F)}\nproperty list uchar int vertex_indices\nend_header\n")
+    _rows(file, V)
+    _rows(file, F, "3 ")
+
+
+def _write_stl(file, V, F):
+    file.write("solid mesh\n")
+    for a, b, c in V[F]:
+        file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % tuple(p) for p in (a, b, c)) +
+                   "endloop\nendfacet\n")
+    file.write("endsolid mesh\n")
+
+
+def _write_vtk(file, V, F):
+    file.write(f"# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET POLYDATA\nPOINTS {len(V)} double\n")
+    _rows(file, V)
+    file.write(f"POLYGONS {len(F)} {4 * len(F)}\n")
+    _rows(file, F, "3 ")
+
+
+def _write_vtp(file, V, F):
+    def array(kind, name, values, more=""):
+        file.write(f'<DataArray type="{kind}" Name="{name}" {more}format="ascii">\n')
+        _rows(file, values)
+        file.write("</DataArray>\n")
+
+    file.write('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
+               f'<Piece NumberOfPoints="{len(V)}" NumberOfPolys="{len(F)}">\n<Points>\n')
+    array("Float64", "Points", V, 'NumberOfComponents="3" ')
+    file.write("</Points>\n<Polys>\n")
+    array("Int64", "connectivity", F)
+    array("Int64", "offsets", 3 * numpy.arange(1, len(F) + 1)[:, None])
+    file.write("</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n")
+
+
+def _triangles(counts: numpy.ndarray, corners: numpy.ndarray) -> numpy.ndarray:
+    if not (counts == 3).all():
+        raise ValueError(f"polygon {int((counts != 3).argmax())} is no triangle: triangulate it first")
+    return corners.reshape(-1, 3)
+
+
+def _read_vtk(path: pathlib.Path):
+    """Polygons of the legacy format, in text or in binary, of its versions before 5."""
+    data = path.read_bytes()
+    lines = data.split(b"\n", 3)
+    binary = lines[2].strip().upper() == b"BINARY"
+    kinds = {b"float": ">f4", b"double": ">f8", b"int": ">i4"}
+    found: dict[bytes, numpy.ndarray] = {}
+    for word, width in (b"POINTS", 3), (b"POLYGONS", 0):
+        place = data.find(b"\n" + word + b" ")
+        if place < 0:
+            raise ValueError(f"it has no {word.decode()}")
+        end = data.index(b"\n", place + 1)
+        head = data[place:end].split()
+        count = 3 * int(head[1]) if width else int(head[2])
+        kind = kinds.get(head[2]) if width else ">i4"
+        if kind is None:
+            raise ValueError(f"its points are of the type {head[2].decode()}")
+        if binary:
+            values = numpy.frombuffer(data, kind, count, end + 1)
+        else:
+            values = numpy.array(data[end:].split(None, count)[:count], float if width else numpy.int64)
+        if len(values) != count:
+            raise ValueError("it ends too early")
+        found[word] = values.astype(float if width else numpy.int64)
+    faces = found[b"POLYGONS"]
+    if len(faces) % 4 or (faces[::4] != 3).any():
+        raise ValueError("its polygons are not all triangles: triangulate them first")
+    return found[b"POINTS"].reshape(-1, 3), faces.reshape(-1, 4)[:, 1:]
+
+
+def _read_vtp(path: pathlib.Path):
+    """Polygons of VTK's XML, in text or inline binary."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    order = "<" if root.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
+    header = numpy.dtype(order + ("u8" if root.get("header_type") == "UInt64" else "u4"))
+    piece = root.find("./PolyData/Piece")
+    if piece is None:
+        raise ValueError("it has no PolyData")
+
+    def values(where: str, name: str | None) -> numpy.ndarray:
+        for element in piece.findall(f"./{where}/DataArray"):
+            if name is None or element.get("Name") == name:
+                kind = element.get("type", "")
+                dtype = numpy.dtype(order + {"Float": "f", "Int": "i", "UInt": "u"}[kind.rstrip("0123456789")] +
+                                    str(int(kind.lstrip("FloatUIn")) // 8))
+                text = (element.text or "").strip()
+                if element.get("format") == "ascii":
+                    return numpy.array(text.split(), dtype)
+                if element.get("format") != "binary":
+                    raise ValueError("its data are appended: write it with inline data")
+                return numpy.frombuffer(_decoded(text, header, root.get("compressor")), dtype)
+        raise ValueError(f"it has no {name or where}")
+
+    counts = numpy.diff(values("Polys", "offsets").astype(numpy.int64), prepend=0)
+    return values("Points", None).reshape(-1, 3), _triangles(counts, values("Polys", "connectivity"))
+
+
+def _decoded(text: str, header: numpy.dtype, compressor: str | None) -> bytes:
+    size = header.itemsize
+    if not compressor:
+        return base64.b64decode(text)[size:]
+    if compressor != "vtkZLibDataCompressor":
+        raise ValueError(f"it is compressed by {compressor}: write it with zlib")
+
+    def length(n):  # of n bytes in base64
+        return 4 * ((n + 2) // 3)
+
+    blocks = int(numpy.frombuffer(base64.b64decode(text[:length(size)])[:size], header)[0])
+    first = length((3 + blocks) * size)
+    sizes = numpy.frombuffer(base64.b64decode(text[:first]), header)[3:]
+    data, result, at = base64.b64decode(text[first:]), b"", 0
+    for n in sizes:
+        result += zlib.decompress(data[at:at + int(n)])
+        at += int(n)
+    return result

@@ -1,0 +1,609 @@
+# Copyright (c) 2026 The Spectral mesh simplification authors.
+#
+# SPDX-License-Identifier: GPL-3.0-or-later
+#
+# python_package_test.py [SPECTRAL_SIMPLIFY]: what the package adds to the module, on shapes that are made here. Without the program what
+# compares with it is left out, as in an environment that has the wheel alone.
+
+import copy
+import doctest
+import gc
+import importlib
+import json
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+
+import spectral_simplification as ss
+from python_shapes import sheet, sphere
+
+PROGRAM = None
+V, F = sphere(3)
+warnings.simplefilter("ignore")
+RUN = ss.simplify(V, F, 150, 40, fit_operators=True)
+HAVE = {name: importlib.util.find_spec(name) is not None for name in ("nibabel", "meshio", "pandas", "distributed")}
+
+
+def poses(count):
+    """The sphere bent in so many ways: nearly isometric."""
+    for i in range(count):
+        angle = 0.25 * i / count * V[:, :1]
+        yield np.hstack([V[:, :1], np.cos(angle) * V[:, 1:2] - np.sin(angle) * V[:, 2:], np.sin(angle) * V[:, 1:2] + np.cos(angle) * V[:, 2:]])
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = temporary.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def text(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
+
+    def same(self, a, b):
+        self.assertIs(type(a), type(b))
+        for name in vars(a):
+            if name.startswith("_") and name != "_used":
+                continue
+            x, y = getattr(a, name), getattr(b, name)
+            if scipy.sparse.issparse(x):
+                self.assertEqual(abs(x - y).nnz, 0)
+            elif isinstance(x, np.ndarray):
+                np.testing.assert_array_equal(x, y)
+            elif isinstance(x, ss.Eigenpairs):
+                self.same_pairs(x, y)
+            else:
+                self.assertEqual(x, y)
+
+    def same_pairs(self, a, b):
+        self.assertIs(type(a), type(b))
+        for name in "values", "vectors", "residuals":
+            np.testing.assert_array_equal(getattr(a, name), getattr(b, name))
+        for name in "L", "M":
+            self.assertEqual(abs(getattr(a, name) - getattr(b, name)).nnz, 0)
+        for name in "mass", "zeros", "complete", "solver":
+            self.assertEqual(getattr(a, name), getattr(b, name))
+
+
+class Results_live(Case):
+    def test_pickle_copy_and_files(self):
+        pairs = RUN.eigenpairs
+        everything = [RUN, RUN.levels(300), pairs, RUN.fitted, ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40, eigenpairs=pairs),
+                      ss.align(pairs, pairs), ss.clean(V, F), ss.diagnose(V, F)]
+        for result in everything:
+            stored = self.path("result.npz")
+            result.save(stored)
+            for again in pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result), ss.load(stored):
+                (self.same_pairs if isinstance(result, ss.Eigenpairs) else self.same)(result, again)
+        again = ss.load(self.path("result.npz"))
+        self.assertTrue(again.usable)
+
+    def test_what_comes_back_is_of_use(self):
+        RUN.save(self.path("run.npz"))
+        run = ss.load(self.path("run.npz"))
+        self.same(run.levels(300), RUN.levels(300))
+        self.assertEqual(abs(run.Q - RUN.Q).nnz, 0)
+        self.assertEqual(run.fitted.objective_after, RUN.fitted.objective_after)
+        again = ss.simplify(V, F, 150, 40, eigenpairs=run.eigenpairs)
+        np.testing.assert_array_equal(again.V, RUN.V)
+
+    def test_other_files_are_refused(self):
+        np.savez(self.path("other.npz"), a=np.ones(3))
+        with open(self.path("text.npz"), "w") as file:
+            file.write("no archive")
+        for name in "other.npz", "text.npz":
+            with self.assertRaisesRegex(ValueError, "holds no result of spectral_simplification"):
+                ss.load(self.path(name))
+
+    def test_pairs_of_another_solver(self):
+        own = ss.eigenpairs(V, F, 40, "averaged")
+        w, U = scipy.sparse.linalg.eigsh(own.L.tocsc(), 40, own.M.tocsc(), sigma=-0.01)
+        given = ss.Eigenpairs.from_arrays(w, U, own.L, own.M)
+        self.assertEqual((given.mass, given.zeros, len(given)), ("averaged", 1, 40))
+        run = ss.simplify(V, F, 150, 40, eigenpairs=given)
+        judged = ss.evaluate(V, F, run.V, run.F, run.P, 40, eigenpairs=given)
+        reference = ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40)
+        self.assertLess(abs(judged.C_L - reference.C_L), 0.1 * reference.C_L)
+        for mass in "lumped", "consistent":
+            p = ss.eigenpairs(V, F, 5, mass)
+            self.assertEqual(ss.Eigenpairs.from_arrays(p.values, p.vectors, p.L, p.M).mass, mass)
+        for words, arguments in (("are not orthonormal in M", (w, 2 * U, own.L, own.M)),
+                                 ("are no eigenpair", (w + 5, U, own.L, own.M)),
+                                 ("they must be", (w[:3], U, own.L, own.M)),
+                                 ("values are not ascending", (w[::-1], U[:, ::-1], own.L, own.M)),
+                                 ("it must be a sparse matrix", (w, U, own.L.toarray(), own.M)),
+                                 ("mass is 'lumped', but M is another one", (w, U, own.L, own.M, "lumped"))):
+            with self.assertRaisesRegex(ValueError, words):
+                ss.Eigenpairs.from_arrays(*arguments)
+
+    def test_any_pencil(self):
+        pairs = ss.eigenpairs(V, F, 5, "consistent")
+        w, U = ss.eigsh(1000 * pairs.L, pairs.M, 20)
+        reference, _ = scipy.sparse.linalg.eigsh(1000 * pairs.L.tocsc(), 20, pairs.M.tocsc(), sigma=-1)
+        np.testing.assert_allclose(w[1:], reference[1:], rtol=1e-8)
+        np.testing.assert_allclose(U.T @ (pairs.M @ U), np.eye(20), atol=1e-8)
+        path = scipy.sparse.diags([[1.0] + 398 * [2.0] + [1.0], 399 * [-1.0], 399 * [-1.0]], [0, 1, -1]).tocsr()
+        np.testing.assert_allclose(ss.eigsh(path, k=5)[0], 2 - 2 * np.cos(np.pi * np.arange(5) / 400), atol=1e-10)
+        skew = pairs.L.tolil()
+        skew[0, 7] += 1
+        for words, arguments in (("L is not symmetric", (skew.tocsr(), pairs.M, 5)), ("k is 0, it must be", (pairs.L, pairs.M, 0)),
+                                 ("M has the shape", (pairs.L, pairs.M[:5, :5], 5)), ("must be a sparse matrix", (np.eye(3), None, 2)),
+                                 ("of B is not positive", (pairs.L, -pairs.M, 5))):
+            with self.assertRaisesRegex(ValueError, words):
+                ss.eigsh(*arguments)
+
+    def test_an_interrupt_ends_what_takes_long(self):
+        fine, faces = sphere(5)
+        pairs = ss.eigenpairs(fine, faces, 100, tolerance=1e-4)
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        for work in (lambda: ss.distances(pairs, np.arange(len(fine)), "wave_kernel"),
+                     lambda: ss.heat_kernel_signature(pairs, np.linspace(0.01, 1, 20000))):
+            ends = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
+            ends.start()
+            begin = time.monotonic()
+            with self.assertRaises(KeyboardInterrupt):
+                work()
+            self.assertLess(time.monotonic() - begin, 6)
+
+    def test_memory_does_not_grow(self):
+        with open("/proc/self/statm") if os.path.exists("/proc/self/statm") else self.skipTest("no /proc") as file:
+            def used():
+                gc.collect()
+                file.seek(0)
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+            small, faces = sphere(2)
+
+            def calls(count):
+                for _ in range(count):
+                    run = ss.simplify(small, faces, 60, 15)
+                    pickle.loads(pickle.dumps(run)).average(small)
+                    ss.distances(run.eigenpairs, [0, 1])
+
+            calls(20)
+            before = used()
+            calls(200)
+            self.assertLess(used() - before, 8)
+
+
+class Meshes(Case):
+    def test_clean_turns_and_leaves_out(self):
+        dirty = np.vstack([V[:10], [[9, 9, 9]], V[10:]])
+        faces = F + (F >= 10)
+        faces[5:9] = faces[5:9, ::-1]
+        faces = np.vstack([faces, faces[:1]])
+        said = ss.diagnose(dirty, faces)
+        self.assertFalse(said.usable)
+        self.assertRegex(" ".join(said.obstacles), "more than|alike|same|copies|vertices of|duplicate|isolated")
+        cleaned = ss.clean(dirty, faces)
+        self.assertEqual(sorted(c.split()[0] for c in cleaned.changes), ["1", "1", "4"])
+        np.testing.assert_array_equal(cleaned.V, V)
+        self.assertEqual((cleaned.place[10], cleaned.origin[10]), (-1, 11))
+        np.testing.assert_array_equal(cleaned.place[cleaned.origin], np.arange(len(V)))
+        self.assertTrue(ss.diagnose(cleaned.V, cleaned.F).usable)
+        with self.assertRaisesRegex(ValueError, "^V, F cannot be used as it is: .*repair=True"):
+            ss.clean(V, np.vstack([F, [[F[0, 0], F[0, 1], 500]]]))
+        self.assertTrue(ss.diagnose(*vars_of(ss.clean(V, np.vstack([F, [[F[0, 0], F[0, 1], 500]]]), repair=True))).usable)
+
+    def test_vertices_without_faces(self):
+        more = np.vstack([V[:10], [[np.nan, 9, 9]], V[10:]])
+        run = ss.simplify(more, F + (F >= 10), 150, 40)
+        np.testing.assert_array_equal(run.V, RUN.V)
+        self.assertEqual((run.P.shape, run.Q.shape, run.vertex_map[10]), ((150, 643), (643, 150), -1))
+        self.assertEqual(run.P[:, 10].nnz, 0)
+        self.assertEqual(abs(run.P[:, run.used] - RUN.P).nnz, 0)
+        np.testing.assert_array_equal(run.vertex_map[run.used], RUN.vertex_map)
+        self.assertEqual(len(run.eigenpairs.vectors), 642)
+        np.testing.assert_allclose(run.average(np.ones(643)), 1)
+        np.testing.assert_array_equal(run.levels(300).P.shape, (300, 643))
+
+    def test_a_mask(self):
+        mask = V[:, 2] < 0.55
+        run = ss.simplify(V, F, 120, 30, mask=mask)
+        self.assertEqual(run.P.shape, (120, 642))
+        self.assertFalse(run.P[:, ~mask].nnz)
+        self.assertTrue((run.vertex_map[~mask] == -1).all())
+        part = ss.clean(V, F[mask[F].all(axis=1)])
+        alone = ss.simplify(part.V, part.F, 120, 30)
+        np.testing.assert_array_equal(run.V, alone.V)
+        np.testing.assert_array_equal(run.used, part.origin)
+        labels = run.transfer_labels(np.where(V[:, 0] > 0, "east", "west"), by="area")
+        away = abs(run.V[:, 0]) > 0.2
+        np.testing.assert_array_equal(labels[away], np.where(run.V[:, 0] > 0, "east", "west")[away])
+        kept = ss.simplify(V, F, 120, 30, mask=mask, keep=[3, 7])
+        np.testing.assert_array_equal(kept.V[kept.vertex_map[[3, 7]]], V[[3, 7]])
+        with self.assertRaisesRegex(ValueError, "keep names the vertex %d, which no face uses" % np.flatnonzero(~mask)[0]):
+            ss.simplify(V, F, 120, 30, mask=mask, keep=np.flatnonzero(~mask))
+
+    def test_keep_by_booleans(self):
+        flags = np.zeros(len(V), bool)
+        flags[[7, 400]] = True
+        a, b = (ss.simplify(V, F, 150, 40, keep=keep) for keep in (flags, [7, 400]))
+        np.testing.assert_array_equal(a.V, b.V)
+        np.testing.assert_array_equal(a.V[a.vertex_map[[7, 400]]], V[[7, 400]])
+
+    def test_arrays_of_any_type(self):
+        for v in V.astype(np.float32), np.asfortranarray(V), V[::-1][::-1], V.tolist(), V.astype(">f8"), V.astype(np.longdouble):
+            for f in F.astype(np.int32), F.astype(np.uint16), np.asfortranarray(F), F.astype(np.uint64), F.astype(">i4"):
+                frozen = np.array(f)
+                frozen.setflags(write=False)
+                self.assertEqual(ss.eigenpairs(v, frozen, 4).zeros, 1)
+
+    def test_files(self):
+        endings = [".off", ".obj", ".ply", ".stl", ".vtk", ".vtp"] + [".gii", ".pial"] * HAVE["nibabel"] + [".vtu"] * HAVE["meshio"]
+        for ending in endings:
+            with self.subTest(ending):
+                path = self.path("mesh" + ending)
+                ss.write_mesh(path, V, F)
+                v, f = ss.read_mesh(path)
+                self.assertEqual((v.dtype, f.dtype, f.shape), (np.float64, np.int64, F.shape))
+                np.testing.assert_allclose(v[f], V[F], atol=1e-6)
+        self.assertEqual([n for n in os.listdir(self.folder) if n.startswith(".")], [])
+
+    def test_files_of_vtk_in_binary(self):
+        import base64
+        import zlib
+        with open(self.path("binary.vtk"), "wb") as file:
+            file.write(b"# vtk DataFile Version 2.0\nname\nBINARY\nDATASET POLYDATA\nPOINTS %d float\n" % len(V))
+            file.write(V.astype(">f4").tobytes() + b"\nPOLYGONS %d %d\n" % (len(F), 4 * len(F)))
+            file.write(np.column_stack([np.full(len(F), 3), F]).astype(">i4").tobytes())
+
+        def plain(a):
+            return base64.b64encode(np.uint32(a.nbytes).tobytes() + a.tobytes()).decode()
+
+        def packed(a):
+            data = zlib.compress(a.tobytes())
+            head = np.array([1, a.nbytes, 0, len(data)], np.uint32).tobytes()
+            return base64.b64encode(head).decode() + base64.b64encode(data).decode()
+
+        for name, code, more in ("plain.vtp", plain, ""), ("packed.vtp", packed, ' compressor="vtkZLibDataCompressor"'):
+            with open(self.path(name), "w") as file:
+                file.write(f'<VTKFile type="PolyData" byte_order="LittleEndian"{more}><PolyData><Piece NumberOfPoints="{len(V)}">'
+                           f'<Points><DataArray type="Float64" format="binary">{code(V)}</DataArray></Points><Polys>'
+                           f'<DataArray type="Int32" Name="connectivity" format="binary">{code(F.astype(np.int32))}</DataArray>'
+                           f'<DataArray type="Int32" Name="offsets" format="binary">'
+                           f'{code(np.arange(3, 3 * len(F) + 1, 3, dtype=np.int32))}</DataArray></Polys></Piece></PolyData></VTKFile>')
+        for name in "binary.vtk", "plain.vtp", "packed.vtp":
+            v, f = ss.read_mesh(self.path(name))
+            np.testing.assert_allclose(v, V, atol=1e-6)
+            np.testing.assert_array_equal(f, F)
+
+    def test_files_that_are_none(self):
+        for name, text, words in (("a.off", "OFF\n1 2", "a.off"), ("a.vtk", "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n1 2",
+                                                                  "a.vtk cannot be read: it ends too early"),
+                                  ("a.vtp", "<VTK", "a.vtp cannot be read"), ("a.xyz", "", "ends in '.xyz', which is not known"),
+                                  ("b.vtk", "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nPOLYGONS 1 5\n4 0 1 2 3\n",
+                                   "not all triangles")):
+            with open(self.path(name), "w") as file:
+                file.write(text)
+            with self.assertRaisesRegex(ValueError, words):
+                ss.read_mesh(self.path(name))
+        with self.assertRaisesRegex(FileNotFoundError, "does not exist"):
+            ss.read_mesh(self.path("none.off"))
+        with self.assertRaisesRegex(ValueError, "an index that is not one of"):
+            ss.write_mesh(self.path("out.off"), V, F + 1)
+        self.assertFalse(os.path.exists(self.path("out.off")))
+
+    def test_a_package_that_is_missing_is_named(self):
+        hidden = "import sys; sys.modules['nibabel'] = None; import spectral_simplification as ss\n" \
+                 "try: ss.write_mesh('x.gii', [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])\nexcept ValueError as e: print(e)"
+        said = subprocess.run([sys.executable, "-c", hidden], capture_output=True, text=True, cwd=self.folder, env=environment()).stdout
+        self.assertRegex(said, "x.gii needs the package nibabel, which is not installed: pip install nibabel")
+
+
+class Carried(Case):
+    def test_averages(self):
+        noise = np.random.default_rng(3).standard_normal(len(V))
+        self.assertLess(RUN.average(noise).std(), 0.6 * RUN.interpolate(noise).std())
+        np.testing.assert_allclose(RUN.average(np.full(len(V), 3.0)), 3)
+        weights = RUN.A
+        np.testing.assert_allclose(np.asarray(weights.sum(axis=1)).ravel(), 1)
+        self.assertEqual((np.asarray(weights.sum(axis=0)).ravel() > 0).all(), True)
+        deep = np.random.default_rng(4).standard_normal((len(V), 2, 3))
+        for carry in RUN.average, RUN.interpolate:
+            np.testing.assert_allclose(carry(deep)[:, 1, 2], carry(deep[:, 1, 2]))
+
+    def test_values_that_are_missing(self):
+        values = V[:, 0].copy()
+        values[::5] = np.nan
+        for carry, least in (RUN.average, 149), (RUN.interpolate, 100):
+            self.assertGreater(np.isnan(carry(values)).sum(), 10)
+            carried = carry(values, nan="omit")
+            self.assertGreater(np.isfinite(carried).sum(), least)
+            self.assertLess(np.nanmax(abs(carried - RUN.V[:, 0])), 0.4)
+        with self.assertRaisesRegex(ValueError, "nan is 'drop'"):
+            RUN.average(values, nan="drop")
+
+    @unittest.skipUnless(HAVE["pandas"], "pandas is not installed")
+    def test_labels_of_pandas(self):
+        import pandas
+        names = np.where(V[:, 0] > 0, "east", "west")
+        plain = RUN.transfer_labels(names)
+        for labels in pandas.Series(names), pandas.Series(names, dtype="string"), names.astype(object):
+            np.testing.assert_array_equal(RUN.transfer_labels(labels).astype(str), plain)
+        categories = pandas.Categorical(names, categories=["north", "west", "east"])
+        for labels in categories, pandas.Series(categories):
+            carried = RUN.transfer_labels(labels)
+            self.assertEqual(list(carried.categories), ["north", "west", "east"])
+            np.testing.assert_array_equal(np.asarray(carried).astype(str), plain)
+        names = names.astype(object)
+        names[4] = None
+        for labels in names, pandas.Series(names, dtype="string"), pandas.Categorical(names):
+            with self.assertRaisesRegex(ValueError, r"labels\[4\] is missing"):
+                RUN.transfer_labels(labels)
+
+    def test_eigenpairs_of_both(self):
+        self.assertIs(RUN.fine_eigenpairs, RUN.eigenpairs)
+        own = ss.simplify(V, F, 150, signals=V)
+        self.assertIsNone(own.eigenpairs)
+        self.assertEqual((len(own.fine_eigenpairs), own.fine_eigenpairs.mass), (3, "averaged"))
+        self.assertIs(own.fine_eigenpairs, own.fine_eigenpairs)
+        errors = {}
+        for mass in "lumped", "averaged", "consistent", "voronoi":
+            pairs = RUN.coarse_eigenpairs(20, mass)
+            self.assertEqual((pairs.mass, len(pairs)), (mass, 20))
+            self.assertEqual(pairs.M.nnz == 150, mass in ("lumped", "voronoi"))
+            errors[mass] = abs(pairs.values[1:] / RUN.eigenpairs.values[1:20] - 1).mean()
+        fitted = RUN.coarse_eigenpairs(30, "fitted")
+        self.assertEqual((len(fitted), fitted.mass), (30, "edges"))
+        self.assertLess(abs(fitted.values[1:20] / RUN.eigenpairs.values[1:20] - 1).mean(), errors["lumped"])
+        self.assertIs(RUN.coarse_eigenpairs(mass="fitted"), RUN.fitted)
+        self.assertLess(errors["averaged"], errors["lumped"])
+        with self.assertRaisesRegex(ValueError, "mass is 'heavy', it must be"):
+            RUN.coarse_eigenpairs(20, "heavy")
+
+    def test_distances_that_are_no_squares(self):
+        squared = ss.distances(RUN.eigenpairs, [0, 5])
+        np.testing.assert_allclose(ss.distances(RUN.eigenpairs, [0, 5], squared=False) ** 2, squared)
+        np.testing.assert_array_equal(ss.distances(RUN.eigenpairs, [0, 5], squared=True), squared)
+        with self.assertRaisesRegex(ValueError, "squared is True, but the distance 'wave_kernel' is no root"):
+            ss.distances(RUN.eigenpairs, 0, "wave_kernel", squared=True)
+
+
+class Maps(Case):
+    @classmethod
+    def setUpClass(cls):
+        cls.other = list(poses(4))[3]
+        cls.order = np.random.default_rng(2).permutation(len(V))  # the other mesh has its vertices in another order
+        place = np.argsort(cls.order)
+        cls.run_ = ss.simplify(cls.other[cls.order], place[F], 150, 40)
+        cls.T = place  # for each vertex of the first the one of the other
+
+    def test_alignment(self):
+        turned = ss.eigenpairs(self.other, F, 40)
+        flipped = ss.Eigenpairs.from_arrays(turned.values, turned.vectors * np.where(np.arange(40) % 3, 1, -1), turned.L, turned.M)
+        aligned = ss.align(RUN.eigenpairs, flipped)
+        before, after = (np.linalg.norm(RUN.eigenpairs.vectors - x) for x in (flipped.vectors, aligned.vectors))
+        self.assertLess(after, 0.3 * before)
+        np.testing.assert_allclose(aligned.rotation.T @ aligned.rotation, np.eye(40), atol=1e-10)
+        self.assertEqual([a for a, _ in aligned.clusters][1:], [b for _, b in aligned.clusters][:-1])
+        self.assertGreater(len(aligned.clusters), 5)
+        by_map = ss.align(RUN.eigenpairs, self.run_.eigenpairs, self.T)
+        self.assertLess(np.linalg.norm(RUN.eigenpairs.vectors - by_map.vectors[self.T]), 0.3 * before)
+        with self.assertRaisesRegex(ValueError, "pass T"):
+            ss.align(RUN.eigenpairs, RUN.coarse_eigenpairs(10))
+
+    def test_maps_there_and_back(self):
+        source, target = self.run_.eigenpairs, RUN.eigenpairs
+        C = ss.functional_map_of_point_map(self.T, source, target)
+        self.assertEqual(C.shape, (40, 40))
+        error = np.linalg.norm(self.other[self.order][ss.point_map(C, source, target)] - self.other, axis=1).mean()
+        self.assertLess(error, 0.05)
+        refined, T = ss.zoom_out(C[:10, :10], source, target)
+        self.assertEqual(refined.shape, (40, 40))
+        first = ss.point_map(C[:10, :10], source, target)
+        wrong = [np.linalg.norm(self.other[self.order][t] - self.other, axis=1).mean() for t in (first, T)]
+        self.assertLess(wrong[1], 0.7 * wrong[0])
+        for words, call in (("C has the shape", lambda: ss.point_map(np.ones((50, 3)), source, target)),
+                            ("T has the shape", lambda: ss.functional_map_of_point_map(self.T[:5], source, target)),
+                            ("k is 41", lambda: ss.zoom_out(C, source, target, 41))):
+            with self.assertRaisesRegex(ValueError, words):
+                call()
+
+    def test_lifting(self):
+        # The coarse map is found by the closest vertices of corresponding points.
+        where = V @ np.eye(3)
+        own = RUN.P @ where
+        others = self.run_.P @ where[self.order]
+        coarse = np.array([np.linalg.norm(others - p, axis=1).argmin() for p in own])
+        T = ss.lift_point_map(coarse, self.run_, RUN, 30)
+        self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.12)
+
+
+class Poses(Case):
+    def test_another_pose(self):
+        other = list(poses(4))[3]
+        own = ss.simplify(other, F, 150, 40)
+        pairs = ss.eigenpairs(other, F, 40)
+        errors = {}
+        for name, level in (("own", own), ("P", RUN.apply(other)), ("merges", RUN.apply(other, "merges")),
+                            ("relocated", RUN.apply(other, relocate=True)),
+                            ("given", RUN.apply(other, relocate=True, eigenpairs=pairs))):
+            errors[name] = ss.evaluate(other, F, level.V, level.F, level.P, 40, eigenpairs=pairs).eigenvalue_error
+            if name != "own":
+                np.testing.assert_array_equal(level.F, RUN.F)
+                np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
+        np.testing.assert_allclose(RUN.apply(other).V, RUN.P @ other)
+        self.assertLess(errors["relocated"], 1.3 * errors["own"])
+        self.assertLess(errors["relocated"], errors["P"])
+        self.assertAlmostEqual(errors["given"], errors["relocated"], 4)
+
+    def test_the_merges_are_those_of_the_run(self):
+        paper = ss.simplify(V, F, 150, 40, "paper")
+        self.assertLess(abs(paper._merge_restriction() - paper.P).max(), 1e-12)
+        np.testing.assert_allclose(paper.apply(V, "merges").V, paper.V, atol=1e-12)
+
+    def test_refusals(self):
+        for words, call in ((r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
+                            ("by is 'magic'", lambda: RUN.apply(V, "magic")),
+                            ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
+                            (r"V_other\[2\] is not finite", lambda: RUN.apply(np.where(np.arange(642)[:, None] == 2, np.nan, V)))):
+            with self.assertRaisesRegex(ValueError, words):
+                call()
+
+
+class Collections(Case):
+    def files(self):
+        names = []
+        for i, pose in enumerate(poses(4)):
+            names.append(self.path(f"pose{i}.off"))
+            ss.write_mesh(names[-1], pose, F if i != 1 else np.vstack([F[:4, ::-1], F[4:]]))
+        with open(self.path("bad.off"), "w") as file:
+            file.write("OFF\n")
+        return names[:2] + [self.path("bad.off")] + names[2:]
+
+    def check(self, rows):
+        self.assertEqual([r.name for r in rows], ["pose0", "pose1", "bad", "pose2", "pose3"])
+        self.assertEqual([r.error is None for r in rows], [True, True, False, True, True])
+        self.assertIn("bad.off", rows[2].error)
+        with self.assertRaisesRegex(ValueError, "bad has no result: .*bad.off"):
+            rows[2].result
+        np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
+        self.assertEqual(rows[1].result.P.shape, (150, 642))
+
+    def test_in_this_process_and_again(self):
+        files, seen, out = self.files(), [], self.path("out")
+        with self.assertRaises(ss.Cancelled):
+            ss.simplify_collection(files, 150, out, k=40, progress=lambda done, total, name: done < 2)
+        self.assertEqual(sorted(n for n in os.listdir(out) if n.endswith(".npz")), ["pose0.npz", "pose1.npz"])
+        rows = ss.simplify_collection(files, 150, out, k=40, progress=lambda *now: seen.append(now))
+        self.check(rows)
+        self.assertEqual([r.seconds == 0 for r in rows], [True, True, False, False, False])
+        self.assertEqual([now[0] for now in seen], [1, 2, 3, 4, 5])
+        with self.assertRaisesRegex(ValueError, "has results of other arguments"):
+            ss.simplify_collection(files, 160, out, k=40)
+
+    def test_arrays_on_processes(self):
+        meshes = ((p, F if i < 3 else F[:, :2]) for i, p in enumerate(poses(4)))
+        rows = ss.simplify_collection(meshes, 150, workers=2, k=40, progress=False)
+        self.assertEqual([r.error is None for r in rows], [True, True, True, False])
+        np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
+
+    @unittest.skipUnless(HAVE["distributed"], "distributed is not installed")
+    def test_a_cluster_that_loses_a_worker(self):
+        import distributed
+        files = self.files()
+        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+            with distributed.Client(cluster) as client:
+                killed = []
+
+                def kill(done, total, name):
+                    if not killed:
+                        killed.extend(client.run(os.getpid).values())
+                        os.kill(killed[0], signal.SIGKILL)
+
+                rows = ss.simplify_collection(files, 150, self.path("out"), workers=client, k=40, progress=kill)
+                self.check(rows)
+                self.assertEqual(len(killed), 2)
+            rows = ss.simplify_collection(files[:1], 150, workers=cluster.scheduler_address, k=40, progress=False)
+            self.assertIsNone(rows[0].error)
+
+    def test_one_connectivity(self):
+        meshes = [(p, F) for p in poses(12)]
+        rows = ss.simplify_collection(meshes + [(V[:-1], F)], 150, shared_connectivity=True, k=40, progress=False)
+        self.assertRegex(rows[12].error, "it has not the faces of mesh 0")
+        ratios = []
+        for (pose, _), row in zip(meshes, rows):
+            np.testing.assert_array_equal(row.result.F, rows[0].result.F)
+            pairs = ss.eigenpairs(pose, F, 40)
+            own = ss.simplify(pose, F, 150, 40, eigenpairs=pairs)
+            errors = [ss.evaluate(pose, F, r.V, r.F, r.P, 40, eigenpairs=pairs).eigenvalue_error for r in (row.result, own)]
+            ratios.append(errors[0] / errors[1])
+        self.assertLess(np.mean(ratios), 1.3)
+
+    def test_refusals(self):
+        for words, more in (("workers is 0", dict(workers=0)), ("has no option 'colour'", dict(colour=1)),
+                            ("keep is not for meshes of one connectivity", dict(keep=[1], shared_connectivity=True)),
+                            ("belong to one mesh", dict(eigenpairs=RUN.eigenpairs))):
+            with self.assertRaisesRegex(ValueError, words):
+                ss.simplify_collection([(V, F)], 150, progress=False, **more)
+
+
+class Command_line(Case):
+    def command(self, *words, program=()):
+        program = program or (sys.executable, "-m", "spectral_simplification")
+        return subprocess.run([*program, *words], cwd=self.folder, env=environment(), capture_output=True, text=True)
+
+    def test_its_words(self):
+        ss.write_mesh(self.path("in.off"), V, F)
+        words = ("in.off", "out.off", "--vertices", "150", "--eigenvectors", "40", "--relocate", "carried", "--restriction", "P.mtx", "--map",
+                 "map.txt", "--json", "out.json", "--quiet")
+        done = self.command(*words, "--save", "run.npz")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        run = ss.simplify(V, F, 150, 40, relocate="carried")
+        np.testing.assert_allclose(ss.read_mesh(self.path("out.off"))[0], run.V, atol=1e-12)
+        self.assertEqual(ss.load(self.path("run.npz")).P.shape, (150, 642))
+        files = {name: self.text(name) for name in ("map.txt", "out.json")}
+        if PROGRAM:
+            self.assertEqual(self.command(*words, program=[PROGRAM]).returncode, 0)
+            self.assertEqual(self.text("map.txt").split(), files["map.txt"].split())
+            said, own = json.loads(self.text("out.json")), json.loads(files["out.json"])
+            for name in "norm_L", "norm_D", "eigenvalue_error_mean", "output_vertices":
+                self.assertAlmostEqual(said[name], own[name], 5)
+            known = self.command("--help", "advanced", program=[PROGRAM]).stdout
+            ours = self.command("--help").stdout
+            for word in re.findall(r"--[a-z-]+", ours):
+                if word not in ("--help", "--version", "--mask", "--save"):
+                    self.assertIn(word, known)
+
+    def test_what_cannot_be_meant(self):
+        ss.write_mesh(self.path("in.off"), V, F)
+        for words, said in ((("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
+                            (("in.off", "out.off", "--vertices", "many"), "--vertices is many"),
+                            (("in.off", "out.off", "--vertices", "9999"), "n is 9999, it must be"),
+                            (("in.off", "out.xyz", "--vertices", "150", "--map", "map.txt"), "ends in '.xyz'"),
+                            (("in.off", "out.off", "--vertices", "150", "--preset", "worst"), "invalid choice")):
+            done = self.command(*words, "--eigenvectors", "40", "--no-evaluation", "--quiet")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(said, done.stderr)
+            self.assertEqual(os.listdir(self.folder), ["in.off"])
+
+
+class Package(Case):
+    def test_doctests(self):
+        for name in "_interface", "_results", "_meshes", "_maps", "_collection":
+            module = importlib.import_module("spectral_simplification." + name)
+            self.assertEqual(doctest.testmod(module).failed, 0, name)
+
+    def test_it_says_what_it_is(self):
+        folder = os.path.dirname(ss.__file__)
+        self.assertRegex(ss.__version__, r"^\d+\.\d+\.\d+$")
+        self.assertTrue(os.path.exists(os.path.join(folder, "py.typed")))
+        with open(os.path.join(folder, "_core.pyi")) as file:
+            stubs = file.read()
+        core = importlib.import_module("spectral_simplification._core")
+        for name in dir(core):
+            if not name.startswith("__"):
+                self.assertRegex(stubs, r"(?m)^(def|class) %s\b" % name)
+
+
+def vars_of(cleaned):
+    return cleaned.V, cleaned.F
+
+
+def environment():
+    root = os.path.dirname(os.path.dirname(os.path.abspath(ss.__file__)))
+    return {**os.environ, "PYTHONPATH": root, "PYTHONDONTWRITEBYTECODE": "1"}
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+        PROGRAM = os.path.abspath(sys.argv.pop(1))
+    os.environ["PYTHONPATH"] = os.path.dirname(os.path.dirname(os.path.abspath(ss.__file__)))  # of processes that are started
+    unittest.main()
