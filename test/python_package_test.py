@@ -5,10 +5,12 @@
 # python_package_test.py [SPECTRAL_SIMPLIFY]: what the package adds to the module, on shapes that are made here. Without the program what
 # compares with it is left out, as in an environment that has the wheel alone.
 
+import contextlib
 import copy
 import doctest
 import gc
-import importlib
+import importlib.util
+import io
 import json
 import os
 import pickle
@@ -30,6 +32,7 @@ import spectral_simplification as ss
 from python_shapes import sheet, sphere
 
 PROGRAM = None
+PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "python")
 V, F = sphere(3)
 warnings.simplefilter("ignore")
 RUN = ss.simplify(V, F, 150, 40, fit_operators=True)
@@ -591,6 +594,73 @@ class Package(Case):
         for name in dir(core):
             if not name.startswith("__"):
                 self.assertRegex(stubs, r"(?m)^(def|class) %s\b" % name)
+
+
+class Recipes(Case):
+    """Those of the page, and the example of the cortex."""
+
+    def run_recipe(self, name, **names):
+        with open(os.path.join(PAGE, "README.md")) as file:
+            code = file.read().split("```python\n# recipe: %s\n" % name)[1].split("```")[0]
+        here = os.getcwd()
+        os.chdir(self.folder)
+        try:
+            names = dict(ss=ss, np=np, **names)
+            with contextlib.redirect_stdout(io.StringIO()) as said:
+                exec(compile(code, name, "exec"), names)
+        finally:
+            os.chdir(here)
+        return names, said.getvalue()
+
+    def test_collection(self):
+        os.mkdir(self.path("shapes"))
+        for i, pose in enumerate(poses(3)):
+            ss.write_mesh(self.path(f"shapes/{i}.off"), pose, F)
+        names, said = self.run_recipe("collection")
+        self.assertEqual(said, "0 300\n1 300\n2 300\n")
+        self.assertEqual(len(os.listdir(self.path("small"))), 4)
+
+    def test_map(self):
+        second = list(poses(4))[2]
+
+        def my_matcher(X, Y):
+            return np.linalg.norm((X.P @ V)[:, None] - (Y.P @ V)[None], axis=2).argmin(axis=1)
+
+        names, _ = self.run_recipe("map", first=(V, F), second=(second, F), my_matcher=my_matcher)
+        self.assertLess(np.linalg.norm(V[names["T_fine"]] - V, axis=1).mean(), 0.1)
+
+    @unittest.skipUnless(HAVE["nibabel"], "nibabel is not installed")
+    def test_cortex(self):
+        fine, faces = sphere(4)
+        ss.write_mesh(self.path("midthickness.gii"), fine, faces)
+        ss.write_mesh(self.path("pial.gii"), 1.1 * fine, faces)
+        measured = fine[:, 0].copy()
+        measured[::7] = np.nan
+        names, _ = self.run_recipe("cortex", cortex=fine[:, 2] < 0.6, atlas=(fine[:, 1] > 0).astype(int), measured=measured)
+        self.assertEqual((names["parcels"].shape, len(names["modes"])), ((600,), 50))
+        self.assertLess(np.nanmean(abs(names["thickness"] - names["run"].V[:, 0])), 0.05)
+        self.assertLess(abs(names["pial"].V - 1.1 * names["run"].V).max(), 0.2)
+
+    def test_network(self):
+        names, _ = self.run_recipe("network", V=V, F=F, features=V, labels=V[:, 0] > 0)
+        self.assertEqual((names["inputs"]["mass"].shape, names["prediction"].shape), ((300,), (642, 64)))
+
+    def test_picture(self):
+        if importlib.util.find_spec("matplotlib") is None:
+            self.skipTest("Matplotlib is not installed")
+        import matplotlib
+        matplotlib.use("Agg")
+        self.run_recipe("picture", run=RUN, V=V, F=F)
+        self.assertGreater(os.path.getsize(self.path("mode.png")), 10000)
+
+    def test_the_cortex_example(self):
+        done = subprocess.run([sys.executable, os.path.join(PAGE, "cortex.py"), "--vertices", "300", "--modes", "50"], cwd=self.folder,
+                              env=environment(), capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        error = float(re.search(r"averaged mass: error ([0-9.]+) %", done.stdout)[1])
+        self.assertLess(error, 2)
+        self.assertIn("40 of 40 parcels carried", done.stdout)
+        self.assertLessEqual({"cortex.off", "cortex_sphere.off", "cortex.npz"}, set(os.listdir(self.folder)))
 
 
 def vars_of(cleaned):

@@ -673,9 +673,13 @@ class Documentation(unittest.TestCase):
     def test_the_example_of_its_page(self):
         with open(os.path.join(os.path.dirname(__file__), "..", "examples", "python", "README.md")) as file:
             code = file.read().split("```python\n")[1].split("```")[0]
-        names = dict(V=V, F=F)
-        with contextlib.redirect_stdout(io.StringIO()):
-            exec(code, names)
+        names, here = dict(V=V, F=F), os.getcwd()
+        with tempfile.TemporaryDirectory() as folder, contextlib.redirect_stdout(io.StringIO()):
+            try:
+                os.chdir(folder)
+                exec(code, names)
+            finally:
+                os.chdir(here)
         self.assertEqual((names["run"].V.shape, names["finer"].V.shape), ((600, 3), (1200, 3)))
         self.assertLess(abs(names["back"] - V[:, 2]).max(), 0.1)
 
