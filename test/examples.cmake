@@ -90,6 +90,9 @@ if(TARGET spectral_simplification AND TARGET spectral_simplify)
   spectral_add_python_test("python-package" "${CMAKE_CURRENT_SOURCE_DIR}/python_package_test.py" $<TARGET_FILE:spectral_simplify>)
   set(adapters_test "${CMAKE_CURRENT_SOURCE_DIR}/python_adapters_test.py" "${PROJECT_SOURCE_DIR}/examples/python")
   spectral_add_python_test("python-adapters" ${adapters_test} Adapters)
+  add_test(NAME "python-wheel" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/python_wheel_test.sh" "${SPECTRAL_PYTHON_EXECUTABLE}"
+                                       $<TARGET_FILE:spectral_simplification> "${CMAKE_CURRENT_BINARY_DIR}/python-wheel")
+  set_tests_properties("python-wheel" PROPERTIES LABELS python SKIP_RETURN_CODE 77 TIMEOUT 600)
   execute_process(COMMAND "${SPECTRAL_PYTHON_EXECUTABLE}" -c "import matplotlib" RESULT_VARIABLE no_matplotlib
                   OUTPUT_QUIET ERROR_QUIET)
   if(no_matplotlib OR NOT TARGET spectral_examples_matching)

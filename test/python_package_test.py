@@ -653,6 +653,12 @@ class Recipes(Case):
         self.run_recipe("picture", run=RUN, V=V, F=F)
         self.assertGreater(os.path.getsize(self.path("mode.png")), 10000)
 
+    def test_beside_scipy(self):
+        done = subprocess.run([sys.executable, os.path.join(PAGE, "beside_scipy.py"), "--vertices", "900", "--modes", "10"],
+                              cwd=self.folder, env=environment(), capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(float(re.search(r"SuperLU .* agree within (\S+)", done.stdout)[1]), 1e-7)
+
     def test_the_cortex_example(self):
         done = subprocess.run([sys.executable, os.path.join(PAGE, "cortex.py"), "--vertices", "300", "--modes", "50"], cwd=self.folder,
                               env=environment(), capture_output=True, text=True)
@@ -673,7 +679,7 @@ def environment():
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and not sys.argv[1].startswith("-"):
+    if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]):
         PROGRAM = os.path.abspath(sys.argv.pop(1))
     os.environ["PYTHONPATH"] = os.path.dirname(os.path.dirname(os.path.abspath(ss.__file__)))  # of processes that are started
     unittest.main()

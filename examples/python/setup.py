@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # pip install ./examples/python: CMake compiles the module from the folder two levels up, or from what the source distribution has of
-# it. CMAKE_ARGS are handed to CMake, JOBS says how many compile at a time.
+# it. CMAKE_ARGS are handed to CMake, JOBS says how many compile at a time. SPECTRAL_PYTHON_CORE names a module that has been compiled
+# before for this Python: nothing is compiled then.
 
 import os
 import pathlib
@@ -36,6 +37,12 @@ def pybind11_folder():
 class CMake_build(build_ext):
     def build_extension(self, extension):
         target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if compiled := os.environ.get("SPECTRAL_PYTHON_CORE"):
+            if pathlib.Path(compiled).name != target.name:
+                sys.exit(f"SPECTRAL_PYTHON_CORE is {compiled}, but this Python, {sys.executable}, loads {target.name}.")
+            self.copy_file(compiled, str(target))
+            return
         build = pathlib.Path(self.build_temp).resolve()
         if shutil.which("ninja") and not (build / "CMakeCache.txt").exists():
             os.environ.setdefault("CMAKE_GENERATOR", "Ninja")  # as the scripts do: a machine may have no make
@@ -53,7 +60,6 @@ class CMake_build(build_ext):
                 sys.exit("The module was not built, the reason is above. It needs a C++17 compiler, CGAL 5.5 or later, Eigen, Boost, "
                          "pybind11, nlohmann-json and the headers of this Python, " + sys.executable + " (on Debian: apt-get install g++ "
                          "ninja-build cmake libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev pybind11-dev python3-dev).")
-        target.parent.mkdir(parents=True, exist_ok=True)
         self.copy_file(str(build / "examples" / "python" / "spectral_simplification" / target.name), str(target))
 
 
