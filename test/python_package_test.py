@@ -2,8 +2,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python_package_test.py [SPECTRAL_SIMPLIFY]: what the package adds to the module, on shapes that are made here. Without the program what
-# compares with it is left out, as in an environment that has the wheel alone.
+# python_package_test.py [SPECTRAL_SIMPLIFY]: what the package adds to the module, on shapes that
+# are made here. Without the program what compares with it is left out, as in an environment that
+# has the wheel alone.
 
 import contextlib
 import copy
@@ -36,14 +37,23 @@ PAGE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples"
 V, F = sphere(3)
 warnings.simplefilter("ignore")
 RUN = ss.simplify(V, F, 150, 40, fit_operators=True)
-HAVE = {name: importlib.util.find_spec(name) is not None for name in ("nibabel", "meshio", "pandas", "distributed")}
+HAVE = {
+    name: importlib.util.find_spec(name) is not None
+    for name in ("nibabel", "meshio", "pandas", "distributed")
+}
 
 
 def poses(count):
     """The sphere bent in so many ways: nearly isometric."""
     for i in range(count):
         angle = 0.25 * i / count * V[:, :1]
-        yield np.hstack([V[:, :1], np.cos(angle) * V[:, 1:2] - np.sin(angle) * V[:, 2:], np.sin(angle) * V[:, 1:2] + np.cos(angle) * V[:, 2:]])
+        yield np.hstack(
+            [
+                V[:, :1],
+                np.cos(angle) * V[:, 1:2] - np.sin(angle) * V[:, 2:],
+                np.sin(angle) * V[:, 1:2] + np.cos(angle) * V[:, 2:],
+            ]
+        )
 
 
 class Case(unittest.TestCase):
@@ -87,12 +97,25 @@ class Case(unittest.TestCase):
 class Results_live(Case):
     def test_pickle_copy_and_files(self):
         pairs = RUN.eigenpairs
-        everything = [RUN, RUN.levels(300), pairs, RUN.fitted, ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40, eigenpairs=pairs),
-                      ss.align(pairs, pairs), ss.clean(V, F), ss.diagnose(V, F)]
+        everything = [
+            RUN,
+            RUN.levels(300),
+            pairs,
+            RUN.fitted,
+            ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40, eigenpairs=pairs),
+            ss.align(pairs, pairs),
+            ss.clean(V, F),
+            ss.diagnose(V, F),
+        ]
         for result in everything:
             stored = self.path("result.npz")
             result.save(stored)
-            for again in pickle.loads(pickle.dumps(result)), copy.copy(result), copy.deepcopy(result), ss.load(stored):
+            for again in (
+                pickle.loads(pickle.dumps(result)),
+                copy.copy(result),
+                copy.deepcopy(result),
+                ss.load(stored),
+            ):
                 (self.same_pairs if isinstance(result, ss.Eigenpairs) else self.same)(result, again)
         again = ss.load(self.path("result.npz"))
         self.assertTrue(again.usable)
@@ -126,37 +149,53 @@ class Results_live(Case):
         for mass in "lumped", "consistent":
             p = ss.eigenpairs(V, F, 5, mass)
             self.assertEqual(ss.Eigenpairs.from_arrays(p.values, p.vectors, p.L, p.M).mass, mass)
-        for words, arguments in (("are not orthonormal in M", (w, 2 * U, own.L, own.M)),
-                                 ("are no eigenpair", (w + 5, U, own.L, own.M)),
-                                 ("they must be", (w[:3], U, own.L, own.M)),
-                                 ("values are not ascending", (w[::-1], U[:, ::-1], own.L, own.M)),
-                                 ("it must be a sparse matrix", (w, U, own.L.toarray(), own.M)),
-                                 ("mass is 'lumped', but M is another one", (w, U, own.L, own.M, "lumped"))):
+        for words, arguments in (
+            ("are not orthonormal in M", (w, 2 * U, own.L, own.M)),
+            ("are no eigenpair", (w + 5, U, own.L, own.M)),
+            ("they must be", (w[:3], U, own.L, own.M)),
+            ("values are not ascending", (w[::-1], U[:, ::-1], own.L, own.M)),
+            ("it must be a sparse matrix", (w, U, own.L.toarray(), own.M)),
+            ("mass is 'lumped', but M is another one", (w, U, own.L, own.M, "lumped")),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 ss.Eigenpairs.from_arrays(*arguments)
 
     def test_any_pencil(self):
         pairs = ss.eigenpairs(V, F, 5, "consistent")
         w, U = ss.eigsh(1000 * pairs.L, pairs.M, 20)
-        reference, _ = scipy.sparse.linalg.eigsh(1000 * pairs.L.tocsc(), 20, pairs.M.tocsc(), sigma=-1)
+        reference, _ = scipy.sparse.linalg.eigsh(
+            1000 * pairs.L.tocsc(), 20, pairs.M.tocsc(), sigma=-1
+        )
         np.testing.assert_allclose(w[1:], reference[1:], rtol=1e-8)
         np.testing.assert_allclose(U.T @ (pairs.M @ U), np.eye(20), atol=1e-8)
-        path = scipy.sparse.diags([[1.0] + 398 * [2.0] + [1.0], 399 * [-1.0], 399 * [-1.0]], [0, 1, -1]).tocsr()
-        np.testing.assert_allclose(ss.eigsh(path, k=5)[0], 2 - 2 * np.cos(np.pi * np.arange(5) / 400), atol=1e-10)
+        path = scipy.sparse.diags(
+            [[1.0] + 398 * [2.0] + [1.0], 399 * [-1.0], 399 * [-1.0]], [0, 1, -1]
+        ).tocsr()
+        np.testing.assert_allclose(
+            ss.eigsh(path, k=5)[0], 2 - 2 * np.cos(np.pi * np.arange(5) / 400), atol=1e-10
+        )
         skew = pairs.L.tolil()
         skew[0, 7] += 1
-        for words, arguments in (("L is not symmetric", (skew.tocsr(), pairs.M, 5)), ("k is 0, it must be", (pairs.L, pairs.M, 0)),
-                                 ("M has the shape", (pairs.L, pairs.M[:5, :5], 5)), ("must be a sparse matrix", (np.eye(3), None, 2)),
-                                 ("of B is not positive", (pairs.L, -pairs.M, 5))):
+        for words, arguments in (
+            ("L is not symmetric", (skew.tocsr(), pairs.M, 5)),
+            ("k is 0, it must be", (pairs.L, pairs.M, 0)),
+            ("M has the shape", (pairs.L, pairs.M[:5, :5], 5)),
+            ("must be a sparse matrix", (np.eye(3), None, 2)),
+            ("of B is not positive", (pairs.L, -pairs.M, 5)),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 ss.eigsh(*arguments)
 
     def test_an_interrupt_ends_what_takes_long(self):
         fine, faces = sphere(5)
         pairs = ss.eigenpairs(fine, faces, 100, tolerance=1e-4)
-        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
-        for work in (lambda: ss.distances(pairs, np.arange(len(fine)), "wave_kernel"),
-                     lambda: ss.heat_kernel_signature(pairs, np.linspace(0.01, 1, 20000))):
+        self.addCleanup(
+            signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler)
+        )
+        for work in (
+            lambda: ss.distances(pairs, np.arange(len(fine)), "wave_kernel"),
+            lambda: ss.heat_kernel_signature(pairs, np.linspace(0.01, 1, 20000)),
+        ):
             ends = threading.Timer(0.4, os.kill, (os.getpid(), signal.SIGINT))
             ends.start()
             begin = time.monotonic()
@@ -165,7 +204,10 @@ class Results_live(Case):
             self.assertLess(time.monotonic() - begin, 6)
 
     def test_memory_does_not_grow(self):
-        with open("/proc/self/statm") if os.path.exists("/proc/self/statm") else self.skipTest("no /proc") as file:
+        with open("/proc/self/statm") if os.path.exists("/proc/self/statm") else self.skipTest(
+            "no /proc"
+        ) as file:
+
             def used():
                 gc.collect()
                 file.seek(0)
@@ -193,7 +235,9 @@ class Meshes(Case):
         faces = np.vstack([faces, faces[:1]])
         said = ss.diagnose(dirty, faces)
         self.assertFalse(said.usable)
-        self.assertRegex(" ".join(said.obstacles), "more than|alike|same|copies|vertices of|duplicate|isolated")
+        self.assertRegex(
+            " ".join(said.obstacles), "more than|alike|same|copies|vertices of|duplicate|isolated"
+        )
         cleaned = ss.clean(dirty, faces)
         self.assertEqual(sorted(c.split()[0] for c in cleaned.changes), ["1", "1", "4"])
         np.testing.assert_array_equal(cleaned.V, V)
@@ -202,13 +246,19 @@ class Meshes(Case):
         self.assertTrue(ss.diagnose(cleaned.V, cleaned.F).usable)
         with self.assertRaisesRegex(ValueError, "^V, F cannot be used as it is: .*repair=True"):
             ss.clean(V, np.vstack([F, [[F[0, 0], F[0, 1], 500]]]))
-        self.assertTrue(ss.diagnose(*vars_of(ss.clean(V, np.vstack([F, [[F[0, 0], F[0, 1], 500]]]), repair=True))).usable)
+        self.assertTrue(
+            ss.diagnose(
+                *vars_of(ss.clean(V, np.vstack([F, [[F[0, 0], F[0, 1], 500]]]), repair=True))
+            ).usable
+        )
 
     def test_vertices_without_faces(self):
         more = np.vstack([V[:10], [[np.nan, 9, 9]], V[10:]])
         run = ss.simplify(more, F + (F >= 10), 150, 40)
         np.testing.assert_array_equal(run.V, RUN.V)
-        self.assertEqual((run.P.shape, run.Q.shape, run.vertex_map[10]), ((150, 643), (643, 150), -1))
+        self.assertEqual(
+            (run.P.shape, run.Q.shape, run.vertex_map[10]), ((150, 643), (643, 150), -1)
+        )
         self.assertEqual(run.P[:, 10].nnz, 0)
         self.assertEqual(abs(run.P[:, run.used] - RUN.P).nnz, 0)
         np.testing.assert_array_equal(run.vertex_map[run.used], RUN.vertex_map)
@@ -231,7 +281,9 @@ class Meshes(Case):
         np.testing.assert_array_equal(labels[away], np.where(run.V[:, 0] > 0, "east", "west")[away])
         kept = ss.simplify(V, F, 120, 30, mask=mask, keep=[3, 7])
         np.testing.assert_array_equal(kept.V[kept.vertex_map[[3, 7]]], V[[3, 7]])
-        with self.assertRaisesRegex(ValueError, "keep names the vertex %d, which no face uses" % np.flatnonzero(~mask)[0]):
+        with self.assertRaisesRegex(
+            ValueError, "keep names the vertex %d, which no face uses" % np.flatnonzero(~mask)[0]
+        ):
             ss.simplify(V, F, 120, 30, mask=mask, keep=np.flatnonzero(~mask))
 
     def test_keep_by_booleans(self):
@@ -242,14 +294,31 @@ class Meshes(Case):
         np.testing.assert_array_equal(a.V[a.vertex_map[[7, 400]]], V[[7, 400]])
 
     def test_arrays_of_any_type(self):
-        for v in V.astype(np.float32), np.asfortranarray(V), V[::-1][::-1], V.tolist(), V.astype(">f8"), V.astype(np.longdouble):
-            for f in F.astype(np.int32), F.astype(np.uint16), np.asfortranarray(F), F.astype(np.uint64), F.astype(">i4"):
+        for v in (
+            V.astype(np.float32),
+            np.asfortranarray(V),
+            V[::-1][::-1],
+            V.tolist(),
+            V.astype(">f8"),
+            V.astype(np.longdouble),
+        ):
+            for f in (
+                F.astype(np.int32),
+                F.astype(np.uint16),
+                np.asfortranarray(F),
+                F.astype(np.uint64),
+                F.astype(">i4"),
+            ):
                 frozen = np.array(f)
                 frozen.setflags(write=False)
                 self.assertEqual(ss.eigenpairs(v, frozen, 4).zeros, 1)
 
     def test_files(self):
-        endings = [".off", ".obj", ".ply", ".stl", ".vtk", ".vtp"] + [".gii", ".pial"] * HAVE["nibabel"] + [".vtu"] * HAVE["meshio"]
+        endings = (
+            [".off", ".obj", ".ply", ".stl", ".vtk", ".vtp"]
+            + [".gii", ".pial"] * HAVE["nibabel"]
+            + [".vtu"] * HAVE["meshio"]
+        )
         for ending in endings:
             with self.subTest(ending):
                 path = self.path("mesh" + ending)
@@ -262,8 +331,12 @@ class Meshes(Case):
     def test_files_of_vtk_in_binary(self):
         import base64
         import zlib
+
         with open(self.path("binary.vtk"), "wb") as file:
-            file.write(b"# vtk DataFile Version 2.0\nname\nBINARY\nDATASET POLYDATA\nPOINTS %d float\n" % len(V))
+            file.write(
+                b"# vtk DataFile Version 2.0\nname\nBINARY\nDATASET POLYDATA\nPOINTS %d float\n"
+                % len(V)
+            )
             file.write(V.astype(">f4").tobytes() + b"\nPOLYGONS %d %d\n" % (len(F), 4 * len(F)))
             file.write(np.column_stack([np.full(len(F), 3), F]).astype(">i4").tobytes())
 
@@ -275,24 +348,59 @@ class Meshes(Case):
             head = np.array([1, a.nbytes, 0, len(data)], np.uint32).tobytes()
             return base64.b64encode(head).decode() + base64.b64encode(data).decode()
 
-        for name, code, more in ("plain.vtp", plain, ""), ("packed.vtp", packed, ' compressor="vtkZLibDataCompressor"'):
+        for name, code, more in ("plain.vtp", plain, ""), (
+            "packed.vtp",
+            packed,
+            ' compressor="vtkZLibDataCompressor"',
+        ):
             with open(self.path(name), "w") as file:
-                file.write(f'<VTKFile type="PolyData" byte_order="LittleEndian"{more}><PolyData><Piece NumberOfPoints="{len(V)}">'
-                           f'<Points><DataArray type="Float64" format="binary">{code(V)}</DataArray></Points><Polys>'
-                           f'<DataArray type="Int32" Name="connectivity" format="binary">{code(F.astype(np.int32))}</DataArray>'
-                           f'<DataArray type="Int32" Name="offsets" format="binary">'
-                           f'{code(np.arange(3, 3 * len(F) + 1, 3, dtype=np.int32))}</DataArray></Polys></Piece></PolyData></VTKFile>')
+                file.write(
+                    f'<VTKFile type="PolyData" '
+                    f'byte_order="LittleEndian"{more}><PolyData><Piece NumberOfPoints="{len(V)}">'
+                    f'<Points><DataArray type="Float64" '
+                    f'format="binary">{code(V)}</DataArray></Points><Polys>'
+                    f'<DataArray type="Int32" Name="connectivity" '
+                    f'format="binary">{code(F.astype(np.int32))}</DataArray>'
+                    f'<DataArray type="Int32" Name="offsets" format="binary">'
+                    f'{code(np.arange(3, 3 * len(F) + 1, 3, dtype=np.int32))}</DataArray></Polys></Piece>'
+                    '</PolyData></VTKFile>'
+                )
         for name in "binary.vtk", "plain.vtp", "packed.vtp":
             v, f = ss.read_mesh(self.path(name))
             np.testing.assert_allclose(v, V, atol=1e-6)
             np.testing.assert_array_equal(f, F)
 
+    def test_polygons(self):
+        with open(self.path("cube.off"), "w") as file:
+            file.write(
+                "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n4 0 3 2 "
+                "1\n4 4 5 6 7\n"
+                "4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+            )
+        with self.assertRaisesRegex(
+            ValueError, "face 0 has 4 corners, it must be a triangle: pass repair=True"
+        ):
+            ss.read_mesh(self.path("cube.off"))
+        v, f = ss.read_mesh(self.path("cube.off"), repair=True)
+        self.assertEqual((v.shape, f.shape, ss.diagnose(v, f).usable), ((8, 3), (12, 3), True))
+
     def test_files_that_are_none(self):
-        for name, text, words in (("a.off", "OFF\n1 2", "a.off"), ("a.vtk", "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n1 2",
-                                                                  "a.vtk cannot be read: it ends too early"),
-                                  ("a.vtp", "<VTK", "a.vtp cannot be read"), ("a.xyz", "", "ends in '.xyz', which is not known"),
-                                  ("b.vtk", "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\nPOLYGONS 1 5\n4 0 1 2 3\n",
-                                   "not all triangles")):
+        for name, text, words in (
+            ("a.off", "OFF\n1 2", "a.off"),
+            (
+                "a.vtk",
+                "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 3 float\n1 2",
+                "a.vtk cannot be read: it ends too early",
+            ),
+            ("a.vtp", "<VTK", "a.vtp cannot be read"),
+            ("a.xyz", "", "ends in '.xyz', which is not known"),
+            (
+                "b.vtk",
+                "# vtk\n\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n0 0 0 1 0 0 1 1 0 0 1 0\n"
+                "POLYGONS 1 5\n4 0 1 2 3\n",
+                "not all triangles",
+            ),
+        ):
             with open(self.path(name), "w") as file:
                 file.write(text)
             with self.assertRaisesRegex(ValueError, words):
@@ -304,10 +412,21 @@ class Meshes(Case):
         self.assertFalse(os.path.exists(self.path("out.off")))
 
     def test_a_package_that_is_missing_is_named(self):
-        hidden = "import sys; sys.modules['nibabel'] = None; import spectral_simplification as ss\n" \
-                 "try: ss.write_mesh('x.gii', [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])\nexcept ValueError as e: print(e)"
-        said = subprocess.run([sys.executable, "-c", hidden], capture_output=True, text=True, cwd=self.folder, env=environment()).stdout
-        self.assertRegex(said, "x.gii needs the package nibabel, which is not installed: pip install nibabel")
+        hidden = (
+            "import sys; sys.modules['nibabel'] = None; import spectral_simplification as ss\n"
+            "try: ss.write_mesh('x.gii', [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])\n"
+            "except ValueError as e: print(e)"
+        )
+        said = subprocess.run(
+            [sys.executable, "-c", hidden],
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+            env=environment(),
+        ).stdout
+        self.assertRegex(
+            said, "x.gii needs the package nibabel, which is not installed: pip install nibabel"
+        )
 
 
 class Carried(Case):
@@ -336,9 +455,14 @@ class Carried(Case):
     @unittest.skipUnless(HAVE["pandas"], "pandas is not installed")
     def test_labels_of_pandas(self):
         import pandas
+
         names = np.where(V[:, 0] > 0, "east", "west")
         plain = RUN.transfer_labels(names)
-        for labels in pandas.Series(names), pandas.Series(names, dtype="string"), names.astype(object):
+        for labels in (
+            pandas.Series(names),
+            pandas.Series(names, dtype="string"),
+            names.astype(object),
+        ):
             np.testing.assert_array_equal(RUN.transfer_labels(labels).astype(str), plain)
         categories = pandas.Categorical(names, categories=["north", "west", "east"])
         for labels in categories, pandas.Series(categories):
@@ -365,7 +489,9 @@ class Carried(Case):
             errors[mass] = abs(pairs.values[1:] / RUN.eigenpairs.values[1:20] - 1).mean()
         fitted = RUN.coarse_eigenpairs(30, "fitted")
         self.assertEqual((len(fitted), fitted.mass), (30, "edges"))
-        self.assertLess(abs(fitted.values[1:20] / RUN.eigenpairs.values[1:20] - 1).mean(), errors["lumped"])
+        self.assertLess(
+            abs(fitted.values[1:20] / RUN.eigenpairs.values[1:20] - 1).mean(), errors["lumped"]
+        )
         self.assertIs(RUN.coarse_eigenpairs(mass="fitted"), RUN.fitted)
         self.assertLess(errors["averaged"], errors["lumped"])
         with self.assertRaisesRegex(ValueError, "mass is 'heavy', it must be"):
@@ -373,9 +499,13 @@ class Carried(Case):
 
     def test_distances_that_are_no_squares(self):
         squared = ss.distances(RUN.eigenpairs, [0, 5])
-        np.testing.assert_allclose(ss.distances(RUN.eigenpairs, [0, 5], squared=False) ** 2, squared)
+        np.testing.assert_allclose(
+            ss.distances(RUN.eigenpairs, [0, 5], squared=False) ** 2, squared
+        )
         np.testing.assert_array_equal(ss.distances(RUN.eigenpairs, [0, 5], squared=True), squared)
-        with self.assertRaisesRegex(ValueError, "squared is True, but the distance 'wave_kernel' is no root"):
+        with self.assertRaisesRegex(
+            ValueError, "squared is True, but the distance 'wave_kernel' is no root"
+        ):
             ss.distances(RUN.eigenpairs, 0, "wave_kernel", squared=True)
 
 
@@ -383,22 +513,31 @@ class Maps(Case):
     @classmethod
     def setUpClass(cls):
         cls.other = list(poses(4))[3]
-        cls.order = np.random.default_rng(2).permutation(len(V))  # the other mesh has its vertices in another order
+        # the other mesh has its vertices in another order
+        cls.order = np.random.default_rng(2).permutation(len(V))
         place = np.argsort(cls.order)
         cls.run_ = ss.simplify(cls.other[cls.order], place[F], 150, 40)
         cls.T = place  # for each vertex of the first the one of the other
 
     def test_alignment(self):
         turned = ss.eigenpairs(self.other, F, 40)
-        flipped = ss.Eigenpairs.from_arrays(turned.values, turned.vectors * np.where(np.arange(40) % 3, 1, -1), turned.L, turned.M)
+        flipped = ss.Eigenpairs.from_arrays(
+            turned.values, turned.vectors * np.where(np.arange(40) % 3, 1, -1), turned.L, turned.M
+        )
         aligned = ss.align(RUN.eigenpairs, flipped)
-        before, after = (np.linalg.norm(RUN.eigenpairs.vectors - x) for x in (flipped.vectors, aligned.vectors))
+        before, after = (
+            np.linalg.norm(RUN.eigenpairs.vectors - x) for x in (flipped.vectors, aligned.vectors)
+        )
         self.assertLess(after, 0.3 * before)
         np.testing.assert_allclose(aligned.rotation.T @ aligned.rotation, np.eye(40), atol=1e-10)
-        self.assertEqual([a for a, _ in aligned.clusters][1:], [b for _, b in aligned.clusters][:-1])
+        self.assertEqual(
+            [a for a, _ in aligned.clusters][1:], [b for _, b in aligned.clusters][:-1]
+        )
         self.assertGreater(len(aligned.clusters), 5)
         by_map = ss.align(RUN.eigenpairs, self.run_.eigenpairs, self.T)
-        self.assertLess(np.linalg.norm(RUN.eigenpairs.vectors - by_map.vectors[self.T]), 0.3 * before)
+        self.assertLess(
+            np.linalg.norm(RUN.eigenpairs.vectors - by_map.vectors[self.T]), 0.3 * before
+        )
         with self.assertRaisesRegex(ValueError, "pass T"):
             ss.align(RUN.eigenpairs, RUN.coarse_eigenpairs(10))
 
@@ -406,16 +545,23 @@ class Maps(Case):
         source, target = self.run_.eigenpairs, RUN.eigenpairs
         C = ss.functional_map_of_point_map(self.T, source, target)
         self.assertEqual(C.shape, (40, 40))
-        error = np.linalg.norm(self.other[self.order][ss.point_map(C, source, target)] - self.other, axis=1).mean()
+        error = np.linalg.norm(
+            self.other[self.order][ss.point_map(C, source, target)] - self.other, axis=1
+        ).mean()
         self.assertLess(error, 0.05)
         refined, T = ss.zoom_out(C[:10, :10], source, target)
         self.assertEqual(refined.shape, (40, 40))
         first = ss.point_map(C[:10, :10], source, target)
-        wrong = [np.linalg.norm(self.other[self.order][t] - self.other, axis=1).mean() for t in (first, T)]
+        wrong = [
+            np.linalg.norm(self.other[self.order][t] - self.other, axis=1).mean()
+            for t in (first, T)
+        ]
         self.assertLess(wrong[1], 0.7 * wrong[0])
-        for words, call in (("C has the shape", lambda: ss.point_map(np.ones((50, 3)), source, target)),
-                            ("T has the shape", lambda: ss.functional_map_of_point_map(self.T[:5], source, target)),
-                            ("k is 41", lambda: ss.zoom_out(C, source, target, 41))):
+        for words, call in (
+            ("C has the shape", lambda: ss.point_map(np.ones((50, 3)), source, target)),
+            ("T has the shape", lambda: ss.functional_map_of_point_map(self.T[:5], source, target)),
+            ("k is 41", lambda: ss.zoom_out(C, source, target, 41)),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 call()
 
@@ -435,10 +581,16 @@ class Poses(Case):
         own = ss.simplify(other, F, 150, 40)
         pairs = ss.eigenpairs(other, F, 40)
         errors = {}
-        for name, level in (("own", own), ("P", RUN.apply(other)), ("merges", RUN.apply(other, "merges")),
-                            ("relocated", RUN.apply(other, relocate=True)),
-                            ("given", RUN.apply(other, relocate=True, eigenpairs=pairs))):
-            errors[name] = ss.evaluate(other, F, level.V, level.F, level.P, 40, eigenpairs=pairs).eigenvalue_error
+        for name, level in (
+            ("own", own),
+            ("P", RUN.apply(other)),
+            ("merges", RUN.apply(other, "merges")),
+            ("relocated", RUN.apply(other, relocate=True)),
+            ("given", RUN.apply(other, relocate=True, eigenpairs=pairs)),
+        ):
+            errors[name] = ss.evaluate(
+                other, F, level.V, level.F, level.P, 40, eigenpairs=pairs
+            ).eigenvalue_error
             if name != "own":
                 np.testing.assert_array_equal(level.F, RUN.F)
                 np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
@@ -453,12 +605,24 @@ class Poses(Case):
         np.testing.assert_allclose(paper.apply(V, "merges").V, paper.V, atol=1e-12)
 
     def test_refusals(self):
-        for words, call in ((r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
-                            ("by is 'magic'", lambda: RUN.apply(V, "magic")),
-                            ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
-                            (r"V_other\[2\] is not finite", lambda: RUN.apply(np.where(np.arange(642)[:, None] == 2, np.nan, V)))):
+        for words, call in (
+            (r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
+            ("by is 'magic'", lambda: RUN.apply(V, "magic")),
+            ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
+            (
+                r"V_other\[2\] is not finite",
+                lambda: RUN.apply(np.where(np.arange(642)[:, None] == 2, np.nan, V)),
+            ),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 call()
+
+
+class Deadly:
+    """Ends the process that it comes to."""
+
+    def __reduce__(self):
+        return os._exit, (1,)
 
 
 class Collections(Case):
@@ -483,8 +647,12 @@ class Collections(Case):
     def test_in_this_process_and_again(self):
         files, seen, out = self.files(), [], self.path("out")
         with self.assertRaises(ss.Cancelled):
-            ss.simplify_collection(files, 150, out, k=40, progress=lambda done, total, name: done < 2)
-        self.assertEqual(sorted(n for n in os.listdir(out) if n.endswith(".npz")), ["pose0.npz", "pose1.npz"])
+            ss.simplify_collection(
+                files, 150, out, k=40, progress=lambda done, total, name: done < 2
+            )
+        self.assertEqual(
+            sorted(n for n in os.listdir(out) if n.endswith(".npz")), ["pose0.npz", "pose1.npz"]
+        )
         rows = ss.simplify_collection(files, 150, out, k=40, progress=lambda *now: seen.append(now))
         self.check(rows)
         self.assertEqual([r.seconds == 0 for r in rows], [True, True, False, False, False])
@@ -498,11 +666,20 @@ class Collections(Case):
         self.assertEqual([r.error is None for r in rows], [True, True, True, False])
         np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
 
+    def test_a_mesh_whose_process_dies(self):
+        meshes = [(V, F), Deadly(), (V, F)]
+        rows = ss.simplify_collection(meshes, 150, workers=2, k=40, progress=False)
+        self.assertEqual([r.error is None for r in rows], [True, False, True])
+        self.assertIn("the process that computed it died each time", rows[1].error)
+
     @unittest.skipUnless(HAVE["distributed"], "distributed is not installed")
     def test_a_cluster_that_loses_a_worker(self):
         import distributed
+
         files = self.files()
-        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+        with distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
+        ) as cluster:
             with distributed.Client(cluster) as client:
                 killed = []
 
@@ -511,29 +688,44 @@ class Collections(Case):
                         killed.extend(client.run(os.getpid).values())
                         os.kill(killed[0], signal.SIGKILL)
 
-                rows = ss.simplify_collection(files, 150, self.path("out"), workers=client, k=40, progress=kill)
+                rows = ss.simplify_collection(
+                    files, 150, self.path("out"), workers=client, k=40, progress=kill
+                )
                 self.check(rows)
                 self.assertEqual(len(killed), 2)
-            rows = ss.simplify_collection(files[:1], 150, workers=cluster.scheduler_address, k=40, progress=False)
+            rows = ss.simplify_collection(
+                files[:1], 150, workers=cluster.scheduler_address, k=40, progress=False
+            )
             self.assertIsNone(rows[0].error)
 
     def test_one_connectivity(self):
         meshes = [(p, F) for p in poses(12)]
-        rows = ss.simplify_collection(meshes + [(V[:-1], F)], 150, shared_connectivity=True, k=40, progress=False)
+        rows = ss.simplify_collection(
+            meshes + [(V[:-1], F)], 150, shared_connectivity=True, k=40, progress=False
+        )
         self.assertRegex(rows[12].error, "it has not the faces of mesh 0")
         ratios = []
         for (pose, _), row in zip(meshes, rows):
             np.testing.assert_array_equal(row.result.F, rows[0].result.F)
             pairs = ss.eigenpairs(pose, F, 40)
             own = ss.simplify(pose, F, 150, 40, eigenpairs=pairs)
-            errors = [ss.evaluate(pose, F, r.V, r.F, r.P, 40, eigenpairs=pairs).eigenvalue_error for r in (row.result, own)]
+            errors = [
+                ss.evaluate(pose, F, r.V, r.F, r.P, 40, eigenpairs=pairs).eigenvalue_error
+                for r in (row.result, own)
+            ]
             ratios.append(errors[0] / errors[1])
         self.assertLess(np.mean(ratios), 1.3)
 
     def test_refusals(self):
-        for words, more in (("workers is 0", dict(workers=0)), ("has no option 'colour'", dict(colour=1)),
-                            ("keep is not for meshes of one connectivity", dict(keep=[1], shared_connectivity=True)),
-                            ("belong to one mesh", dict(eigenpairs=RUN.eigenpairs))):
+        for words, more in (
+            ("workers is 0", dict(workers=0)),
+            ("has no option 'colour'", dict(colour=1)),
+            (
+                "keep is not for meshes of one connectivity",
+                dict(keep=[1], shared_connectivity=True),
+            ),
+            ("belong to one mesh", dict(eigenpairs=RUN.eigenpairs)),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 ss.simplify_collection([(V, F)], 150, progress=False, **more)
 
@@ -541,12 +733,29 @@ class Collections(Case):
 class Command_line(Case):
     def command(self, *words, program=()):
         program = program or (sys.executable, "-m", "spectral_simplification")
-        return subprocess.run([*program, *words], cwd=self.folder, env=environment(), capture_output=True, text=True)
+        return subprocess.run(
+            [*program, *words], cwd=self.folder, env=environment(), capture_output=True, text=True
+        )
 
     def test_its_words(self):
         ss.write_mesh(self.path("in.off"), V, F)
-        words = ("in.off", "out.off", "--vertices", "150", "--eigenvectors", "40", "--relocate", "carried", "--restriction", "P.mtx", "--map",
-                 "map.txt", "--json", "out.json", "--quiet")
+        words = (
+            "in.off",
+            "out.off",
+            "--vertices",
+            "150",
+            "--eigenvectors",
+            "40",
+            "--relocate",
+            "carried",
+            "--restriction",
+            "P.mtx",
+            "--map",
+            "map.txt",
+            "--json",
+            "out.json",
+            "--quiet",
+        )
         done = self.command(*words, "--save", "run.npz")
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
         run = ss.simplify(V, F, 150, 40, relocate="carried")
@@ -567,11 +776,13 @@ class Command_line(Case):
 
     def test_what_cannot_be_meant(self):
         ss.write_mesh(self.path("in.off"), V, F)
-        for words, said in ((("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
-                            (("in.off", "out.off", "--vertices", "many"), "--vertices is many"),
-                            (("in.off", "out.off", "--vertices", "9999"), "n is 9999, it must be"),
-                            (("in.off", "out.xyz", "--vertices", "150", "--map", "map.txt"), "ends in '.xyz'"),
-                            (("in.off", "out.off", "--vertices", "150", "--preset", "worst"), "invalid choice")):
+        for words, said in (
+            (("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
+            (("in.off", "out.off", "--vertices", "many"), "--vertices is many"),
+            (("in.off", "out.off", "--vertices", "9999"), "n is 9999, it must be"),
+            (("in.off", "out.xyz", "--vertices", "150", "--map", "map.txt"), "ends in '.xyz'"),
+            (("in.off", "out.off", "--vertices", "150", "--preset", "worst"), "invalid choice"),
+        ):
             done = self.command(*words, "--eigenvectors", "40", "--no-evaluation", "--quiet")
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(said, done.stderr)
@@ -636,37 +847,61 @@ class Recipes(Case):
         ss.write_mesh(self.path("pial.gii"), 1.1 * fine, faces)
         measured = fine[:, 0].copy()
         measured[::7] = np.nan
-        names, _ = self.run_recipe("cortex", cortex=fine[:, 2] < 0.6, atlas=(fine[:, 1] > 0).astype(int), measured=measured)
+        names, _ = self.run_recipe(
+            "cortex", cortex=fine[:, 2] < 0.6, atlas=(fine[:, 1] > 0).astype(int), measured=measured
+        )
         self.assertEqual((names["parcels"].shape, len(names["modes"])), ((600,), 50))
         self.assertLess(np.nanmean(abs(names["thickness"] - names["run"].V[:, 0])), 0.05)
         self.assertLess(abs(names["pial"].V - 1.1 * names["run"].V).max(), 0.2)
 
     def test_network(self):
         names, _ = self.run_recipe("network", V=V, F=F, features=V, labels=V[:, 0] > 0)
-        self.assertEqual((names["inputs"]["mass"].shape, names["prediction"].shape), ((300,), (642, 64)))
+        self.assertEqual(
+            (names["inputs"]["mass"].shape, names["prediction"].shape), ((300,), (642, 64))
+        )
 
     def test_picture(self):
         if importlib.util.find_spec("matplotlib") is None:
             self.skipTest("Matplotlib is not installed")
         import matplotlib
+
         matplotlib.use("Agg")
         self.run_recipe("picture", run=RUN, V=V, F=F)
         self.assertGreater(os.path.getsize(self.path("mode.png")), 10000)
 
     def test_beside_scipy(self):
-        done = subprocess.run([sys.executable, os.path.join(PAGE, "beside_scipy.py"), "--vertices", "900", "--modes", "10"],
-                              cwd=self.folder, env=environment(), capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                sys.executable,
+                os.path.join(PAGE, "beside_scipy.py"),
+                "--vertices",
+                "900",
+                "--modes",
+                "10",
+            ],
+            cwd=self.folder,
+            env=environment(),
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(float(re.search(r"SuperLU .* agree within (\S+)", done.stdout)[1]), 1e-7)
 
     def test_the_cortex_example(self):
-        done = subprocess.run([sys.executable, os.path.join(PAGE, "cortex.py"), "--vertices", "300", "--modes", "50"], cwd=self.folder,
-                              env=environment(), capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, os.path.join(PAGE, "cortex.py"), "--vertices", "300", "--modes", "50"],
+            cwd=self.folder,
+            env=environment(),
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         error = float(re.search(r"averaged mass: error ([0-9.]+) %", done.stdout)[1])
         self.assertLess(error, 2)
         self.assertIn("40 of 40 parcels carried", done.stdout)
-        self.assertLessEqual({"cortex.off", "cortex_sphere.off", "cortex.npz"}, set(os.listdir(self.folder)))
+        self.assertLessEqual(
+            {"cortex.off", "cortex_sphere.off", "cortex.npz"}, set(os.listdir(self.folder))
+        )
 
 
 def vars_of(cleaned):
@@ -681,5 +916,6 @@ def environment():
 if __name__ == "__main__":
     if len(sys.argv) > 1 and os.path.isfile(sys.argv[1]):
         PROGRAM = os.path.abspath(sys.argv.pop(1))
-    os.environ["PYTHONPATH"] = os.path.dirname(os.path.dirname(os.path.abspath(ss.__file__)))  # of processes that are started
+    # of processes that are started
+    os.environ["PYTHONPATH"] = os.path.dirname(os.path.dirname(os.path.abspath(ss.__file__)))
     unittest.main()

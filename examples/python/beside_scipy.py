@@ -4,9 +4,9 @@
 #
 #   beside_scipy.py [--vertices 32000 100000] [--modes 50] [--threads T] [FILE ...]
 #
-# Time and agreement of eigsh() beside SciPy's, with SuperLU and, where scikit-sparse is installed, with
-# CHOLMOD, as LaPy calls both: shift and invert at -0.01, the consistent mass. Meshes are files, or sheets
-# with hills that are made here.
+# Time and agreement of eigsh() beside SciPy's, with SuperLU and, where scikit-sparse is
+# installed, with CHOLMOD, as LaPy calls both: shift and invert at -0.01, the consistent mass.
+# Meshes are files, or sheets with hills that are made here.
 
 import argparse
 import time
@@ -33,18 +33,23 @@ def superlu(L, M, k):
 
 def cholmod(L, M, k):
     from sksparse.cholmod import cholesky
+
     factor = cholesky((L + 0.01 * M).tocsc())
     inverse = scipy.sparse.linalg.LinearOperator(L.shape, factor, dtype=float)
     return scipy.sparse.linalg.eigsh(L, k, M, sigma=-0.01, OPinv=inverse)
 
 
 def compared(V, F, k, threads):
-    """Rows of a solver's name, its seconds, and how far its eigenvalues are from those of eigsh()."""
+    """Rows of a solver's name, its seconds, and how far its eigenvalues are from those of
+    eigsh()."""
     few = ss.eigenpairs(V, F, 1, "consistent")
     L, M = few.L.tocsc(), few.M.tocsc()
     rows = []
-    for name, solver in (("eigsh()", lambda *a: ss.eigsh(*a, threads=threads)), ("SciPy, SuperLU", superlu),
-                         ("SciPy, CHOLMOD", cholmod)):
+    for name, solver in (
+        ("eigsh()", lambda *a: ss.eigsh(*a, threads=threads)),
+        ("SciPy, SuperLU", superlu),
+        ("SciPy, CHOLMOD", cholmod),
+    ):
         try:
             begin = time.perf_counter()
             values, _ = solver(L, M, k)
@@ -64,12 +69,15 @@ def main(arguments=None):
     parser.add_argument("--modes", type=int, default=50)
     parser.add_argument("--threads", type=int)
     a = parser.parse_args(arguments)
-    meshes = [ss.read_mesh(f) for f in a.files] or [sheet(round(n ** 0.5)) for n in a.vertices]
+    meshes = [ss.read_mesh(f) for f in a.files] or [sheet(round(n**0.5)) for n in a.vertices]
     for V, F in meshes:
         rows = compared(V, F, a.modes, a.threads)
         for name, seconds, difference in rows:
-            print(f"{len(V)} vertices, {a.modes} pairs: {name:15} {seconds:6.2f} s, "
-                  f"{seconds / rows[0][1]:5.1f} times eigsh(), eigenvalues agree within {difference:.0e}")
+            print(
+                f"{len(V)} vertices, {a.modes} pairs: {name:15} {seconds:6.2f} s, "
+                f"{seconds / rows[0][1]:5.1f} times eigsh(), eigenvalues agree within "
+                f"{difference:.0e}"
+            )
 
 
 if __name__ == "__main__":

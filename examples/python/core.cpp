@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The compiled module of the package: arrays of NumPy in, arrays out. What a user sees, signatures and texts of help(), is Python,
-// _interface.py; each function there hands its arguments to one here.
+// The compiled module of the package: arrays of NumPy in, arrays out. What a user sees, signatures and
+// texts of help(), is Python, _interface.py; each function there hands its arguments to one here.
 
 #include "arguments.h"
 #include "arrays.h"

@@ -5,9 +5,10 @@
 #   cortex.py [--surface FILE --mask FILE] [--vertices 2000] [--modes 100] [--eigenvalues FILE]
 #             [--other FILE ...] [--output FOLDER]
 #
-# A cortex without its medial wall to 2,000 vertices: how well the modes of the full surface are kept, in
-# the mass that LaPy takes, parcels and measurements that are carried, other surfaces of the subject, and a
-# figure. Without --surface it is a folded sphere with a hole, which is made here.
+# A cortex without its medial wall to 2,000 vertices: how well the modes of the full surface are
+# kept, in the mass that LaPy takes, parcels and measurements that are carried, other surfaces of
+# the subject, and a figure. Without --surface it is a folded sphere with a hole, which is made
+# here.
 
 import argparse
 import pathlib
@@ -19,19 +20,58 @@ import spectral_simplification as ss
 
 def folded_sphere(levels=4):
     """A sphere with folds, and a mask that leaves out a cap, as the medial wall."""
-    g = (1 + 5 ** 0.5) / 2
-    V = np.array([(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g),
-                  (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)])
-    F = np.array([(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4),
-                  (11, 10, 2), (10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9),
-                  (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)])
+    g = (1 + 5**0.5) / 2
+    V = np.array(
+        [
+            (-1, g, 0),
+            (1, g, 0),
+            (-1, -g, 0),
+            (1, -g, 0),
+            (0, -1, g),
+            (0, 1, g),
+            (0, -1, -g),
+            (0, 1, -g),
+            (g, 0, -1),
+            (g, 0, 1),
+            (-g, 0, -1),
+            (-g, 0, 1),
+        ]
+    )
+    F = np.array(
+        [
+            (0, 11, 5),
+            (0, 5, 1),
+            (0, 1, 7),
+            (0, 7, 10),
+            (0, 10, 11),
+            (1, 5, 9),
+            (5, 11, 4),
+            (11, 10, 2),
+            (10, 7, 6),
+            (7, 1, 8),
+            (3, 9, 4),
+            (3, 4, 2),
+            (3, 2, 6),
+            (3, 6, 8),
+            (3, 8, 9),
+            (4, 9, 5),
+            (2, 4, 11),
+            (6, 2, 10),
+            (8, 6, 7),
+            (9, 8, 1),
+        ]
+    )
     for _ in range(levels):
         sides = np.sort(np.vstack([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
         edges, which = np.unique(sides, axis=0, return_inverse=True)
         a, b, c = len(V) + which.reshape(3, -1)
         V = np.vstack([V, V[edges].mean(axis=1)])
-        F = np.vstack([np.column_stack(t) for t in
-                       ((F[:, 0], a, c), (a, F[:, 1], b), (c, b, F[:, 2]), (a, b, c))])
+        F = np.vstack(
+            [
+                np.column_stack(t)
+                for t in ((F[:, 0], a, c), (a, F[:, 1], b), (c, b, F[:, 2]), (a, b, c))
+            ]
+        )
     sphere = V / np.linalg.norm(V, axis=1)[:, None]
     x, y, z = sphere.T
     folds = 1 + 0.12 * np.sin(9 * x + 2 * np.sin(3 * y)) * np.cos(8 * z + y)
@@ -44,8 +84,8 @@ def errors(coarse, fine, k):
 
 
 def compared(run, modes, mass="consistent"):
-    """Eigenpairs of the surface in `mass`, and those of the small mesh, aligned with them, in `mass` and in
-    the mass of the run, whose elements err less."""
+    """Eigenpairs of the surface in `mass`, and those of the small mesh, aligned with them, in
+    `mass` and in the mass of the run, whose elements err less."""
     used = run.used
     place = np.full(len(run.fine_V), -1)
     place[used] = np.arange(len(used))
@@ -68,20 +108,28 @@ def parcels(V, used, count=40):
 
 def figure(path, run, fine, coarse, errors_by_k):
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
     aligned = ss.align(coarse, fine, run.P[:, run.used])
     place = np.full(len(run.fine_V), -1)
     place[run.used] = np.arange(len(run.used))
-    surfaces = ((run.fine_V[run.used], place[run.fine_F], aligned.vectors), (run.V, run.F, coarse.vectors))
+    surfaces = (
+        (run.fine_V[run.used], place[run.fine_F], aligned.vectors),
+        (run.V, run.F, coarse.vectors),
+    )
     picture = plt.figure(figsize=(13, 6))
     modes = [m for m in (2, 6, 20, 50) if m < coarse.vectors.shape[1]]
     for row, (V, F, vectors) in enumerate(surfaces):
         for column, mode in enumerate(modes):
-            axes = picture.add_subplot(2, len(modes) + 1, row * (len(modes) + 1) + column + 1, projection="3d")
+            axes = picture.add_subplot(
+                2, len(modes) + 1, row * (len(modes) + 1) + column + 1, projection="3d"
+            )
             value = vectors[:, mode][F].mean(axis=1)
-            drawn = axes.plot_trisurf(*V.T, triangles=F, cmap="RdBu", linewidth=0, antialiased=False)
+            drawn = axes.plot_trisurf(
+                *V.T, triangles=F, cmap="RdBu", linewidth=0, antialiased=False
+            )
             drawn.set_array(value)
             drawn.set_clim(-abs(value).max(), abs(value).max())
             axes.view_init(10, 180)
@@ -100,12 +148,22 @@ def figure(path, run, fine, coarse, errors_by_k):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="A cortex to a small mesh that keeps its modes.")
-    parser.add_argument("--surface", help="GIFTI, VTK, or what read_mesh() takes; a folded sphere without")
-    parser.add_argument("--mask", help="text: 1 for each vertex of the cortex, 0 for the medial wall")
-    parser.add_argument("--eigenvalues", help="text: published ones of the masked surface, to compare with")
-    parser.add_argument("--other", nargs="*", default=[], help="surfaces of the subject, such as the pial one")
+    parser.add_argument(
+        "--surface", help="GIFTI, VTK, or what read_mesh() takes; a folded sphere without"
+    )
+    parser.add_argument(
+        "--mask", help="text: 1 for each vertex of the cortex, 0 for the medial wall"
+    )
+    parser.add_argument(
+        "--eigenvalues", help="text: published ones of the masked surface, to compare with"
+    )
+    parser.add_argument(
+        "--other", nargs="*", default=[], help="surfaces of the subject, such as the pial one"
+    )
     parser.add_argument("--vertices", type=int, default=2000)
-    parser.add_argument("--modes", type=int, nargs="*", default=[100], help="K; several for one curve each")
+    parser.add_argument(
+        "--modes", type=int, nargs="*", default=[100], help="K; several for one curve each"
+    )
     parser.add_argument("--output", default=".")
     a = parser.parse_args(arguments)
     out = pathlib.Path(a.output)
@@ -119,7 +177,9 @@ def main(arguments=None):
     for name in a.other:
         positions, faces = ss.read_mesh(name)
         if not np.array_equal(faces, F):
-            raise ValueError(f"{name} has other faces than the surface: take one of the same subject and mesh.")
+            raise ValueError(
+                f"{name} has other faces than the surface: take one of the same subject and mesh."
+            )
         others[pathlib.Path(name).stem] = positions
 
     curves = {}
@@ -129,21 +189,32 @@ def main(arguments=None):
         curves[k] = errors(averaged, fine, k)
         print(f"{len(run.used)} of {len(V)} vertices to {len(run.V)}, K = {k}")
         first = min(50, k)
-        for name, e in ("consistent", errors(coarse, fine, first)), ("averaged", errors(averaged, fine, first)):
-            print(f"  first {first} eigenvalues, small mesh in the {name} mass: error {100 * e.mean():.2f} % in the "
-                  f"mean, {100 * e.max():.2f} % at most")
+        for name, e in ("consistent", errors(coarse, fine, first)), (
+            "averaged",
+            errors(averaged, fine, first),
+        ):
+            print(
+                f"  first {first} eigenvalues, small mesh in the {name} mass: error "
+                f"{100 * e.mean():.2f} % in the "
+                f"mean, {100 * e.max():.2f} % at most"
+            )
     if a.eigenvalues:
         published = np.loadtxt(a.eigenvalues)
         n = min(len(published), len(fine))
-        print(f"  published eigenvalues agree with the full surface within "
-              f"{100 * abs(fine.values[1:n] / published[1:n] - 1).max():.3f} %")
+        print(
+            f"  published eigenvalues agree with the full surface within "
+            f"{100 * abs(fine.values[1:n] / published[1:n] - 1).max():.3f} %"
+        )
 
     labels = parcels(V, run.used)
     carried = run.transfer_labels(labels, by="area")
     sizes = np.bincount(labels[run.used], minlength=40) / len(run.used)
     small = np.bincount(carried, minlength=40) / len(carried)
-    print(f"  {len(np.unique(carried))} of 40 parcels carried, sizes off by {100 * abs(small - sizes).max():.1f} % "
-          "of all at most")
+    print(
+        f"  {len(np.unique(carried))} of 40 parcels carried, sizes off by "
+        f"{100 * abs(small - sizes).max():.1f} % "
+        "of all at most"
+    )
     for name, positions in others.items():
         ss.write_mesh(out / f"cortex_{name}.off", run.apply(positions).V, run.F)
     ss.write_mesh(out / "cortex.off", run.V, run.F)

@@ -118,15 +118,23 @@ inline py::dict clean(const Arguments& a)
   return result;
 }
 
-// The polygons of a file, triangles all of them.
-inline py::tuple read_mesh(const std::string& path)
+// The triangles of a file, or what --repair makes of it.
+inline py::tuple read_mesh(const std::string& path, const bool repair)
 {
   Polygon_soup soup;
+  Input_mesh input;
   try {
     const py::gil_scoped_release no_gil;
-    soup = read_polygon_soup(path);
+    if(repair)
+      input = read_input_mesh(path, Mending::full);
+    else
+      soup = read_polygon_soup(path);
   } catch(const std::runtime_error& error) {
     refuse(error.what());
+  }
+  if(repair) {
+    const SG::Mesh_matrices mesh = SG::mesh_matrices(input.mesh);
+    return py::make_tuple(mesh.V, mesh.T);
   }
   py::array_t<double> V({py::ssize_t(soup.points.size()), py::ssize_t(3)});
   py::array_t<std::int64_t> F({py::ssize_t(soup.polygons.size()), py::ssize_t(3)});
@@ -136,7 +144,7 @@ inline py::tuple read_mesh(const std::string& path)
   for(std::size_t f = 0; f < soup.polygons.size(); ++f) {
     if(soup.polygons[f].size() != 3)
       refuse("'" + path + "': face " + to_string(f) + " has " + to_string(soup.polygons[f].size()) +
-             " corners, it must be a triangle: triangulate it first.");
+             " corners, it must be a triangle: pass repair=True, which triangulates.");
     for(std::size_t i = 0; i < 3; ++i)
       F.mutable_at(py::ssize_t(f), py::ssize_t(i)) =
           soup.polygons[f][i] == no_vertex ? -1 : std::int64_t(soup.polygons[f][i]);

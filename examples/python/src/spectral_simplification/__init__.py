@@ -1,29 +1,92 @@
 # Copyright (c) 2026 The Spectral mesh simplification authors.
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Simplifies triangle meshes so that the spectrum of their Laplacian stays what it was (Lescoat et al., Spectral Mesh
-Simplification, 2020): arrays of NumPy in, arrays out, sparse matrices of SciPy.
+"""Simplifies triangle meshes so that the spectrum of their Laplacian stays what it was (Lescoat
+et al., Spectral Mesh Simplification, 2020): arrays of NumPy in, arrays out, sparse matrices of
+SciPy.
 
     run = simplify(V, F, 600)
     run.V, run.F, run.P
 
-Options have the names, defaults and words of the program spectral_simplify. Computations let other threads of Python run.
+Options have the names, defaults and words of the program spectral_simplify. Computations let
+other threads of Python run.
 """
 
 from ._collection import Collection_row, simplify_collection
 from ._core import Cancelled, __version__
-from ._interface import (curvature_coefficients, distances, eigenpairs, eigsh, evaluate, fit_operators, functional_map,
-                         heat_kernel_signature, match, simplify, wave_kernel_energies, wave_kernel_signature,
-                         weighted_coefficients)
-from ._maps import align, functional_map_of_point_map, lift_functional_map, lift_point_map, point_map, zoom_out
+from ._interface import (
+    curvature_coefficients,
+    distances,
+    eigenpairs,
+    eigsh,
+    evaluate,
+    fit_operators,
+    functional_map,
+    heat_kernel_signature,
+    match,
+    simplify,
+    wave_kernel_energies,
+    wave_kernel_signature,
+    weighted_coefficients,
+)
+from ._maps import (
+    align,
+    functional_map_of_point_map,
+    lift_functional_map,
+    lift_point_map,
+    point_map,
+    zoom_out,
+)
 from ._meshes import Cleaned, Diagnosis, clean, diagnose, read_mesh, write_mesh
-from ._results import (Alignment, Eigenpairs, Evaluation, Fitted_operators, Level, Match, Simplification, load)
+from ._results import (
+    Alignment,
+    Eigenpairs,
+    Evaluation,
+    Fitted_operators,
+    Level,
+    Match,
+    Simplification,
+    load,
+)
 
-__all__ = ["Alignment", "Cancelled", "Cleaned", "Collection_row", "Diagnosis", "Eigenpairs", "Evaluation", "Fitted_operators",
-           "Level", "Match", "Simplification", "align", "clean", "curvature_coefficients", "diagnose", "distances", "eigenpairs",
-           "eigsh", "evaluate", "fit_operators", "functional_map", "functional_map_of_point_map", "heat_kernel_signature",
-           "lift_functional_map", "lift_point_map", "load", "match", "point_map", "read_mesh", "simplify", "simplify_collection",
-           "wave_kernel_energies", "wave_kernel_signature", "weighted_coefficients", "write_mesh", "zoom_out"]
+__all__ = [
+    "Alignment",
+    "Cancelled",
+    "Cleaned",
+    "Collection_row",
+    "Diagnosis",
+    "Eigenpairs",
+    "Evaluation",
+    "Fitted_operators",
+    "Level",
+    "Match",
+    "Simplification",
+    "align",
+    "clean",
+    "curvature_coefficients",
+    "diagnose",
+    "distances",
+    "eigenpairs",
+    "eigsh",
+    "evaluate",
+    "fit_operators",
+    "functional_map",
+    "functional_map_of_point_map",
+    "heat_kernel_signature",
+    "lift_functional_map",
+    "lift_point_map",
+    "load",
+    "match",
+    "point_map",
+    "read_mesh",
+    "simplify",
+    "simplify_collection",
+    "wave_kernel_energies",
+    "wave_kernel_signature",
+    "weighted_coefficients",
+    "write_mesh",
+    "zoom_out",
+]
 
 for _thing in list(globals().values()):  # whoever prints or pickles them finds them here
     if getattr(_thing, "__module__", "").startswith(__name__ + "._"):

@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python3 -m spectral_simplification IN OUT --vertices N: the words of the program spectral_simplify, and files of more formats.
+# python3 -m spectral_simplification IN OUT --vertices N: the words of the program
+# spectral_simplify, and files of more formats.
 
 from __future__ import annotations
 
@@ -22,39 +23,76 @@ from . import __version__, clean, evaluate, read_mesh, simplify, write_mesh
 
 def _arguments() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python3 -m spectral_simplification", allow_abbrev=False,
-        description="Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of its Laplace-Beltrami operator as well as it "
-                    "can. IN and OUT are files of meshes, see read_mesh().",
-        epilog="Exit status: 0 all is written; 1 nothing is; 130 interrupted.")
+        prog="python3 -m spectral_simplification",
+        allow_abbrev=False,
+        description="Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of "
+        "its Laplace-Beltrami operator as well as it "
+        "can. IN and OUT are files of meshes, see read_mesh().",
+        epilog="Exit status: 0 all is written; 1 nothing is; 130 interrupted.",
+    )
     add = parser.add_argument
     add("IN")
     add("OUT")
-    add("--vertices", metavar="N|P%%", required=True, help="how many vertices OUT has, such as 600 or 3%%")
-    add("--eigenvectors", metavar="K", type=int, help="how many to keep, the constant one included (100)")
+    add(
+        "--vertices",
+        metavar="N|P%%",
+        required=True,
+        help="how many vertices OUT has, such as 600 or 3%%",
+    )
+    add(
+        "--eigenvectors",
+        metavar="K",
+        type=int,
+        help="how many to keep, the constant one included (100)",
+    )
     add("--preset", choices=["best", "fast", "paper"], default="best")
     add("--mass", choices=["lumped", "averaged", "voronoi"])
     add("--placement", choices=["on_edge", "midpoint", "free"])
     add("--shape", metavar="G", type=float, help="weight of the shape beside the spectrum")
     add("--self-intersections", choices=["allow", "refuse"])
     add("--relocate", choices=["none", "sampled", "carried", "carried_and_sampled"])
-    add("--quadrics-above", metavar="R", type=float, help="above R N vertices collapse by quadrics alone")
-    add("--pre-simplify", metavar="N0", type=int, help="first reduce to this number by quadrics alone")
+    add(
+        "--quadrics-above",
+        metavar="R",
+        type=float,
+        help="above R N vertices collapse by quadrics alone",
+    )
+    add(
+        "--pre-simplify",
+        metavar="N0",
+        type=int,
+        help="first reduce to this number by quadrics alone",
+    )
     add("--max-error", metavar="E", type=float, help="stop before the relative error exceeds this")
     add("--boundary", choices=["neumann", "dirichlet"], default="neumann")
     add("--intrinsic-delaunay", action="store_true")
     add("--signals", metavar="F.npy", help="preserve these functions instead of eigenvectors")
-    add("--keep", metavar="FILE", help="vertices that stay where they are, one index per line, from 0")
+    add(
+        "--keep",
+        metavar="FILE",
+        help="vertices that stay where they are, one index per line, from 0",
+    )
     add("--binary", action="store_true", help="a restriction of ones and zeros")
     add("--preserve-border", action="store_true")
     add("--repair", action="store_true", help="make IN an oriented manifold of triangles")
     add("--restriction", metavar="P.mtx", help="the matrix that carries functions to OUT")
     add("--prolongation", metavar="Q.mtx", help="the matrix that carries them back")
-    add("--map", metavar="FILE", help="for each vertex of IN the one of OUT it went to; -1: left out")
+    add(
+        "--map",
+        metavar="FILE",
+        help="for each vertex of IN the one of OUT it went to; -1: left out",
+    )
     add("--json", metavar="FILE", help="the figures of the run")
     add("--threads", metavar="T", type=int)
-    add("--no-evaluation", action="store_true", help="do not compute how well the spectrum was kept")
+    add(
+        "--no-evaluation", action="store_true", help="do not compute how well the spectrum was kept"
+    )
     add("--quiet", action="store_true", help="no figures, no warnings")
-    add("--mask", metavar="FILE", help="0 or 1 for each vertex of IN, as text or .npy: those that take part")
+    add(
+        "--mask",
+        metavar="FILE",
+        help="0 or 1 for each vertex of IN, as text or .npy: those that take part",
+    )
     add("--save", metavar="FILE.npz", help="the whole result, for load()")
     add("--version", action="version", version=__version__)
     return parser
@@ -64,28 +102,62 @@ def _number(word: str, n: int) -> int:
     try:
         return max(1, round(float(word[:-1]) * n / 100)) if word.endswith("%") else int(word)
     except ValueError:
-        raise ValueError(f"--vertices is {word}, it must be a number such as 600 or a percentage such as 3%.") from None
+        raise ValueError(
+            f"--vertices is {word}, it must be a number such as 600 or a percentage such as 3%."
+        ) from None
 
 
 def _numbers(path: str, kind: type) -> numpy.ndarray:
     try:
-        return numpy.load(path, allow_pickle=False) if path.endswith(".npy") else numpy.loadtxt(path, kind, ndmin=1)
+        return (
+            numpy.load(path, allow_pickle=False)
+            if path.endswith(".npy")
+            else numpy.loadtxt(path, kind, ndmin=1)
+        )
     except ValueError as error:
         raise ValueError(f"{path} cannot be read: {error}") from None
 
 
 def _run(a: argparse.Namespace) -> None:
-    V, F = read_mesh(a.IN)
+    own = a.IN.lower().endswith((".off", ".obj", ".ply", ".stl"))
+    if a.repair and own and (a.restriction or a.prolongation or a.map):
+        raise ValueError(
+            "--repair renumbers vertices, and --restriction, --prolongation and --map number those "
+            "of IN: repair first."
+        )
+    V, F = read_mesh(a.IN, a.repair and own)
     cleaned = None
     if a.mask is None and a.keep is None and a.signals is None:
         cleaned = clean(V, F, a.repair)
     elif a.repair:
-        raise ValueError("--repair renumbers vertices, and --mask, --keep and --signals number those of IN: repair first.")
-    options = {name: getattr(a, name) for name in
-               ("preset", "mass", "placement", "shape", "self_intersections", "relocate", "quadrics_above", "pre_simplify", "max_error",
-                "boundary", "intrinsic_delaunay", "binary", "preserve_border", "threads")}
-    options.update(k=a.eigenvectors, keep=None if a.keep is None else _numbers(a.keep, int),
-                   signals=None if a.signals is None else _numbers(a.signals, float))
+        raise ValueError(
+            "--repair renumbers vertices, and --mask, --keep and --signals number those of IN: "
+            "repair first."
+        )
+    options = {
+        name: getattr(a, name)
+        for name in (
+            "preset",
+            "mass",
+            "placement",
+            "shape",
+            "self_intersections",
+            "relocate",
+            "quadrics_above",
+            "pre_simplify",
+            "max_error",
+            "boundary",
+            "intrinsic_delaunay",
+            "binary",
+            "preserve_border",
+            "threads",
+        )
+    }
+    options.update(
+        k=a.eigenvectors,
+        keep=None if a.keep is None else _numbers(a.keep, int),
+        signals=None if a.signals is None else _numbers(a.signals, float),
+    )
     if a.mask is not None:
         mask = _numbers(a.mask, float)
         if not numpy.isin(mask, (0, 1)).all():
@@ -103,24 +175,47 @@ def _run(a: argparse.Namespace) -> None:
     report = dict(run.report)
     if not a.no_evaluation:
         k = min(report["eigenvectors"], len(run.V))
-        e = evaluate(*run._part(), run.V, run.F, run._part_P(), k, report["mass"], boundary=a.boundary,
-                     intrinsic_delaunay=a.intrinsic_delaunay)
-        report.update(norm_L=e.C_L, norm_D=e.C_D, eigenvalue_error_mean=e.eigenvalue_error, eigenvalue_error_max=e.eigenvalue_error_max,
-                      eigenvalue_error_low_mean=e.eigenvalue_error_low, area_ratio=e.area_ratio)
+        e = evaluate(
+            *run._part(),
+            run.V,
+            run.F,
+            run._part_P(),
+            k,
+            report["mass"],
+            boundary=a.boundary,
+            intrinsic_delaunay=a.intrinsic_delaunay,
+        )
+        report.update(
+            norm_L=e.C_L,
+            norm_D=e.C_D,
+            eigenvalue_error_mean=e.eigenvalue_error,
+            eigenvalue_error_max=e.eigenvalue_error_max,
+            eigenvalue_error_low_mean=e.eigenvalue_error_low,
+            area_ratio=e.area_ratio,
+        )
         if not a.quiet:
-            print(f"{len(V)} to {len(run.V)} vertices, |C|_L {e.C_L:.3f}, |C|_D {e.C_D:.3f}, eigenvalue error "
-                  f"{100 * e.eigenvalue_error:.2f} %")
+            print(
+                f"{len(V)} to {len(run.V)} vertices, |C|_L {e.C_L:.3f}, |C|_D {e.C_D:.3f}, "
+                "eigenvalue error "
+                f"{100 * e.eigenvalue_error:.2f} %"
+            )
     # All are written beside their places first, and the mesh goes last.
     parts = []
     try:
-        for path, write in ((a.restriction, lambda f: scipy.io.mmwrite(f, run.P)), (a.prolongation, lambda f: scipy.io.mmwrite(f, run.Q)),
-                            (a.map, lambda f: numpy.savetxt(f, run.vertex_map, "%d")),
-                            (a.json, lambda f: pathlib.Path(f).write_text(json.dumps(report, indent=2) + "\n")),
-                            (a.save, run.save), (a.OUT, lambda f: write_mesh(f, run.V, run.F))):
+        for path, write in (
+            (a.restriction, lambda f: scipy.io.mmwrite(f, run.P)),
+            (a.prolongation, lambda f: scipy.io.mmwrite(f, run.Q)),
+            (a.map, lambda f: numpy.savetxt(f, run.vertex_map, "%d")),
+            (a.json, lambda f: pathlib.Path(f).write_text(json.dumps(report, indent=2) + "\n")),
+            (a.save, run.save),
+            (a.OUT, lambda f: write_mesh(f, run.V, run.F)),
+        ):
             if path is None:
                 continue
             folder, name = os.path.split(path)
-            handle, temporary = tempfile.mkstemp(prefix=".", suffix=pathlib.Path(name).suffix, dir=folder or ".")
+            handle, temporary = tempfile.mkstemp(
+                prefix=".", suffix=pathlib.Path(name).suffix, dir=folder or "."
+            )
             os.close(handle)
             parts.append((temporary, path))
             write(temporary)

@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Many meshes in one call: in this process, on the cores of this machine, or on a cluster of Dask, which brings the scheduler.
+# Many meshes in one call: in this process, on the cores of this machine, or on a cluster of Dask,
+# which brings the scheduler.
 
 from __future__ import annotations
 
@@ -22,6 +23,7 @@ from ._interface import eigenpairs, simplify
 from ._meshes import clean, read_mesh
 from ._results import Level, Simplification, _Result, load
 
+_DIED = "the process that computed it died each time: it may need more memory."
 _ATTEMPTS = 3  # of a mesh whose process dies
 
 
@@ -48,7 +50,8 @@ class Collection_row(_Result):
 
     @property
     def result(self) -> Level:
-        """The Simplification, or the Level with a shared connectivity; read from the file where there is one.
+        """The Simplification, or the Level with a shared connectivity; read from the file where
+        there is one.
 
         Raises
         ------
@@ -74,11 +77,17 @@ def _taken(mesh: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
 def _one(mesh: Any, n: int, options: dict[str, Any]) -> Simplification:
     """A mesh as it comes: cleaned as the programs do, and numbered as it came."""
     V, F = _taken(mesh)
-    if options.get("mask") is not None or any(options.get(name) is not None for name in ("keep", "signals", "coefficients")):
+    if options.get("mask") is not None or any(
+        options.get(name) is not None for name in ("keep", "signals", "coefficients")
+    ):
         return simplify(V, F, n, **options)  # these number the vertices as they come
     cleaned = clean(V, F)
     run = simplify(cleaned.V, cleaned.F, n, **options)
-    return run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin) if cleaned.changes else run
+    return (
+        run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin)
+        if cleaned.changes
+        else run
+    )
 
 
 def _pairs(mesh: Any, k: int, mass: str, threads: int | None):
@@ -94,6 +103,7 @@ def _posed(mesh: Any, run: Simplification, pairs: Any, relocate: bool) -> Level:
 def _guarded(function: Callable, arguments: tuple) -> tuple[Any, str | None, float]:
     """What a worker does: a result, or a sentence. Nothing that one mesh causes ends the others."""
     import warnings
+
     begin = time.perf_counter()
     try:
         with warnings.catch_warnings():
@@ -103,57 +113,76 @@ def _guarded(function: Callable, arguments: tuple) -> tuple[Any, str | None, flo
         return None, str(error) or type(error).__name__, time.perf_counter() - begin
 
 
-def _here(tasks: Iterable[tuple[int, Callable, tuple]]) -> Iterator[tuple[int, Any, str | None, float]]:
+def _here(
+    tasks: Iterable[tuple[int, Callable, tuple]]
+) -> Iterator[tuple[int, Any, str | None, float]]:
     for i, function, arguments in tasks:
         yield i, *_guarded(function, arguments)
 
 
 def _on_processes(tasks, workers: int):
-    """Processes of this machine; a mesh whose process dies is tried again, beside none but itself at last."""
+    """Processes of this machine. Where one dies, what ran with it is tried again, each mesh alone: so
+    it is known whose fault it was."""
     import multiprocessing
+
     context = multiprocessing.get_context("spawn")  # libraries have threads, which fork loses
-    waiting, died, tasks = [], {}, iter(tasks)
-    while True:
-        running = {}
-        with concurrent.futures.ProcessPoolExecutor(workers, mp_context=context) as pool:
+    tasks = iter(tasks)
+    suspects: list = []  # with the number of deaths while they were alone
+    more = True
+    while more or suspects:
+        alone = bool(suspects)
+        running: dict = {}
+        with concurrent.futures.ProcessPoolExecutor(
+            1 if alone else workers, mp_context=context
+        ) as pool:
             try:
                 while True:
-                    while len(running) < 2 * workers:
-                        task = waiting.pop(0) if waiting else next(tasks, None)
-                        if task is None:
-                            break
-                        try:
-                            running[pool.submit(_guarded, task[1], task[2])] = task
-                        except concurrent.futures.process.BrokenProcessPool:
-                            waiting.insert(0, task)
-                            raise
+                    while more and not alone and len(running) < 2 * workers:
+                        task = next(tasks, None)
+                        more = task is not None
+                        if more:
+                            running[_submitted(pool, task, running)] = (task, 0)
+                    if alone and suspects and not running:
+                        task, deaths = suspects.pop(0)
+                        running[_submitted(pool, task, running)] = (task, deaths)
                     if not running:
-                        return
-                    done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
+                        break
+                    done, _ = concurrent.futures.wait(
+                        running, return_when=concurrent.futures.FIRST_COMPLETED
+                    )
                     for future in done:
                         result = future.result()
-                        yield running.pop(future)[0], *result
+                        yield running.pop(future)[0][0], *result
             except concurrent.futures.process.BrokenProcessPool:
-                for future, task in running.items():
-                    if future.done() and future.exception() is None:
+                for future, (task, deaths) in running.items():
+                    if future is not None and future.done() and future.exception() is None:
                         yield task[0], *future.result()
-                        continue
-                    died[task[0]] = died.get(task[0], 0) + 1
-                    if died[task[0]] < _ATTEMPTS * len(running):
-                        waiting.append(task)
+                    elif alone and deaths + 1 == _ATTEMPTS:
+                        yield task[0], None, _DIED, 0.0
                     else:
-                        yield task[0], None, "the process that computed it died each time: it may need more memory.", 0.0
+                        suspects.append((task, deaths + alone))
             except BaseException:
                 pool.shutdown(cancel_futures=True)
                 raise
+
+
+def _submitted(pool, task, running: dict):
+    try:
+        return pool.submit(_guarded, task[1], task[2])
+    except concurrent.futures.process.BrokenProcessPool:
+        running[None] = (task, 0)  # it has not begun
+        raise
 
 
 def _on_dask(tasks, client):
     try:
         import distributed
     except ImportError:
-        raise ValueError("a cluster needs the package distributed, which is not installed: pip install distributed, or on Debian "
-                         "apt-get install python3-distributed.") from None
+        raise ValueError(
+            "a cluster needs the package distributed, which is not installed: pip install "
+            "distributed, or on Debian "
+            "apt-get install python3-distributed."
+        ) from None
     own = None
     if isinstance(client, str):
         try:
@@ -196,7 +225,11 @@ def _scheduled(tasks, workers):
     if isinstance(workers, str) and workers != "all" or hasattr(workers, "submit"):
         return _on_dask(tasks, workers)
     if workers == "all":
-        workers = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+        workers = (
+            len(os.sched_getaffinity(0))
+            if hasattr(os, "sched_getaffinity")
+            else os.cpu_count() or 1
+        )
     return _here(tasks) if workers == 1 else _on_processes(tasks, workers)
 
 
@@ -204,7 +237,12 @@ def _bar(done: int, total: int | None, name: str) -> None:
     width = 30
     filled = width * done // total if total else 0
     of = f" of {total}" if total else ""
-    print(f"\r[{'#' * filled}{'.' * (width - filled)}] {done}{of} {name[:30]:30}", end="", file=sys.stderr, flush=True)
+    print(
+        f"\r[{'#' * filled}{'.' * (width - filled)}] {done}{of} {name[:30]:30}",
+        end="",
+        file=sys.stderr,
+        flush=True,
+    )
 
 
 def _plain(value: Any) -> Any:
@@ -212,32 +250,46 @@ def _plain(value: Any) -> Any:
         return value
     array = numpy.ascontiguousarray(value)
     import hashlib
+
     return f"{array.dtype}{array.shape}{hashlib.sha256(array.tobytes()).hexdigest()}"
 
 
-def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, workers: Any = 1, shared_connectivity: bool = False,
-                        progress: bool | Callable[[int, Any, str], Any] | None = None, **options: Any) -> list[Collection_row]:
-    """Simplifies many meshes: of each a row, with its result or with the sentence that says why there is none.
+def simplify_collection(
+    meshes: Iterable[Any],
+    n: int,
+    output: Any = None,
+    *,
+    workers: Any = 1,
+    shared_connectivity: bool = False,
+    progress: bool | Callable[[int, Any, str], Any] | None = None,
+    **options: Any,
+) -> list[Collection_row]:
+    """Simplifies many meshes: of each a row, with its result or with the sentence that says why
+    there is none.
 
     Parameters
     ----------
     meshes : iterable
-        File names, see read_mesh(), or pairs (V, F). Read as they are wanted, but for a shared connectivity. Each is cleaned as
-        clean() does, and results are numbered as the mesh came.
+        File names, see read_mesh(), or pairs (V, F). Read as they are wanted, but for a shared
+        connectivity. Each is cleaned as clean() does, and results are numbered as the mesh came.
     n : int
         Vertices of each result.
     output : folder, optional
-        Where results are written as they come, NAME.npz each, which load() reads. A second call with the same arguments goes on where
-        the first one ended. None: the rows hold the results.
+        Where results are written as they come, NAME.npz each, which load() reads. A second call
+        with the same arguments goes on where the first one ended. None: the rows hold the
+        results.
     workers : int, 'all', address or client
-        1: this process; more, or 'all': processes of this machine; an address such as 'tcp://host:8786', or a distributed.Client: a
-        cluster of Dask, whose workers see the files and have this package.
+        1: this process; more, or 'all': processes of this machine; an address such as
+        'tcp://host:8786', or a distributed.Client: a cluster of Dask, whose workers see the files
+        and have this package.
     shared_connectivity : bool
-        All meshes have the same faces, as poses of one figure: the results have one connectivity, too, and vertex i of them is in the same
-        place. The merges are decided by the eigenvectors of all, and each result is relocated for its own.
+        All meshes have the same faces, as poses of one figure: the results have one connectivity,
+        too, and vertex i of them is in the same place. The merges are decided by the eigenvectors
+        of all, and each result is relocated for its own.
     progress : bool or function, optional
-        True: a bar on stderr, the default at a terminal. A function gets how many are done, of how many, or None, and the name; where it
-        returns False the call ends, with Cancelled, and what is written stays.
+        True: a bar on stderr, the default at a terminal. A function gets how many are done, of
+        how many, or None, and the name; where it returns False the call ends, with Cancelled, and
+        what is written stays.
     **options
         Of simplify(), for all meshes.
 
@@ -253,10 +305,18 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
     """
     if "progress" in options or "eigenpairs" in options:
         raise ValueError("eigenpairs belong to one mesh: leave them out.")
-    if isinstance(workers, bool) or not (isinstance(workers, (int, str)) or hasattr(workers, "submit")) or \
-            isinstance(workers, int) and workers < 1:
-        raise ValueError(f"workers is {workers!r}, it must be 1 or more, 'all', an address or a distributed.Client.")
+    if (
+        isinstance(workers, bool)
+        or not (isinstance(workers, (int, str)) or hasattr(workers, "submit"))
+        or isinstance(workers, int)
+        and workers < 1
+    ):
+        raise ValueError(
+            f"workers is {workers!r}, it must be 1 or more, 'all', an address or a "
+            "distributed.Client."
+        )
     import inspect
+
     for name in options:
         if name not in inspect.signature(simplify).parameters or name in ("V", "F", "n"):
             raise ValueError(f"simplify() has no option {name!r}.")
@@ -266,12 +326,18 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
     if output is not None:
         folder = pathlib.Path(output)
         folder.mkdir(parents=True, exist_ok=True)
-        settings = {"n": n, "shared_connectivity": shared_connectivity,
-                    **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"}}
+        settings = {
+            "n": n,
+            "shared_connectivity": shared_connectivity,
+            **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"},
+        }
         kept = folder / "settings.json"
         if kept.exists():
             if json.loads(kept.read_text()) != settings:
-                raise ValueError(f"{folder} has results of other arguments, {kept.name} says which: choose another folder, or empty it.")
+                raise ValueError(
+                    f"{folder} has results of other arguments, {kept.name} says which: choose "
+                    "another folder, or empty it."
+                )
         else:
             kept.write_text(json.dumps(settings))
     total = len(meshes) if hasattr(meshes, "__len__") else None
@@ -284,7 +350,11 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
     known: set[str] = set()
 
     def named(i: int, mesh: Any) -> str:
-        name = pathlib.Path(mesh).name.rpartition(".")[0] or pathlib.Path(mesh).name if isinstance(mesh, (str, os.PathLike)) else f"{i:04d}"
+        name = (
+            pathlib.Path(mesh).name.rpartition(".")[0] or pathlib.Path(mesh).name
+            if isinstance(mesh, (str, os.PathLike))
+            else f"{i:04d}"
+        )
         while name in known:
             name += "+"
         known.add(name)
@@ -296,13 +366,16 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
         path = folder / (names[i] + ".npz") if folder else None
         if path is None or not path.exists():
             return False
-        rows[i] = Collection_row._from_state(dict(name=names[i], error=None, path=str(path), seconds=0.0, _result=None))
+        rows[i] = Collection_row._from_state(
+            dict(name=names[i], error=None, path=str(path), seconds=0.0, _result=None)
+        )
         said(i)
         return True
 
     def said(i: int) -> None:
         if tell is not None and tell(len(rows), total, names[i]) is False:
             from ._core import Cancelled
+
             raise Cancelled("The progress function returned False.")
 
     def ended(i: int, result: Any, error: str | None, seconds: float) -> None:
@@ -312,17 +385,21 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
             result.save(path + ".part")  # a name that no later call takes for a result
             os.replace(path + ".part", path)
             result = None
-        rows[i] = Collection_row._from_state(dict(name=names[i], error=error, path=path, seconds=seconds, _result=result))
+        rows[i] = Collection_row._from_state(
+            dict(name=names[i], error=error, path=path, seconds=seconds, _result=result)
+        )
         said(i)
 
     if shared_connectivity:
         _shared(list(meshes), n, options, workers, named, there, ended)
     else:
+
         def tasks():
             for i, mesh in enumerate(meshes):
                 named(i, mesh)
                 if not there(i):
                     yield i, _one, (mesh, n, options)
+
         for i, result, error, seconds in _scheduled(tasks(), workers):
             ended(i, result, error, seconds)
     if tell is _bar:
@@ -330,9 +407,18 @@ def simplify_collection(meshes: Iterable[Any], n: int, output: Any = None, *, wo
     return [rows[i] for i in sorted(rows)]
 
 
-def _shared(meshes: list, n: int, options: dict, workers: Any, named: Callable, there: Callable, ended: Callable) -> None:
-    """Merges that all poses decide: random mixtures of the eigenvectors of all are the signals, since a sketch of all side by side has
-    the metric of all. Then each pose gets the coarse mesh, and is relocated by its own eigenvectors."""
+def _shared(
+    meshes: list,
+    n: int,
+    options: dict,
+    workers: Any,
+    named: Callable,
+    there: Callable,
+    ended: Callable,
+) -> None:
+    """Merges that all poses decide: random mixtures of the eigenvectors of all are the signals,
+    since a sketch of all side by side has the metric of all. Then each pose gets the coarse mesh,
+    and is relocated by its own eigenvectors."""
     for name in "signals", "keep", "coefficients", "fit_operators", "mask", "pre_simplify":
         if options.get(name) is not None:
             raise ValueError(f"{name} is not for meshes of one connectivity: leave it out.")
@@ -346,10 +432,16 @@ def _shared(meshes: list, n: int, options: dict, workers: Any, named: Callable, 
             if first is None:
                 cleaned = clean(V, F)
                 if cleaned.changes:
-                    raise ValueError(f"meshes of one connectivity must be usable as they are: {', '.join(cleaned.changes)} by clean().")
+                    raise ValueError(
+                        f"meshes of one connectivity must be usable as they are: "
+                        f"{', '.join(cleaned.changes)} by clean()."
+                    )
                 first = V, F, i
             elif V.shape != first[0].shape or not numpy.array_equal(F, first[1]):
-                raise ValueError(f"it has not the faces of mesh {first[2]}: leave it out, or simplify without shared_connectivity.")
+                raise ValueError(
+                    f"it has not the faces of mesh {first[2]}: leave it out, or simplify "
+                    "without shared_connectivity."
+                )
             elif not numpy.isfinite(V).all():
                 raise ValueError("V holds a number that is not finite.")
             going[i] = (V, F)
@@ -362,7 +454,9 @@ def _shared(meshes: list, n: int, options: dict, workers: Any, named: Callable, 
     k = options.get("k") or 100
     relocate = (options.get("relocate") or ("none" if preset == "paper" else "sampled")) != "none"
     pairs = {}
-    for i, result, error, seconds in _scheduled([(i, _pairs, (m, k, mass, options.get("threads"))) for i, m in going.items()], workers):
+    for i, result, error, seconds in _scheduled(
+        [(i, _pairs, (m, k, mass, options.get("threads"))) for i, m in going.items()], workers
+    ):
         if error is None:
             pairs[i] = result
         else:
@@ -375,9 +469,12 @@ def _shared(meshes: list, n: int, options: dict, workers: Any, named: Callable, 
     columns = min(max(k, 32), 100)
     for i in sorted(going):
         unit = numpy.sqrt(pairs[i].M.sum() / len(going))
-        signals = signals + unit * pairs[i].vectors @ random.standard_normal((k, columns)) / numpy.sqrt(columns)
+        signals = signals + unit * pairs[i].vectors @ random.standard_normal(
+            (k, columns)
+        ) / numpy.sqrt(columns)
     one = min(going)
     import warnings
+
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         decided = {**options, "relocate": "none", "k": None}

@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# What a user sees of the compiled module: each function hands its arguments to the one of the same name there.
+# What a user sees of the compiled module: each function hands its arguments to the one of the
+# same name there.
 
 from __future__ import annotations
 
@@ -17,16 +18,37 @@ from ._meshes import used_part
 from ._results import Eigenpairs, Evaluation, Fitted_operators, Match, Progress, Simplification
 
 
-def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, preset: str = 'best', *,
-             mass: str | None = None, placement: str | None = None, shape: float | None = None,
-             self_intersections: str | None = None, relocate: str | None = None, flips: str = 'none',
-             keep: Sequence[int] | Sequence[bool] | None = None, mask: numpy.ndarray | None = None, binary: bool = False,
-             preserve_border: bool = False, signals: numpy.ndarray | None = None, eigenpairs: Eigenpairs | None = None,
-             quadrics_above: float | None = None, pre_simplify: int | None = None, max_error: float | None = None,
-             fit_operators: bool = False, coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
-             intrinsic_delaunay: bool = False, threads: int | None = None,
-             progress: Progress | None = None) -> Simplification:
-    """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its Laplacian.
+def simplify(
+    V: numpy.ndarray,
+    F: numpy.ndarray,
+    n: int,
+    k: int | None = None,
+    preset: str = 'best',
+    *,
+    mass: str | None = None,
+    placement: str | None = None,
+    shape: float | None = None,
+    self_intersections: str | None = None,
+    relocate: str | None = None,
+    flips: str = 'none',
+    keep: Sequence[int] | Sequence[bool] | None = None,
+    mask: numpy.ndarray | None = None,
+    binary: bool = False,
+    preserve_border: bool = False,
+    signals: numpy.ndarray | None = None,
+    eigenpairs: Eigenpairs | None = None,
+    quadrics_above: float | None = None,
+    pre_simplify: int | None = None,
+    max_error: float | None = None,
+    fit_operators: bool = False,
+    coefficients: numpy.ndarray | None = None,
+    boundary: str = 'neumann',
+    intrinsic_delaunay: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Simplification:
+    """Simplifies a triangle mesh and keeps the first k eigenvalues and eigenvectors of its
+    Laplacian.
 
     Parameters
     ----------
@@ -34,16 +56,17 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
         (v, 3) real numbers, positions in any unit of length
     F : array
         (f, 3) integers, the corners of the triangles, counted from 0: an oriented manifold, with or
-        without border. Vertices without a face are left out, and the result is numbered as V all the same
+        without border. Vertices without a face are left out, and the result is numbered as V all
+        the same
     n : int
         how many vertices are left; 3 k or more, a warning says so
     k : int, optional
-        how many eigenvectors are kept, the constant one included; below v. 100, or as many as signals has
-        columns
+        how many eigenvectors are kept, the constant one included; below v. 100, or as many as
+        signals has columns
     preset : str
-        'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 30 n, at least 10000;
-        'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification, 2020). Each of the
-        next five, quadrics_above and pre_simplify overrides it
+        'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 30 n, at least
+        10000; 'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification,
+        2020). Each of the next five, quadrics_above and pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
         eigenvalues of coarse meshes much closer, or 'voronoi', lumped by mixed Voronoi areas
@@ -59,10 +82,12 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
     flips : str
         'none', 'spectral' or 'delaunay': which edges are flipped before that
     keep : sequence of int or bool, optional
-        vertices of V that stay where they are, by indices or by True for each; vertex_map says where they went
+        vertices of V that stay where they are, by indices or by True for each; vertex_map says
+        where they went
     mask : array of bool, optional
-        (v,), True for the vertices of V that take part, such as a cortex without its medial wall: faces stay where all
-        their corners do. The result is numbered as V, columns of P are empty elsewhere
+        (v,), True for the vertices of V that take part, such as a cortex without its medial wall:
+        faces stay where all their corners do. The result is numbered as V, columns of P are empty
+        elsewhere
     binary : bool
         P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
     preserve_border : bool
@@ -72,31 +97,34 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
     eigenpairs : Eigenpairs, optional
         what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
     quadrics_above : float, optional
-        while there are more than this many times n vertices, collapse edges by quadrics alone: much faster,
-        and as good (best, fast: 15, paper: infinity, never). Levels above that are those of quadrics
+        while there are more than this many times n vertices, collapse edges by quadrics alone:
+        much faster, and as good (best, fast: 15, paper: infinity, never). Levels above that are
+        those of quadrics
     pre_simplify : int, optional
-        first reduce a larger mesh to this number of vertices by quadrics alone; 0: do not. None: as the preset
+        first reduce a larger mesh to this number of vertices by quadrics alone; 0: do not. None:
+        as the preset
     max_error : float, optional
         stop before the relative error sqrt(E / sum lambda^2) exceeds this; 0.1 keeps the spectrum
         closely, 0.14 well
     fit_operators : bool
-        afterwards choose a Laplacian and a mass of the simplified mesh so that they have the spectrum of V, F
-        as nearly as they can: fitted of the result. Takes another solve, for a fifth more eigenpairs, unless
-        eigenpairs are given
+        afterwards choose a Laplacian and a mass of the simplified mesh so that they have the
+        spectrum of V, F as nearly as they can: fitted of the result. Takes another solve, for a
+        fifth more eigenpairs, unless eigenpairs are given
     coefficients : array, optional
-        (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place of the
-        Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
+        (v, 7) of the operator whose spectrum is kept, -div(D grad phi) = lambda rho phi, in place
+        of the Laplacian: rho, and D as xx, xy, xz, yy, yz, zz; see weighted_coefficients() and
         curvature_coefficients(). The simplified mesh has those of the result
     intrinsic_delaunay : bool
         for a mesh of needles: keep eigenvectors of its intrinsic Delaunay triangulation
     boundary : str
-        'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or they are
+        'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or
+        they are
     threads : int, optional
-        for eigenpairs, costs and relocation, all cores by default and at most; the result does not depend
-        on it
+        for eigenpairs, costs and relocation, all cores by default and at most; the result does
+        not depend on it
     progress : function, optional
-        is called with a phase and the fraction of it that is done, at most twenty times a second; raises
-        Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
+        is called with a phase and the fraction of it that is done, at most twenty times a second;
+        raises Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
 
     Returns
     -------
@@ -112,8 +140,9 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
 
     Notes
     -----
-    Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first thing that is
-    wrong. What is done but not advised is a UserWarning, and so is a run that ends above n.
+    Nothing is repaired, and V and F are not changed: ValueError and TypeError name the first
+    thing that is wrong. What is done but not advised is a UserWarning, and so is a run that ends
+    above n.
     """
     values = dict(locals())
     if k is None and signals is None:
@@ -132,29 +161,61 @@ def simplify(V: numpy.ndarray, F: numpy.ndarray, n: int, k: int | None = None, p
         if keep is not None:
             out = ~numpy.isin(keep, used)
             if out.any():
-                raise ValueError(f"keep names the vertex {keep[out][0]}, which no face uses that is left: leave it out.")
+                raise ValueError(
+                    f"keep names the vertex {keep[out][0]}, which no face uses that is left: "
+                    "leave it out."
+                )
             values["keep"] = numpy.searchsorted(used, keep)
     try:
         core = _core.simplify(values)
     except ValueError as error:
         if used is None:
             raise
-        raise type(error)(f"{error} Vertices are counted among the {len(used)} that faces use.") from None
-    pairs = eigenpairs if eigenpairs is not None else core["eigenpairs"] and Eigenpairs(core["eigenpairs"])
+        raise type(error)(
+            f"{error} Vertices are counted among the {len(used)} that faces use."
+        ) from None
+    pairs = (
+        eigenpairs
+        if eigenpairs is not None
+        else core["eigenpairs"] and Eigenpairs(core["eigenpairs"])
+    )
     kept = [] if values["keep"] is None else core["vertex_map"][values["keep"]]
-    asked = dict(boundary=boundary, intrinsic_delaunay=intrinsic_delaunay, coefficients=values["coefficients"],
-                 kept=numpy.asarray(kept, numpy.int64), pairs=None)
-    return Simplification._of(core, numpy.array(fine_V, float), numpy.array(fine_F, numpy.int64), used, eigenpairs=pairs,
-                              coefficients=core["coefficients"], fitted=core["fitted"] and Fitted_operators(core["fitted"]),
-                              report=core["report"], collapses=core["collapses"], _asked=asked)
+    asked = dict(
+        boundary=boundary,
+        intrinsic_delaunay=intrinsic_delaunay,
+        coefficients=values["coefficients"],
+        kept=numpy.asarray(kept, numpy.int64),
+        pairs=None,
+    )
+    return Simplification._of(
+        core,
+        numpy.array(fine_V, float),
+        numpy.array(fine_F, numpy.int64),
+        used,
+        eigenpairs=pairs,
+        coefficients=core["coefficients"],
+        fitted=core["fitted"] and Fitted_operators(core["fitted"]),
+        report=core["report"],
+        collapses=core["collapses"],
+        _asked=asked,
+    )
 
 
-def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'averaged', *, tolerance: float = 1e-10,
-               coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
-               intrinsic_delaunay: bool = False, threads: int | None = None,
-               progress: Progress | None = None) -> Eigenpairs:
-    """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have the unit of
-    an inverse area.
+def eigenpairs(
+    V: numpy.ndarray,
+    F: numpy.ndarray,
+    k: int = 100,
+    mass: str = 'averaged',
+    *,
+    tolerance: float = 1e-10,
+    coefficients: numpy.ndarray | None = None,
+    boundary: str = 'neumann',
+    intrinsic_delaunay: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Eigenpairs:
+    """The first k eigenpairs of a mesh, L phi = lambda M phi, at the scale of V: eigenvalues have
+    the unit of an inverse area.
 
     Parameters
     ----------
@@ -184,8 +245,15 @@ def eigenpairs(V: numpy.ndarray, F: numpy.ndarray, k: int = 100, mass: str = 'av
     return Eigenpairs(_core.eigenpairs(locals()))
 
 
-def eigsh(L: scipy.sparse.spmatrix, M: scipy.sparse.spmatrix | None = None, k: int = 6, *, tolerance: float = 1e-10,
-          threads: int | None = None, progress: Progress | None = None) -> tuple[numpy.ndarray, numpy.ndarray]:
+def eigsh(
+    L: scipy.sparse.spmatrix,
+    M: scipy.sparse.spmatrix | None = None,
+    k: int = 6,
+    *,
+    tolerance: float = 1e-10,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> tuple[numpy.ndarray, numpy.ndarray]:
     """The k smallest eigenvalues and their vectors of any pencil, L u = w M u: the place of
     scipy.sparse.linalg.eigsh(L, k, M, sigma=0 or below).
 
@@ -219,27 +287,40 @@ def eigsh(L: scipy.sparse.spmatrix, M: scipy.sparse.spmatrix | None = None, k: i
     Examples
     --------
     >>> import scipy.sparse
-    >>> L = scipy.sparse.diags([[1.0] + 98 * [2.0] + [1.0], 99 * [-1.0], 99 * [-1.0]], [0, 1, -1]).tocsr()
-    >>> w, U = eigsh(L, k=3)
-    >>> print((w / w[1]).round(2))
-    [0. 1. 4.]
+    >>> L = scipy.sparse.diags([[1.0] + 98 * [2.0] + [1.0], 99 * [-1.0], 99 * [-1.0]], [0, 1,
+    -1]).tocsr() >>> w, U = eigsh(L, k=3) >>> print((w / w[1]).round(2)) [0. 1. 4.]
     """
     if not scipy.sparse.issparse(L) or len(L.shape) != 2:
-        raise _core.Wrong_type(f"L is of the type {type(L).__name__}, it must be a sparse matrix: pass scipy.sparse.csr_matrix(L).")
+        raise _core.Wrong_type(
+            f"L is of the type {type(L).__name__}, it must be a sparse matrix: pass "
+            "scipy.sparse.csr_matrix(L)."
+        )
     if M is None:
         M = scipy.sparse.identity(L.shape[0], format="csr")
     pairs = _core.eigsh(locals())
     return numpy.array(pairs.values), numpy.array(pairs.vectors)
 
 
-def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix,
-             k: int = 100, mass: str = 'averaged', *, eigenpairs: Eigenpairs | None = None,
-             operators: Fitted_operators | None = None, coefficients: numpy.ndarray | None = None,
-             coarse_coefficients: numpy.ndarray | None = None, boundary: str = 'neumann',
-             intrinsic_delaunay: bool = False, threads: int | None = None,
-             progress: Progress | None = None) -> Evaluation:
-    """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures are for both
-    meshes at unit area; compare figures of one mass only.
+def evaluate(
+    V: numpy.ndarray,
+    F: numpy.ndarray,
+    Vc: numpy.ndarray,
+    Fc: numpy.ndarray,
+    P: scipy.sparse.csr_matrix,
+    k: int = 100,
+    mass: str = 'averaged',
+    *,
+    eigenpairs: Eigenpairs | None = None,
+    operators: Fitted_operators | None = None,
+    coefficients: numpy.ndarray | None = None,
+    coarse_coefficients: numpy.ndarray | None = None,
+    boundary: str = 'neumann',
+    intrinsic_delaunay: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Evaluation:
+    """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures
+    are for both meshes at unit area; compare figures of one mass only.
 
     Parameters
     ----------
@@ -260,7 +341,8 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
     coefficients : array, optional
         of the operator, (v, 7), as of simplify()
     coarse_coefficients : array, optional
-        those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients where None
+        those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients
+        where None
     boundary, intrinsic_delaunay, threads, progress : str
         as of simplify()
 
@@ -279,12 +361,24 @@ def evaluate(V: numpy.ndarray, F: numpy.ndarray, Vc: numpy.ndarray, Fc: numpy.nd
     return Evaluation._from_state(_core.evaluate(locals()))
 
 
-def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matrix, eigenpairs: Eigenpairs,
-                  k: int | None = None, mass: str | None = None, rings: int | None = None, *,
-                  low_modes: float = 2.5, orthonormality: float = 0.01, plain: float = 0.2,
-                  coefficients: numpy.ndarray | None = None, progress: Progress | None = None) -> Fitted_operators:
-    """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the eigenpairs of the fine
-    one as nearly as they can: for functional maps and spectral distances, not for geometry.
+def fit_operators(
+    Vc: numpy.ndarray,
+    Fc: numpy.ndarray,
+    P: scipy.sparse.csr_matrix,
+    eigenpairs: Eigenpairs,
+    k: int | None = None,
+    mass: str | None = None,
+    rings: int | None = None,
+    *,
+    low_modes: float = 2.5,
+    orthonormality: float = 0.01,
+    plain: float = 0.2,
+    coefficients: numpy.ndarray | None = None,
+    progress: Progress | None = None,
+) -> Fitted_operators:
+    """Chooses the entries of a Laplacian and a mass on a coarse mesh so that they have the
+    eigenpairs of the fine one as nearly as they can: for functional maps and spectral distances,
+    not for geometry.
 
     Parameters
     ----------
@@ -326,7 +420,9 @@ def fit_operators(Vc: numpy.ndarray, Fc: numpy.ndarray, P: scipy.sparse.csr_matr
     return Fitted_operators(_core.fit_operators(locals()))
 
 
-def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: numpy.ndarray | None = None) -> numpy.ndarray:
+def weighted_coefficients(
+    density: numpy.ndarray | None = None, conductivity: numpy.ndarray | None = None
+) -> numpy.ndarray:
     """The coefficients of -div(c grad phi) = lambda rho phi, for simplify() and others.
 
     Parameters
@@ -349,9 +445,9 @@ def weighted_coefficients(density: numpy.ndarray | None = None, conductivity: nu
 
 
 def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float) -> numpy.ndarray:
-    """(v, 7), the coefficients of an anisotropic Laplacian (Andreux et al. 2014): in the direction of a principal
-    curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|), with kappa in units of the sphere of the same
-    area. simplify() and others take them.
+    """(v, 7), the coefficients of an anisotropic Laplacian (Andreux et al. 2014): in the
+    direction of a principal curvature kappa the surface conducts 1 / (1 + anisotropy |kappa|),
+    with kappa in units of the sphere of the same area. simplify() and others take them.
 
     Parameters
     ----------
@@ -368,11 +464,12 @@ def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float
     return _core.curvature_coefficients(locals())
 
 
-def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
-                   P: scipy.sparse.csr_matrix) -> numpy.ndarray:
-    """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse coefficients C x. It is
-    vectors^T M P vectors, the first two of coarse_eigenpairs, the last of eigenpairs, at the scale of the
-    meshes; evaluate() has that of unit area.
+def functional_map(
+    eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs, P: scipy.sparse.csr_matrix
+) -> numpy.ndarray:
+    """C, coarse modes x fine modes: a function of the fine coefficients x has the coarse
+    coefficients C x. It is vectors^T M P vectors, the first two of coarse_eigenpairs, the last of
+    eigenpairs, at the scale of the meshes; evaluate() has that of unit area.
 
     Parameters
     ----------
@@ -395,8 +492,15 @@ def functional_map(eigenpairs: Eigenpairs, coarse_eigenpairs: Eigenpairs,
     return _core.functional_map(locals())
 
 
-def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int] | scipy.sparse.spmatrix, kind: str = 'biharmonic', *,
-              time: float | None = None, energies: tuple | None = None, squared: bool | None = None) -> numpy.ndarray:
+def distances(
+    eigenpairs: Eigenpairs,
+    sources: int | Sequence[int] | scipy.sparse.spmatrix,
+    kind: str = 'biharmonic',
+    *,
+    time: float | None = None,
+    energies: tuple | None = None,
+    squared: bool | None = None,
+) -> numpy.ndarray:
     """Spectral distances from sources to all vertices: (v,) for one source, (v, s) for s of them.
 
     Parameters
@@ -404,7 +508,8 @@ def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int] | scipy.spars
     eigenpairs : Eigenpairs
         of the mesh
     sources : int, sequence of int or sparse matrix
-        a vertex, a sequence of vertices, or points: a sparse interpolation (s, v), such as run.Q[fine vertices]
+        a vertex, a sequence of vertices, or points: a sparse interpolation (s, v), such as
+        run.Q[fine vertices]
     kind : str
         'diffusion', 'biharmonic' or 'commute_time', or 'wave_kernel'
     time : float, optional
@@ -430,14 +535,18 @@ def distances(eigenpairs: Eigenpairs, sources: int | Sequence[int] | scipy.spars
     if squared not in (None, True, False):
         raise ValueError(f"squared is {squared!r}, it must be None, True or False.")
     if squared and kind == "wave_kernel":
-        raise ValueError("squared is True, but the distance 'wave_kernel' is no root: leave it out.")
+        raise ValueError(
+            "squared is True, but the distance 'wave_kernel' is no root: leave it out."
+        )
     result = _core.distances(locals())
     if squared is False and kind != "wave_kernel":
         numpy.sqrt(result, out=result)
     return result
 
 
-def heat_kernel_signature(eigenpairs: Eigenpairs, times: Sequence[float] | None = None) -> numpy.ndarray:
+def heat_kernel_signature(
+    eigenpairs: Eigenpairs, times: Sequence[float] | None = None
+) -> numpy.ndarray:
     """The heat kernel signature of each vertex.
 
     Parameters
@@ -505,13 +614,29 @@ def wave_kernel_energies(eigenpairs: Eigenpairs, steps: int = 100) -> tuple:
     return _core.wave_kernel_energies(locals())
 
 
-def match(VX: numpy.ndarray, FX: numpy.ndarray, VY: numpy.ndarray, FY: numpy.ndarray, n: int = 600, k: int = 100, *,
-          mass: str = 'averaged', landmarks: numpy.ndarray | None = None, proxy: str = 'spectral',
-          operators: str = 'fitted', initial: int = 20, matcher: str = 'product_manifold_filter',
-          filter_iterations: int = 5, fine_iterations: int = 18, local_weight: float = 4, threads: int | None = None,
-          progress: Progress | None = None) -> Match:
-    """Finds for each vertex of X the vertex of Y that corresponds to it, as the program shape_matching does: over
-    simplified meshes, by a functional map from signatures, ZoomOut and the Product Manifold Filter or BCICP.
+def match(
+    VX: numpy.ndarray,
+    FX: numpy.ndarray,
+    VY: numpy.ndarray,
+    FY: numpy.ndarray,
+    n: int = 600,
+    k: int = 100,
+    *,
+    mass: str = 'averaged',
+    landmarks: numpy.ndarray | None = None,
+    proxy: str = 'spectral',
+    operators: str = 'fitted',
+    initial: int = 20,
+    matcher: str = 'product_manifold_filter',
+    filter_iterations: int = 5,
+    fine_iterations: int = 18,
+    local_weight: float = 4,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Match:
+    """Finds for each vertex of X the vertex of Y that corresponds to it, as the program
+    shape_matching does: over simplified meshes, by a functional map from signatures, ZoomOut and
+    the Product Manifold Filter or BCICP.
 
     Parameters
     ----------

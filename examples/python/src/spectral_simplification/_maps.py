@@ -4,8 +4,9 @@
 #
 # Maps between meshes, whoever found them.
 #
-# A functional map C takes functions on a source to functions on a target, modes of the target x modes of the source. A point map says
-# for each vertex of the target which vertex of the source it is.
+# A functional map C takes functions on a source to functions on a target, modes of the target x
+# modes of the source. A point map says for each vertex of the target which vertex of the source
+# it is.
 
 from __future__ import annotations
 
@@ -18,16 +19,22 @@ from ._results import Alignment, Eigenpairs, Simplification
 
 def _pairs(name: str, value) -> Eigenpairs:
     if not isinstance(value, Eigenpairs):
-        raise _core.Wrong_type(f"{name} is of the type {type(value).__name__}, it must be Eigenpairs: pass what eigenpairs() or "
-                               "Eigenpairs.from_arrays() returns.")
+        raise _core.Wrong_type(
+            f"{name} is of the type {type(value).__name__}, it must be Eigenpairs: pass what "
+            "eigenpairs() or "
+            "Eigenpairs.from_arrays() returns."
+        )
     return value
 
 
 def _modes(name: str, C, target: Eigenpairs, source: Eigenpairs) -> numpy.ndarray:
     C = numpy.asarray(C, float)
     if C.ndim != 2 or C.shape[0] > len(target) or C.shape[1] > len(source):
-        raise ValueError(f"{name} has the shape {C.shape}, it must be modes of the target x modes of the source, at most "
-                         f"({len(target)}, {len(source)}).")
+        raise ValueError(
+            f"{name} has the shape {C.shape}, it must be modes of the target x modes of the "
+            "source, at most "
+            f"({len(target)}, {len(source)})."
+        )
     if not numpy.isfinite(C).all():
         raise ValueError(f"{name} holds a number that is not finite.")
     return C
@@ -36,15 +43,23 @@ def _modes(name: str, C, target: Eigenpairs, source: Eigenpairs) -> numpy.ndarra
 def _point_map(name: str, T, target: int, source: int) -> numpy.ndarray:
     T = numpy.asarray(T)
     if T.shape != (target,) or T.dtype.kind not in "iu":
-        raise ValueError(f"{name} has the shape {T.shape} and the dtype {T.dtype}, it must be ({target},) integers, for each vertex of "
-                         "the target one of the source.")
+        raise ValueError(
+            f"{name} has the shape {T.shape} and the dtype {T.dtype}, it must be ({target},) "
+            "integers, for each vertex of "
+            "the target one of the source."
+        )
     if T.min(initial=0) < 0 or T.max(initial=0) >= source:
         bad = int(((T < 0) | (T >= source)).argmax())
-        raise ValueError(f"{name}[{bad}] is {T[bad]}, but the source has {source} vertices: they are counted from 0.")
+        raise ValueError(
+            f"{name}[{bad}] is {T[bad]}, but the source has {source} vertices: they are "
+            "counted from 0."
+        )
     return T
 
 
-def functional_map_of_point_map(T: numpy.ndarray, source: Eigenpairs, target: Eigenpairs) -> numpy.ndarray:
+def functional_map_of_point_map(
+    T: numpy.ndarray, source: Eigenpairs, target: Eigenpairs
+) -> numpy.ndarray:
     """The functional map of a point map, at the scale of the meshes.
 
     Parameters
@@ -63,8 +78,11 @@ def functional_map_of_point_map(T: numpy.ndarray, source: Eigenpairs, target: Ei
     return target.vectors.T @ (target.M @ source.vectors[T])
 
 
-def point_map(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, threads: int | None = None) -> numpy.ndarray:
-    """The point map of a functional map: for each vertex of the target the one of the source whose image is nearest.
+def point_map(
+    C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, threads: int | None = None
+) -> numpy.ndarray:
+    """The point map of a functional map: for each vertex of the target the one of the source
+    whose image is nearest.
 
     Parameters
     ----------
@@ -83,9 +101,16 @@ def point_map(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, threads:
     return _core.point_map(locals())
 
 
-def zoom_out(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, k: int | None = None, step: int = 1,
-             threads: int | None = None) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Refines a functional map by ZoomOut (Melzi et al. 2019): to a point map and back, with more modes each time.
+def zoom_out(
+    C: numpy.ndarray,
+    source: Eigenpairs,
+    target: Eigenpairs,
+    k: int | None = None,
+    step: int = 1,
+    threads: int | None = None,
+) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Refines a functional map by ZoomOut (Melzi et al. 2019): to a point map and back, with more
+    modes each time.
 
     Parameters
     ----------
@@ -111,9 +136,14 @@ def zoom_out(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, k: int | 
     most = min(len(source), len(target))
     k = most if k is None else k
     if C.shape[0] != C.shape[1]:
-        raise ValueError(f"C has the shape {C.shape}, it must be square: pass as many modes of both.")
+        raise ValueError(
+            f"C has the shape {C.shape}, it must be square: pass as many modes of both."
+        )
     if not len(C) <= k <= most:
-        raise ValueError(f"k is {k}, it must be from {len(C)}, the modes of C, to {most}, those of both eigenpairs.")
+        raise ValueError(
+            f"k is {k}, it must be from {len(C)}, the modes of C, to {most}, those of both "
+            "eigenpairs."
+        )
     if step < 1:
         raise ValueError(f"step is {step}, it must be 1 or more.")
     phi, image = source.vectors, target.M @ target.vectors
@@ -125,11 +155,16 @@ def zoom_out(C: numpy.ndarray, source: Eigenpairs, target: Eigenpairs, k: int | 
     return C, T
 
 
-def lift_functional_map(C: numpy.ndarray, source: Simplification, target: Simplification,
-                        source_eigenpairs: Eigenpairs, target_eigenpairs: Eigenpairs,
-                        tolerance: float = 0.05) -> numpy.ndarray:
-    """Lifts a functional map between two simplified meshes, found by anything, to the meshes they were made from (Lescoat et al.,
-    section 5.2).
+def lift_functional_map(
+    C: numpy.ndarray,
+    source: Simplification,
+    target: Simplification,
+    source_eigenpairs: Eigenpairs,
+    target_eigenpairs: Eigenpairs,
+    tolerance: float = 0.05,
+) -> numpy.ndarray:
+    """Lifts a functional map between two simplified meshes, found by anything, to the meshes they
+    were made from (Lescoat et al., section 5.2).
 
     Parameters
     ----------
@@ -147,23 +182,45 @@ def lift_functional_map(C: numpy.ndarray, source: Simplification, target: Simpli
     (fine modes of target, fine modes of source) array
         In run.fine_eigenpairs of both, at the scale of the meshes.
     """
-    C = _modes("C", C, _pairs("target_eigenpairs", target_eigenpairs), _pairs("source_eigenpairs", source_eigenpairs))
+    C = _modes(
+        "C",
+        C,
+        _pairs("target_eigenpairs", target_eigenpairs),
+        _pairs("source_eigenpairs", source_eigenpairs),
+    )
     down = []
-    for run, pairs, modes in (source, source_eigenpairs, C.shape[1]), (target, target_eigenpairs, C.shape[0]):
+    for run, pairs, modes in (source, source_eigenpairs, C.shape[1]), (
+        target,
+        target_eigenpairs,
+        C.shape[0],
+    ):
         if not isinstance(run, Simplification):
-            raise _core.Wrong_type("source and target must be Simplifications: pass what simplify() returns.")
+            raise _core.Wrong_type(
+                "source and target must be Simplifications: pass what simplify() returns."
+            )
         if len(pairs.vectors) != len(run.V):
-            raise ValueError(f"eigenpairs of {len(pairs.vectors)} vertices were given for a mesh of {len(run.V)}: pass "
-                             "run.coarse_eigenpairs().")
+            raise ValueError(
+                f"eigenpairs of {len(pairs.vectors)} vertices were given for a mesh of "
+                f"{len(run.V)}: pass "
+                "run.coarse_eigenpairs()."
+            )
         fine = run.fine_eigenpairs
         k = min(len(fine), modes)
         down.append(pairs.vectors[:, :modes].T @ (pairs.M @ (run._part_P() @ fine.vectors[:, :k])))
-    return _core.lift_functional_map(dict(source_restriction=down[0], coarse=C, target_restriction=down[1], tolerance=tolerance))["C"]
+    return _core.lift_functional_map(
+        dict(source_restriction=down[0], coarse=C, target_restriction=down[1], tolerance=tolerance)
+    )["C"]
 
 
-def lift_point_map(T: numpy.ndarray, source: Simplification, target: Simplification, k: int | None = None,
-                   threads: int | None = None) -> numpy.ndarray:
-    """Lifts a point map between two simplified meshes, found by anything, to the meshes they were made from: by its functional map.
+def lift_point_map(
+    T: numpy.ndarray,
+    source: Simplification,
+    target: Simplification,
+    k: int | None = None,
+    threads: int | None = None,
+) -> numpy.ndarray:
+    """Lifts a point map between two simplified meshes, found by anything, to the meshes they were
+    made from: by its functional map.
 
     Parameters
     ----------
@@ -181,7 +238,9 @@ def lift_point_map(T: numpy.ndarray, source: Simplification, target: Simplificat
     (u,) int64
         For each vertex of the target's input that was used one of the source's.
     """
-    most = min(source.report["eigenvectors"], target.report["eigenvectors"], len(source.V), len(target.V))
+    most = min(
+        source.report["eigenvectors"], target.report["eigenvectors"], len(source.V), len(target.V)
+    )
     k = most if k is None else k
     if not 1 <= k <= most:
         raise ValueError(f"k is {k}, it must be from 1 to {most}, what both runs kept.")
@@ -190,22 +249,28 @@ def lift_point_map(T: numpy.ndarray, source: Simplification, target: Simplificat
     return source.used[point_map(C, source.fine_eigenpairs, target.fine_eigenpairs, threads)]
 
 
-def align(first: Eigenpairs, second: Eigenpairs, T: numpy.ndarray | scipy.sparse.spmatrix | None = None,
-          mixing: float = 0.3) -> Alignment:
-    """Turns the eigenvectors of a mesh so that they agree with those of another: signs, and rotations within clusters.
+def align(
+    first: Eigenpairs,
+    second: Eigenpairs,
+    T: numpy.ndarray | scipy.sparse.spmatrix | None = None,
+    mixing: float = 0.3,
+) -> Alignment:
+    """Turns the eigenvectors of a mesh so that they agree with those of another: signs, and
+    rotations within clusters.
 
-    A cluster is the least set of neighbouring modes such that the modes below and above it do not mix with it, as far as the map
-    between the meshes tells.
+    A cluster is the least set of neighbouring modes such that the modes below and above it do not
+    mix with it, as far as the map between the meshes tells.
 
     Parameters
     ----------
     first, second : Eigenpairs
         Of two meshes.
     T : (vertices of first,) integers or sparse matrix, optional
-        For each vertex of the first the one of the second, or an interpolation (first x second). None: both have the same
-        connectivity.
+        For each vertex of the first the one of the second, or an interpolation (first x second).
+        None: both have the same connectivity.
     mixing : float
-        How large the part of modes may be that goes to the other side of a cut between clusters; from 0 to 1.
+        How large the part of modes may be that goes to the other side of a cut between clusters;
+        from 0 to 1.
 
     Returns
     -------
@@ -220,7 +285,9 @@ def align(first: Eigenpairs, second: Eigenpairs, T: numpy.ndarray | scipy.sparse
     phi = second.vectors[:, :k]
     if T is None:
         if n != m:
-            raise ValueError(f"first has {n} vertices and second {m}: pass T, which says where they correspond.")
+            raise ValueError(
+                f"first has {n} vertices and second {m}: pass T, which says where they correspond."
+            )
         moved = phi
     elif scipy.sparse.issparse(T):
         if T.shape != (n, m):
@@ -231,11 +298,11 @@ def align(first: Eigenpairs, second: Eigenpairs, T: numpy.ndarray | scipy.sparse
     C = first.vectors[:, :k].T @ (first.M @ moved)
     C /= numpy.maximum(numpy.linalg.norm(C, axis=0), 1e-300)
     # What goes across the cut before mode i, from below and from above.
-    squares = C ** 2
+    squares = C**2
     cuts = [0]
     for i in range(1, k):
-        across = max(squares[i:, cuts[-1]:i].sum(axis=0).max(), squares[:i, i:].sum(axis=0).max())
-        if across <= mixing ** 2:
+        across = max(squares[i:, cuts[-1] : i].sum(axis=0).max(), squares[:i, i:].sum(axis=0).max())
+        if across <= mixing**2:
             cuts.append(i)
     cuts.append(k)
     clusters = [(int(a), int(b)) for a, b in zip(cuts[:-1], cuts[1:])]

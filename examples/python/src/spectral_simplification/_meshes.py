@@ -55,7 +55,8 @@ class Diagnosis(_Result):
     usable : bool
         Whether simplify() takes the mesh as it is.
     obstacles : list of str
-        One clause for each kind of fault: how many, where first, what helps. The most elementary comes first.
+        One clause for each kind of fault: how many, where first, what helps. The most elementary
+        comes first.
     remarks : list of str
         What is unusual, but handled.
     components : list of (vertices, faces, closed, first vertex)
@@ -68,12 +69,15 @@ class Diagnosis(_Result):
     components: list
 
     def __repr__(self) -> str:
-        return f"<Diagnosis: {'usable' if self.usable else '; '.join(self.obstacles) or 'no faces'}>"
+        return (
+            f"<Diagnosis: {'usable' if self.usable else '; '.join(self.obstacles) or 'no faces'}>"
+        )
 
 
 def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
-    """Makes a mesh usable as the programs do by themselves: turns faces round, leaves out isolated vertices and copies of faces,
-    closes edges without length. The surface stays as it is.
+    """Makes a mesh usable as the programs do by themselves: turns faces round, leaves out
+    isolated vertices and copies of faces, closes edges without length. The surface stays as it
+    is.
 
     Parameters
     ----------
@@ -82,7 +86,8 @@ def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
     F : (f, 3) array
         Triangles.
     repair : bool
-        Does what --repair does as well: merges vertices of equal position, closes cracks, separates sheets, removes faces.
+        Does what --repair does as well: merges vertices of equal position, closes cracks,
+        separates sheets, removes faces.
 
     Returns
     -------
@@ -115,17 +120,33 @@ def diagnose(V: numpy.ndarray, F: numpy.ndarray) -> Diagnosis:
     return Diagnosis._from_state(_core.diagnose(locals()))
 
 
-def used_part(V: numpy.ndarray, F: numpy.ndarray, mask: Any) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None:
-    """The vertices that faces use, within the mask, and these faces numbered by all vertices and by those; None where these are all, or
-    V and F are no mesh, which is for others to say."""
-    if V.ndim != 2 or F.ndim != 2 or F.shape[1] != 3 or F.dtype.kind not in "iu" or F.size == 0 or F.min() < 0 or F.max() >= len(V):
+def used_part(
+    V: numpy.ndarray, F: numpy.ndarray, mask: Any
+) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None:
+    """The vertices that faces use, within the mask, and these faces numbered by all vertices and
+    by those; None where these are all, or V and F are no mesh, which is for others to say."""
+    if (
+        V.ndim != 2
+        or F.ndim != 2
+        or F.shape[1] != 3
+        or F.dtype.kind not in "iu"
+        or F.size == 0
+        or F.min() < 0
+        or F.max() >= len(V)
+    ):
         return None
     if mask is not None:
         mask = numpy.asarray(mask)
         if mask.dtype.kind != "b":
-            raise ValueError(f"mask has the dtype {mask.dtype}, it must hold booleans, True for vertices that stay: pass mask != 0.")
+            raise ValueError(
+                f"mask has the dtype {mask.dtype}, it must hold booleans, True for vertices "
+                "that stay: pass mask != 0."
+            )
         if mask.shape != (len(V),):
-            raise ValueError(f"mask has the shape {mask.shape}, it must be ({len(V)},), one for each vertex of V.")
+            raise ValueError(
+                f"mask has the shape {mask.shape}, it must be ({len(V)},), one for each vertex "
+                "of V."
+            )
         F = F[mask[F].all(axis=1)]
         if len(F) == 0:
             raise ValueError("mask leaves no face: a face stays where all of its corners do.")
@@ -136,10 +157,20 @@ def used_part(V: numpy.ndarray, F: numpy.ndarray, mask: Any) -> tuple[numpy.ndar
     return numpy.flatnonzero(is_used), F, (numpy.cumsum(is_used) - 1)[F]
 
 
-# Files. The compiled module reads what the programs read; nibabel, meshio and a few lines here the rest.
+# Files. The compiled module reads what the programs read; nibabel, meshio and a few lines here
+# the rest.
 
 _OWN = ".off", ".obj", ".ply", ".stl"
-_FREESURFER = ".pial", ".white", ".inflated", ".sphere", ".orig", ".smoothwm", ".reg", ".midthickness"
+_FREESURFER = (
+    ".pial",
+    ".white",
+    ".inflated",
+    ".sphere",
+    ".orig",
+    ".smoothwm",
+    ".reg",
+    ".midthickness",
+)
 _MESHIO = ".vtu", ".msh", ".xdmf", ".mesh", ".inp", ".vtk"
 
 
@@ -147,8 +178,11 @@ def _needed(package: str, path: Any):
     try:
         return __import__(package)
     except ImportError:
-        raise ValueError(f"{path} needs the package {package}, which is not installed: pip install {package}, or on Debian "
-                         f"apt-get install python3-{package}.") from None
+        raise ValueError(
+            f"{path} needs the package {package}, which is not installed: pip install "
+            f"{package}, or on Debian "
+            f"apt-get install python3-{package}."
+        ) from None
 
 
 def _mesh(V: Any, F: Any, path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -158,14 +192,16 @@ def _mesh(V: Any, F: Any, path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
     return numpy.ascontiguousarray(V), numpy.ascontiguousarray(F, numpy.int64)
 
 
-def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
+def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.ndarray]:
     """Reads the triangles of a file as they are; see clean() for faults.
 
     Parameters
     ----------
     path : str or path
-        .off, .obj, .ply, .stl; .vtk and .vtp of polygons; .gii and surfaces of FreeSurfer, such as lh.pial, through nibabel; what
-        meshio reads through meshio.
+        .off, .obj, .ply, .stl; .vtk and .vtp of polygons; .gii and surfaces of FreeSurfer, such
+        as lh.pial, through nibabel; what meshio reads through meshio.
+    repair : bool
+        Of .off, .obj, .ply and .stl: triangulates polygons, and does what --repair does.
 
     Returns
     -------
@@ -185,9 +221,15 @@ def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist.")
     ending = path.suffix.lower()
+    if not isinstance(repair, bool):
+        raise _core.Wrong_type(f"repair is {repair!r}, it must be True or False.")
+    if repair and ending not in _OWN:
+        raise ValueError(
+            f"repair is for {', '.join(_OWN)}: read {path} without, and pass the arrays to clean()."
+        )
     try:
         if ending in _OWN:
-            return _mesh(*_core.read_mesh(str(path)), path)
+            return _mesh(*_core.read_mesh(str(path), repair), path)
         if ending == ".gii":
             arrays = _needed("nibabel", path).load(str(path))
             sets = [arrays.agg_data(intent) for intent in ("pointset", "triangle")]
@@ -197,6 +239,7 @@ def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
         if ending in _FREESURFER:
             _needed("nibabel", path)
             from nibabel.freesurfer import read_geometry
+
             return _mesh(*read_geometry(str(path))[:2], path)
         if ending == ".vtp":
             return _mesh(*_read_vtp(path), path)
@@ -207,7 +250,9 @@ def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
             return _mesh(mesh.points, mesh.cells_dict.get("triangle", ()), path)
     except ValueError as error:
         said = str(error)
-        raise ValueError(said if str(path) in said else f"{path} cannot be read: {said.rstrip('.')}.") from None
+        raise ValueError(
+            said if str(path) in said else f"{path} cannot be read: {said.rstrip('.')}."
+        ) from None
     except (SystemExit, Exception) as error:
         if isinstance(error, (KeyboardInterrupt, MemoryError)):
             raise
@@ -216,8 +261,11 @@ def read_mesh(path: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
 
 
 def _unknown(path: pathlib.Path) -> str:
-    return (f"{path} ends in {path.suffix!r}, which is not known: use {', '.join(_OWN)}, .vtk, .vtp, .gii, a surface of FreeSurfer "
-            f"such as {_FREESURFER[0]}, or {', '.join(_MESHIO[:4])}.")
+    return (
+        f"{path} ends in {path.suffix!r}, which is not known: use {', '.join(_OWN)}, .vtk, "
+        ".vtp, .gii, a surface of FreeSurfer "
+        f"such as {_FREESURFER[0]}, or {', '.join(_MESHIO[:4])}."
+    )
 
 
 def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
@@ -255,21 +303,35 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
     try:
         if ending == ".gii":
             import nibabel
+
             image = nibabel.gifti.GiftiImage()
-            for data, intent, kind in (V.astype(numpy.float32), "NIFTI_INTENT_POINTSET", "NIFTI_TYPE_FLOAT32"), \
-                    (F.astype(numpy.int32), "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32"):
-                image.add_gifti_data_array(nibabel.gifti.GiftiDataArray(data, intent=intent, datatype=kind))
+            for data, intent, kind in (
+                V.astype(numpy.float32),
+                "NIFTI_INTENT_POINTSET",
+                "NIFTI_TYPE_FLOAT32",
+            ), (F.astype(numpy.int32), "NIFTI_INTENT_TRIANGLE", "NIFTI_TYPE_INT32"):
+                image.add_gifti_data_array(
+                    nibabel.gifti.GiftiDataArray(data, intent=intent, datatype=kind)
+                )
             nibabel.save(image, temporary)
         elif ending in _FREESURFER:
             from nibabel.freesurfer import write_geometry
+
             write_geometry(temporary, V, F)
         elif ending in _MESHIO and ending != ".vtk":
             import meshio
+
             meshio.Mesh(V, [("triangle", F)]).write(temporary)
         else:
             with open(temporary, "w") as file:
-                {".off": _write_off, ".obj": _write_obj, ".ply": _write_ply, ".stl": _write_stl, ".vtk": _write_vtk,
-                 ".vtp": _write_vtp}[ending](file, V, F)
+                {
+                    ".off": _write_off,
+                    ".obj": _write_obj,
+                    ".ply": _write_ply,
+                    ".stl": _write_stl,
+                    ".vtk": _write_vtk,
+                    ".vtp": _write_vtp,
+                }[ending](file, V, F)
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(temporary, 0o666 & ~mask)
@@ -296,8 +358,11 @@ def _write_obj(file, V, F):
 
 
 def _write_ply(file, V, F):
-    file.write(f"ply\nformat ascii 1.0\nelement vertex {len(V)}\nproperty double x\nproperty double y\nproperty double z\n"
-               f"element face {len(F)}\nproperty list uchar int vertex_indices\nend_header\n")
+    file.write(
+        f"ply\nformat ascii 1.0\nelement vertex {len(V)}\nproperty double x\nproperty double "
+        "y\nproperty double z\n"
+        f"element face {len(F)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
     _rows(file, V)
     _rows(file, F, "3 ")
 
@@ -305,13 +370,18 @@ def _write_ply(file, V, F):
 def _write_stl(file, V, F):
     file.write("solid mesh\n")
     for a, b, c in V[F]:
-        file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.9g %.9g %.9g\n" % tuple(p) for p in (a, b, c)) +
-                   "endloop\nendfacet\n")
+        file.write(
+            "facet normal 0 0 0\nouter loop\n"
+            + "".join("vertex %.9g %.9g %.9g\n" % tuple(p) for p in (a, b, c))
+            + "endloop\nendfacet\n"
+        )
     file.write("endsolid mesh\n")
 
 
 def _write_vtk(file, V, F):
-    file.write(f"# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET POLYDATA\nPOINTS {len(V)} double\n")
+    file.write(
+        f"# vtk DataFile Version 3.0\nmesh\nASCII\nDATASET POLYDATA\nPOINTS {len(V)} double\n"
+    )
     _rows(file, V)
     file.write(f"POLYGONS {len(F)} {4 * len(F)}\n")
     _rows(file, F, "3 ")
@@ -323,8 +393,11 @@ def _write_vtp(file, V, F):
         _rows(file, values)
         file.write("</DataArray>\n")
 
-    file.write('<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian">\n<PolyData>\n'
-               f'<Piece NumberOfPoints="{len(V)}" NumberOfPolys="{len(F)}">\n<Points>\n')
+    file.write(
+        '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" '
+        'byte_order="LittleEndian">\n<PolyData>\n'
+        f'<Piece NumberOfPoints="{len(V)}" NumberOfPolys="{len(F)}">\n<Points>\n'
+    )
     array("Float64", "Points", V, 'NumberOfComponents="3" ')
     file.write("</Points>\n<Polys>\n")
     array("Int64", "connectivity", F)
@@ -334,7 +407,9 @@ def _write_vtp(file, V, F):
 
 def _triangles(counts: numpy.ndarray, corners: numpy.ndarray) -> numpy.ndarray:
     if not (counts == 3).all():
-        raise ValueError(f"polygon {int((counts != 3).argmax())} is no triangle: triangulate it first")
+        raise ValueError(
+            f"polygon {int((counts != 3).argmax())} is no triangle: triangulate it first"
+        )
     return corners.reshape(-1, 3)
 
 
@@ -358,7 +433,9 @@ def _read_vtk(path: pathlib.Path):
         if binary:
             values = numpy.frombuffer(data, kind, count, end + 1)
         else:
-            values = numpy.array(data[end:].split(None, count)[:count], float if width else numpy.int64)
+            values = numpy.array(
+                data[end:].split(None, count)[:count], float if width else numpy.int64
+            )
         if len(values) != count:
             raise ValueError("it ends too early")
         found[word] = values.astype(float if width else numpy.int64)
@@ -381,8 +458,11 @@ def _read_vtp(path: pathlib.Path):
         for element in piece.findall(f"./{where}/DataArray"):
             if name is None or element.get("Name") == name:
                 kind = element.get("type", "")
-                dtype = numpy.dtype(order + {"Float": "f", "Int": "i", "UInt": "u"}[kind.rstrip("0123456789")] +
-                                    str(int(kind.lstrip("FloatUIn")) // 8))
+                dtype = numpy.dtype(
+                    order
+                    + {"Float": "f", "Int": "i", "UInt": "u"}[kind.rstrip("0123456789")]
+                    + str(int(kind.lstrip("FloatUIn")) // 8)
+                )
                 text = (element.text or "").strip()
                 if element.get("format") == "ascii":
                     return numpy.array(text.split(), dtype)
@@ -392,7 +472,9 @@ def _read_vtp(path: pathlib.Path):
         raise ValueError(f"it has no {name or where}")
 
     counts = numpy.diff(values("Polys", "offsets").astype(numpy.int64), prepend=0)
-    return values("Points", None).reshape(-1, 3), _triangles(counts, values("Polys", "connectivity"))
+    return values("Points", None).reshape(-1, 3), _triangles(
+        counts, values("Polys", "connectivity")
+    )
 
 
 def _decoded(text: str, header: numpy.dtype, compressor: str | None) -> bytes:
@@ -405,11 +487,11 @@ def _decoded(text: str, header: numpy.dtype, compressor: str | None) -> bytes:
     def length(n):  # of n bytes in base64
         return 4 * ((n + 2) // 3)
 
-    blocks = int(numpy.frombuffer(base64.b64decode(text[:length(size)])[:size], header)[0])
+    blocks = int(numpy.frombuffer(base64.b64decode(text[: length(size)])[:size], header)[0])
     first = length((3 + blocks) * size)
     sizes = numpy.frombuffer(base64.b64decode(text[:first]), header)[3:]
     data, result, at = base64.b64decode(text[first:]), b"", 0
     for n in sizes:
-        result += zlib.decompress(data[at:at + int(n)])
+        result += zlib.decompress(data[at : at + int(n)])
         at += int(n)
     return result

@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# What the functions return. Everything is an array, a sparse matrix or a plain value, so that results can be copied, pickled and stored.
+# What the functions return. Everything is an array, a sparse matrix or a plain value, so that
+# results can be copied, pickled and stored.
 
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ _KINDS: dict[str, type] = {}  # of results, by name
 
 
 class _Result:
-    """What can be copied, pickled and stored: _state() says what a result is made of, _from_state() makes it again."""
+    """What can be copied, pickled and stored: _state() says what a result is made of,
+    _from_state() makes it again."""
 
     def __init_subclass__(cls) -> None:
         _KINDS[cls.__name__] = cls
@@ -57,9 +59,15 @@ def _packed(value: Any, name: str, arrays: dict[str, numpy.ndarray]) -> Any:
     if isinstance(value, _Result):
         return {"is": type(value).__name__, "of": _packed(value._state(), name, arrays)}
     if isinstance(value, dict):
-        return {"is": "dict", "of": {key: _packed(v, f"{name}.{key}", arrays) for key, v in value.items()}}
+        return {
+            "is": "dict",
+            "of": {key: _packed(v, f"{name}.{key}", arrays) for key, v in value.items()},
+        }
     if isinstance(value, (list, tuple)):
-        return {"is": type(value).__name__, "of": [_packed(v, f"{name}.{i}", arrays) for i, v in enumerate(value)]}
+        return {
+            "is": type(value).__name__,
+            "of": [_packed(v, f"{name}.{i}", arrays) for i, v in enumerate(value)],
+        }
     if scipy.sparse.issparse(value):
         m = value.tocsr()
         for part in "data", "indices", "indptr":
@@ -78,7 +86,9 @@ def _unpacked(value: Any, arrays: Any) -> Any:
         return value
     kind, of = value["is"], value.get("of")
     if kind == "csr":
-        data, indices, indptr = (arrays[f"{value['in']}.{part}"] for part in ("data", "indices", "indptr"))
+        data, indices, indptr = (
+            arrays[f"{value['in']}.{part}"] for part in ("data", "indices", "indptr")
+        )
         return scipy.sparse.csr_matrix((data, indices, indptr), tuple(of))
     if kind == "array":
         return arrays[value["in"]]
@@ -118,7 +128,10 @@ def load(path: Any) -> Any:
                 raise ValueError
             return _unpacked(json.loads(str(arrays["spectral_simplification"])), arrays)
     except (ValueError, KeyError, zipfile.BadZipFile, EOFError, AttributeError, TypeError):
-        raise ValueError(f"{path} holds no result of spectral_simplification: give a file that save() has written.") from None
+        raise ValueError(
+            f"{path} holds no result of spectral_simplification: give a file that save() has "
+            "written."
+        ) from None
 
 
 def _frozen(array: numpy.ndarray) -> numpy.ndarray:
@@ -127,7 +140,8 @@ def _frozen(array: numpy.ndarray) -> numpy.ndarray:
 
 
 class Eigenpairs(_Result):
-    """Eigenpairs of a mesh, at its scale, or of any pencil. Arrays are views and cannot be written."""
+    """Eigenpairs of a mesh, at its scale, or of any pencil. Arrays are views and cannot be
+    written."""
 
     def __init__(self, _core_pairs: Any):
         self._core = _core_pairs
@@ -160,12 +174,14 @@ class Eigenpairs(_Result):
 
     @property
     def M(self) -> scipy.sparse.csr_matrix:
-        """(v, v) mass, in units of area; a copy each time. M.diagonal() is all of a lumped one, as networks take it."""
+        """(v, v) mass, in units of area; a copy each time. M.diagonal() is all of a lumped one,
+        as networks take it."""
         return self._matrix("M")
 
     @property
     def mass(self) -> str:
-        """'lumped', 'averaged', 'consistent' or 'voronoi'; 'diagonal' or 'edges' where fitted; 'given' without a mesh."""
+        """'lumped', 'averaged', 'consistent' or 'voronoi'; 'diagonal' or 'edges' where fitted;
+        'given' without a mesh."""
         return self._core.mass
 
     @property
@@ -184,9 +200,16 @@ class Eigenpairs(_Result):
         return self._core.solver
 
     @classmethod
-    def from_arrays(cls, values: numpy.ndarray, vectors: numpy.ndarray, L: scipy.sparse.spmatrix, M: scipy.sparse.spmatrix,
-                    mass: str | None = None) -> Eigenpairs:
-        """Eigenpairs that another solver found, of LaPy or SciPy for instance, for `simplify()` and others.
+    def from_arrays(
+        cls,
+        values: numpy.ndarray,
+        vectors: numpy.ndarray,
+        L: scipy.sparse.spmatrix,
+        M: scipy.sparse.spmatrix,
+        mass: str | None = None,
+    ) -> Eigenpairs:
+        """Eigenpairs that another solver found, of LaPy or SciPy for instance, for `simplify()`
+        and others.
 
         Parameters
         ----------
@@ -197,7 +220,8 @@ class Eigenpairs(_Result):
         L, M : (v, v) sparse matrices
             Stiffness, positive semidefinite, and mass.
         mass : str, optional
-            'lumped', 'averaged', 'consistent' or 'voronoi'. None: what the diagonal of M says, 'lumped' for a diagonal one.
+            'lumped', 'averaged', 'consistent' or 'voronoi'. None: what the diagonal of M says,
+            'lumped' for a diagonal one.
 
         Raises
         ------
@@ -205,49 +229,120 @@ class Eigenpairs(_Result):
             If these are not the first eigenpairs of L and M, as far as that can be seen.
         """
         if mass not in (None, "lumped", "averaged", "consistent", "voronoi", "given"):
-            raise ValueError(f"mass is {mass!r}, it must be None, 'lumped', 'averaged', 'consistent' or 'voronoi'.")
+            raise ValueError(
+                f"mass is {mass!r}, it must be None, 'lumped', 'averaged', 'consistent' or "
+                "'voronoi'."
+            )
         w, U = numpy.asarray(values, float), numpy.asarray(vectors, float)
         for name, matrix in ("L", L), ("M", M):
             if not scipy.sparse.issparse(matrix):
-                raise _core.Wrong_type(f"{name} is of the type {type(matrix).__name__}, it must be a sparse matrix: pass "
-                                f"scipy.sparse.csr_matrix({name}).")
+                raise _core.Wrong_type(
+                    f"{name} is of the type {type(matrix).__name__}, it must be a sparse "
+                    "matrix: pass "
+                    f"scipy.sparse.csr_matrix({name})."
+                )
         if w.ndim != 1 or U.ndim != 2 or U.shape[1] != len(w) or len(w) == 0:
-            raise ValueError(f"values and vectors have the shapes {w.shape} and {U.shape}, they must be (k,) and (v, k).")
+            raise ValueError(
+                f"values and vectors have the shapes {w.shape} and {U.shape}, they must be "
+                "(k,) and (v, k)."
+            )
         for name, matrix in ("L", L), ("M", M):
             if matrix.shape != (len(U), len(U)):
-                raise ValueError(f"{name} has the shape {matrix.shape}, it must be ({len(U)}, {len(U)}), as vectors has rows.")
+                raise ValueError(
+                    f"{name} has the shape {matrix.shape}, it must be ({len(U)}, {len(U)}), as "
+                    "vectors has rows."
+                )
         if not (numpy.isfinite(w).all() and numpy.isfinite(U).all()):
             raise ValueError("values or vectors hold a number that is not finite.")
         if (numpy.diff(w) < -1e-8 * abs(w).max()).any():
-            raise ValueError(f"values are not ascending at {int(numpy.argmax(numpy.diff(w) < 0)) + 1}: sort them, and the columns "
-                             "of vectors alike.")
+            raise ValueError(
+                f"values are not ascending at {int(numpy.argmax(numpy.diff(w) < 0)) + 1}: sort "
+                "them, and the columns "
+                "of vectors alike."
+            )
         MU = M @ U
         off = abs(U.T @ MU - numpy.eye(len(w))).max()
         if off > 1e-5:
-            raise ValueError(f"vectors are not orthonormal in M, by {off:.1e}: scale them so that vectors^T M vectors = 1.")
+            raise ValueError(
+                f"vectors are not orthonormal in M, by {off:.1e}: scale them so that vectors^T "
+                "M vectors = 1."
+            )
         row_masses = numpy.asarray(M.sum(axis=1)).ravel()
         if not (row_masses > 0).all():
-            raise ValueError(f"the sum of row {int(numpy.argmin(row_masses))} of M is not positive: pass a mass matrix.")
+            raise ValueError(
+                f"the sum of row {int(numpy.argmin(row_masses))} of M is not positive: pass a "
+                "mass matrix."
+            )
         difference = L @ U - MU * w
         unit = 4 * numpy.pi / row_masses.sum()
-        residuals = numpy.sqrt((difference ** 2 / row_masses[:, None]).sum(axis=0)) / (abs(w) + unit)
+        residuals = numpy.sqrt((difference**2 / row_masses[:, None]).sum(axis=0)) / (
+            abs(w) + unit
+        )
         if residuals.max() > 1e-3:
             worst = int(residuals.argmax())
-            raise ValueError(f"values[{worst}] and vectors[:, {worst}] are no eigenpair of L and M, the residual is "
-                             f"{residuals[worst]:.1e}: check that L is positive semidefinite, and that all belong together.")
+            raise ValueError(
+                f"values[{worst}] and vectors[:, {worst}] are no eigenpair of L and M, the "
+                "residual is "
+                f"{residuals[worst]:.1e}: check that L is positive semidefinite, and that all "
+                "belong together."
+            )
         share = numpy.median(1 - M.diagonal() / row_masses)
-        theta = 0.0 if abs(share) < 1e-6 else 1.0 if abs(share - 0.5) < 1e-6 else 0.5 if abs(share - 0.25) < 1e-6 else None
+        theta = (
+            0.0
+            if abs(share) < 1e-6
+            else 1.0
+            if abs(share - 0.5) < 1e-6
+            else 0.5
+            if abs(share - 0.25) < 1e-6
+            else None
+        )
         if mass is None:
-            mass = {0.0: "lumped", 0.5: "averaged", 1.0: "consistent"}.get(theta, "given") if theta is not None else "given"
-        elif mass != "given" and theta != {"lumped": 0.0, "voronoi": 0.0, "averaged": 0.5, "consistent": 1.0}[mass]:
+            mass = (
+                {0.0: "lumped", 0.5: "averaged", 1.0: "consistent"}.get(theta, "given")
+                if theta is not None
+                else "given"
+            )
+        elif (
+            mass != "given"
+            and theta != {"lumped": 0.0, "voronoi": 0.0, "averaged": 0.5, "consistent": 1.0}[mass]
+        ):
             raise ValueError(f"mass is {mass!r}, but M is another one: leave it out.")
-        return cls._from_state(dict(values=numpy.maximum(w, 0), vectors=U, residuals=residuals, L=L, M=M, row_masses=row_masses,
-                                    theta=theta or 0.0, mass=mass, boundary="neumann", vanishing=0, has_coefficients=False,
-                                    zeros=None, complete=False, solver="given"))
+        return cls._from_state(
+            dict(
+                values=numpy.maximum(w, 0),
+                vectors=U,
+                residuals=residuals,
+                L=L,
+                M=M,
+                row_masses=row_masses,
+                theta=theta or 0.0,
+                mass=mass,
+                boundary="neumann",
+                vanishing=0,
+                has_coefficients=False,
+                zeros=None,
+                complete=False,
+                solver="given",
+            )
+        )
 
     def _state(self) -> dict[str, Any]:
-        names = ("values", "vectors", "residuals", "L", "M", "row_masses", "theta", "mass", "boundary", "vanishing",
-                 "has_coefficients", "zeros", "complete", "solver")
+        names = (
+            "values",
+            "vectors",
+            "residuals",
+            "L",
+            "M",
+            "row_masses",
+            "theta",
+            "mass",
+            "boundary",
+            "vanishing",
+            "has_coefficients",
+            "zeros",
+            "complete",
+            "solver",
+        )
         return {name: getattr(self._core, name) for name in names}
 
     @classmethod
@@ -323,8 +418,8 @@ class Level(_Result):
     F : (m, 3) int32
         Triangles.
     P : (n, v) csr_matrix
-        Carries functions of the input to this mesh: P @ f. Rows sum to 1; columns of vertices that no face uses, or that a mask
-        leaves out, are empty.
+        Carries functions of the input to this mesh: P @ f. Rows sum to 1; columns of vertices
+        that no face uses, or that a mask leaves out, are empty.
     vertex_map : (v,) int64
         The vertex of this mesh that each of the input went to; -1 where it was left out.
     fine_V : (v, 3) float64
@@ -343,24 +438,52 @@ class Level(_Result):
     _used: numpy.ndarray | None  # vertices of the input that have faces; None: all
 
     @classmethod
-    def _of(cls, core: dict[str, Any], fine_V: numpy.ndarray, fine_F: numpy.ndarray, used: numpy.ndarray | None, **more: Any):
+    def _of(
+        cls,
+        core: dict[str, Any],
+        fine_V: numpy.ndarray,
+        fine_F: numpy.ndarray,
+        used: numpy.ndarray | None,
+        **more: Any,
+    ):
         """From what the compiled module says of the part of the input that was used."""
         if used is not None:
             n = len(fine_V)
             P = core["P"].tocoo()
-            core = {**core, "P": scipy.sparse.csr_matrix((P.data, (P.row, used[P.col])), (P.shape[0], n))}
+            core = {
+                **core,
+                "P": scipy.sparse.csr_matrix((P.data, (P.row, used[P.col])), (P.shape[0], n)),
+            }
             vertex_map = numpy.full(n, -1, numpy.int64)
             vertex_map[used] = core["vertex_map"]
             core["vertex_map"] = vertex_map
-        return cls._from_state(dict(V=core["V"], F=core["F"], P=core["P"], vertex_map=core["vertex_map"], fine_V=fine_V,
-                                    fine_F=fine_F, _used=used, _Q=None, **more))
+        return cls._from_state(
+            dict(
+                V=core["V"],
+                F=core["F"],
+                P=core["P"],
+                vertex_map=core["vertex_map"],
+                fine_V=fine_V,
+                fine_F=fine_F,
+                _used=used,
+                _Q=None,
+                **more,
+            )
+        )
 
     def _renumbered(self, V: numpy.ndarray, place: numpy.ndarray, origin: numpy.ndarray):
         """The result numbered as the mesh that was cleaned: `place` and `origin` of clean()."""
         P = self.P.tocoo()
         vertex_map = numpy.where(place >= 0, self.vertex_map[place], -1)
-        state = dict(self._state(), P=scipy.sparse.csr_matrix((P.data, (P.row, origin[P.col])), (P.shape[0], len(V))), fine_V=V,
-                     fine_F=origin[self.fine_F], vertex_map=vertex_map, _used=origin[self.used], _Q=None)
+        state = dict(
+            self._state(),
+            P=scipy.sparse.csr_matrix((P.data, (P.row, origin[P.col])), (P.shape[0], len(V))),
+            fine_V=V,
+            fine_F=origin[self.fine_F],
+            vertex_map=vertex_map,
+            _used=origin[self.used],
+            _Q=None,
+        )
         return self._from_state(state)
 
     def _part(self) -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -376,48 +499,68 @@ class Level(_Result):
 
     @property
     def used(self) -> numpy.ndarray:
-        """(u,) int64, the vertices of the input that have faces; eigenpairs have a row for each of them."""
+        """(u,) int64, the vertices of the input that have faces; eigenpairs have a row for each
+        of them."""
         return numpy.arange(len(self.fine_V)) if self._used is None else self._used
 
     @property
     def Q(self) -> scipy.sparse.csr_matrix:
-        """(v, n) csr_matrix, carries functions back: barycentric coordinates of the closest points; rows of vertices that were
-        left out are empty. Computed when it is first asked for."""
+        """(v, n) csr_matrix, carries functions back: barycentric coordinates of the closest
+        points; rows of vertices that were left out are empty. Computed when it is first asked
+        for."""
         if self._Q is None:
             Q = _core.prolongation(dict(V=self.fine_V[self.used], Vc=self.V, Fc=self.F))
             if self._used is not None:
                 Q = Q.tocoo()
-                Q = scipy.sparse.csr_matrix((Q.data, (self._used[Q.row], Q.col)), (len(self.fine_V), len(self.V)))
+                Q = scipy.sparse.csr_matrix(
+                    (Q.data, (self._used[Q.row], Q.col)), (len(self.fine_V), len(self.V))
+                )
             self._Q = Q
         return self._Q
 
     @property
     def A(self) -> scipy.sparse.csr_matrix:
-        """(n, v) csr_matrix, means weighted by area: every used vertex of the input counts, rows sum to 1. What average() uses.
-        A vertex that no other is near to has its row of P."""
+        """(n, v) csr_matrix, means weighted by area: every used vertex of the input counts, rows
+        sum to 1. What average() uses. A vertex that no other is near to has its row of P."""
         weights = self.Q.T @ scipy.sparse.diags(_vertex_areas(self.fine_V, self.fine_F))
         total = numpy.asarray(weights.sum(axis=1)).ravel()
         lonely = total <= 1e-12 * total.sum()
-        result = scipy.sparse.diags(numpy.where(lonely, 0, 1 / numpy.where(lonely, 1, total))) @ weights
-        return (result + scipy.sparse.diags(lonely.astype(float)) @ self.P if lonely.any() else result).tocsr()
+        result = (
+            scipy.sparse.diags(numpy.where(lonely, 0, 1 / numpy.where(lonely, 1, total))) @ weights
+        )
+        return (
+            result + scipy.sparse.diags(lonely.astype(float)) @ self.P if lonely.any() else result
+        ).tocsr()
 
-    def _carried(self, W: scipy.sparse.csr_matrix, values: numpy.ndarray, unit: bool, nan: str) -> numpy.ndarray:
+    def _carried(
+        self, W: scipy.sparse.csr_matrix, values: numpy.ndarray, unit: bool, nan: str
+    ) -> numpy.ndarray:
         values = numpy.asarray(values)
         v = W.shape[1]
         if values.ndim == 0 or len(values) != v:
-            raise ValueError(f"values has the shape {values.shape}, it must be ({v},) or ({v}, c), a row for each vertex of V.")
+            raise ValueError(
+                f"values has the shape {values.shape}, it must be ({v},) or ({v}, c), a row "
+                "for each vertex of V."
+            )
         if values.dtype.kind not in "fiu":
-            raise _core.Wrong_type(f"values has the dtype {values.dtype}, it must hold real numbers; transfer_labels() carries others.")
+            raise _core.Wrong_type(
+                f"values has the dtype {values.dtype}, it must hold real numbers; "
+                "transfer_labels() carries others."
+            )
         if nan not in ("propagate", "omit"):
             raise ValueError(f"nan is {nan!r}, it must be 'propagate' or 'omit'.")
         if unit and values.ndim != 2:
-            raise ValueError(f"values has the shape {values.shape}, for unit=True it must be ({v}, c).")
+            raise ValueError(
+                f"values has the shape {values.shape}, for unit=True it must be ({v}, c)."
+            )
         flat = values.reshape(v, -1).astype(float)
         missing = numpy.isnan(flat)
         if nan == "omit" and missing.any():
             weight = W @ (~missing).astype(float)
             with numpy.errstate(divide="ignore", invalid="ignore"):
-                result = numpy.where(weight > 1e-12, (W @ numpy.where(missing, 0, flat)) / weight, numpy.nan)
+                result = numpy.where(
+                    weight > 1e-12, (W @ numpy.where(missing, 0, flat)) / weight, numpy.nan
+                )
         else:
             result = W @ flat
         result = result.reshape((len(result),) + values.shape[1:])
@@ -429,8 +572,11 @@ class Level(_Result):
         limits = numpy.iinfo(values.dtype)
         return numpy.clip(numpy.rint(result), limits.min, limits.max).astype(values.dtype)
 
-    def interpolate(self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate") -> numpy.ndarray:
-        """Carries what the vertices of V have to this mesh, as P @ values: values at points, such as positions or colours.
+    def interpolate(
+        self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate"
+    ) -> numpy.ndarray:
+        """Carries what the vertices of V have to this mesh, as P @ values: values at points, such
+        as positions or colours.
 
         Parameters
         ----------
@@ -447,9 +593,12 @@ class Level(_Result):
         """
         return self._carried(self.P, values, unit, nan)
 
-    def average(self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate") -> numpy.ndarray:
-        """Carries what the vertices of V have to this mesh as means over the area around each vertex: measurements with noise,
-        thickness or activity. Every vertex of V counts, while P leaves most without weight.
+    def average(
+        self, values: numpy.ndarray, unit: bool = False, nan: str = "propagate"
+    ) -> numpy.ndarray:
+        """Carries what the vertices of V have to this mesh as means over the area around each
+        vertex: measurements with noise, thickness or activity. Every vertex of V counts, while P
+        leaves most without weight.
 
         Parameters and result as of interpolate().
         """
@@ -463,8 +612,8 @@ class Level(_Result):
         labels : (v,) array
             Integers, booleans or strings, of NumPy or pandas; a pandas categorical gives one.
         by : str
-            'restriction': of those in a row of P the one of most weight, the smallest of several; 'area': the one with most area
-            around the vertex, as average() weights it.
+            'restriction': of those in a row of P the one of most weight, the smallest of several;
+            'area': the one with most area around the vertex, as average() weights it.
 
         Returns
         -------
@@ -479,23 +628,34 @@ class Level(_Result):
             self._check_labels(codes, v, codes < 0)
             carried = self._voted(codes, by)
             import pandas
+
             return pandas.Categorical.from_codes(carried, dtype=kind)
         labels = numpy.asarray(labels)
         missing = numpy.zeros(labels.size, bool)
-        if labels.dtype.kind == "O":  # None, NaN and pandas' NA are not equal to themselves, or not strings
-            missing = numpy.array([x is None or type(x).__name__ in ("NAType", "float") for x in labels.ravel()], bool)
+        # None, NaN and pandas' NA are not equal to themselves, or not strings
+        if labels.dtype.kind == "O":
+            missing = numpy.array(
+                [x is None or type(x).__name__ in ("NAType", "float") for x in labels.ravel()], bool
+            )
         self._check_labels(labels, v, missing)
         if labels.dtype.kind == "O" and not all(isinstance(x, str) for x in labels):
-            raise _core.Wrong_type("labels holds objects that are not strings: pass integers, strings or categories.")
+            raise _core.Wrong_type(
+                "labels holds objects that are not strings: pass integers, strings or categories."
+            )
         if labels.dtype.kind not in "biuSUO":
-            raise _core.Wrong_type(f"labels has the dtype {labels.dtype}, it must hold integers or strings; interpolate() carries real "
-                            "numbers.")
+            raise _core.Wrong_type(
+                f"labels has the dtype {labels.dtype}, it must hold integers or strings; "
+                "interpolate() carries real "
+                "numbers."
+            )
         return self._voted(labels, by)
 
     @staticmethod
     def _check_labels(labels: numpy.ndarray, v: int, missing: numpy.ndarray) -> None:
         if labels.shape != (v,):
-            raise ValueError(f"labels has the shape {labels.shape}, it must be ({v},), one for each vertex of V.")
+            raise ValueError(
+                f"labels has the shape {labels.shape}, it must be ({v},), one for each vertex of V."
+            )
         if missing.any():
             raise ValueError(f"labels[{int(missing.argmax())}] is missing: give each vertex one.")
 
@@ -515,16 +675,19 @@ class Simplification(Level):
     Attributes
     ----------
     collapses : structured array
-        One record for each collapse, in order: the vertices of the input removed and kept, alpha, the weight of the removed one,
-        and point, where the vertex was put. Vertices are counted among `used`.
+        One record for each collapse, in order: the vertices of the input removed and kept, alpha,
+        the weight of the removed one, and point, where the vertex was put. Vertices are counted
+        among `used`.
     eigenpairs : Eigenpairs or None
-        Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or pre_simplify.
+        Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or
+        pre_simplify.
     coefficients : (n, 7) array or None
         What the collapses have made of coefficients=: of the operator of this mesh.
     fitted : Fitted_operators or None
         With fit_operators=True, for evaluate(..., operators=...).
     report : dict
-        What was done, with the names of spectral_simplify --json: counts, seconds, stop_reason, warnings.
+        What was done, with the names of spectral_simplify --json: counts, seconds, stop_reason,
+        warnings.
     """
 
     collapses: numpy.ndarray
@@ -543,21 +706,29 @@ class Simplification(Level):
             From the vertices of the result to those of the input.
         """
         V, F = self._part()
-        return Level._of(_core.level(dict(V=V, F=F, collapses=self.collapses, n=n)), self.fine_V, self.fine_F, self._used)
+        return Level._of(
+            _core.level(dict(V=V, F=F, collapses=self.collapses, n=n)),
+            self.fine_V,
+            self.fine_F,
+            self._used,
+        )
 
     @property
     def fine_eigenpairs(self) -> Eigenpairs:
-        """Eigenpairs of the input in the mass of the run, also where `eigenpairs` is None: then computed when first asked for.
-        As many as the run kept; rows are those of `used`."""
+        """Eigenpairs of the input in the mass of the run, also where `eigenpairs` is None: then
+        computed when first asked for. As many as the run kept; rows are those of `used`."""
         if self.eigenpairs is not None:
             return self.eigenpairs
         if self._asked.get("pairs") is None:
             V, F = self._part()
-            self._asked["pairs"] = self._pairs(V, F, self.report["eigenvectors"], self.report["mass"],
-                                               self._asked["coefficients"])
+            self._asked["pairs"] = self._pairs(
+                V, F, self.report["eigenvectors"], self.report["mass"], self._asked["coefficients"]
+            )
         return self._asked["pairs"]
 
-    def coarse_eigenpairs(self, k: int | None = None, mass: str | None = None, *, progress: Progress | None = None) -> Eigenpairs:
+    def coarse_eigenpairs(
+        self, k: int | None = None, mass: str | None = None, *, progress: Progress | None = None
+    ) -> Eigenpairs:
         """Eigenpairs of the simplified mesh.
 
         Parameters
@@ -565,7 +736,8 @@ class Simplification(Level):
         k : int, optional
             How many; as many as the run kept.
         mass : str, optional
-            'lumped', 'averaged', 'consistent' or 'voronoi'; 'fitted' for operators with the spectrum of the input; that of the run.
+            'lumped', 'averaged', 'consistent' or 'voronoi'; 'fitted' for operators with the
+            spectrum of the input; that of the run.
         progress : function, optional
             As of simplify().
 
@@ -576,31 +748,68 @@ class Simplification(Level):
         """
         k = min(self.report["eigenvectors"], len(self.V)) if k is None else k
         if mass != "fitted":
-            return self._pairs(self.V, self.F, k, mass or self.report["mass"], self.coefficients, progress)
+            return self._pairs(
+                self.V, self.F, k, mass or self.report["mass"], self.coefficients, progress
+            )
         if self.fitted is not None and len(self.fitted) == k:
             return self.fitted
-        values = dict(Vc=self.V, Fc=self.F, P=self._part_P(), eigenpairs=self.fine_eigenpairs, k=k, mass=None, rings=None,
-                      low_modes=2.5, orthonormality=0.01, plain=0.2, coefficients=self.coefficients, progress=progress)
+        values = dict(
+            Vc=self.V,
+            Fc=self.F,
+            P=self._part_P(),
+            eigenpairs=self.fine_eigenpairs,
+            k=k,
+            mass=None,
+            rings=None,
+            low_modes=2.5,
+            orthonormality=0.01,
+            plain=0.2,
+            coefficients=self.coefficients,
+            progress=progress,
+        )
         return Fitted_operators(_core.fit_operators(values))
 
     def _pairs(self, V, F, k, mass, coefficients, progress=None) -> Eigenpairs:
-        return Eigenpairs(_core.eigenpairs(dict(V=V, F=F, k=k, mass=mass, tolerance=1e-10, coefficients=coefficients,
-                                                boundary=self._asked["boundary"],
-                                                intrinsic_delaunay=self._asked["intrinsic_delaunay"] and mass != "consistent",
-                                                threads=None, progress=progress)))
+        return Eigenpairs(
+            _core.eigenpairs(
+                dict(
+                    V=V,
+                    F=F,
+                    k=k,
+                    mass=mass,
+                    tolerance=1e-10,
+                    coefficients=coefficients,
+                    boundary=self._asked["boundary"],
+                    intrinsic_delaunay=self._asked["intrinsic_delaunay"] and mass != "consistent",
+                    threads=None,
+                    progress=progress,
+                )
+            )
+        )
 
-    def apply(self, V_other: numpy.ndarray, by: str = "restriction", relocate: bool = False, k: int | None = None,
-              eigenpairs: Eigenpairs | None = None, *, progress: Progress | None = None) -> Level:
-        """The simplified mesh of another pose with the connectivity of the input: the same faces, vertex i in the same place.
+    def apply(
+        self,
+        V_other: numpy.ndarray,
+        by: str = "restriction",
+        relocate: bool = False,
+        k: int | None = None,
+        eigenpairs: Eigenpairs | None = None,
+        *,
+        progress: Progress | None = None,
+    ) -> Level:
+        """The simplified mesh of another pose with the connectivity of the input: the same faces,
+        vertex i in the same place.
 
         Parameters
         ----------
         V_other : (v, 3) array
             Positions of the other pose; its faces are those of the input.
         by : str
-            'restriction': vertices are P @ V_other; 'merges': what the merges of the run make of them, before relocation.
+            'restriction': vertices are P @ V_other; 'merges': what the merges of the run make of
+            them, before relocation.
         relocate : bool
-            Afterwards moves the vertices so that the spectrum of this pose is kept, as relocate='sampled' of simplify() does.
+            Afterwards moves the vertices so that the spectrum of this pose is kept, as
+            relocate='sampled' of simplify() does.
         k : int, optional
             How many eigenpairs of this pose relocation sees; as many as the run kept.
         eigenpairs : Eigenpairs, optional
@@ -620,7 +829,10 @@ class Simplification(Level):
             raise ValueError("k and eigenpairs belong to relocate=True: leave them out.")
         V_other = numpy.array(V_other, float)
         if V_other.shape != self.fine_V.shape:
-            raise ValueError(f"V_other has the shape {V_other.shape}, it must be {self.fine_V.shape}, as V of the run.")
+            raise ValueError(
+                f"V_other has the shape {V_other.shape}, it must be {self.fine_V.shape}, as V "
+                "of the run."
+            )
         bad = ~numpy.isfinite(V_other[self.used]).all(axis=1)
         if bad.any():
             raise ValueError(f"V_other[{int(self.used[bad.argmax()])}] is not finite.")
@@ -633,8 +845,22 @@ class Simplification(Level):
             k = self.report["eigenvectors"] if k is None else k
             if eigenpairs is None:
                 eigenpairs = self._pairs(V, F, k, self.report["mass"], None, progress)
-            core.update(_core.relocate(dict(V=V, F=F, Vc=core["V"], Fc=self.F, P=part_P, eigenpairs=eigenpairs, fixed=self._asked["kept"],
-                                            signals="sampled", threads=None, progress=progress)))
+            core.update(
+                _core.relocate(
+                    dict(
+                        V=V,
+                        F=F,
+                        Vc=core["V"],
+                        Fc=self.F,
+                        P=part_P,
+                        eigenpairs=eigenpairs,
+                        fixed=self._asked["kept"],
+                        signals="sampled",
+                        threads=None,
+                        progress=progress,
+                    )
+                )
+            )
             part_P = core["P"]
         core["P"], core["vertex_map"] = part_P, self.vertex_map[self.used]
         return Level._of(core, V_other, self.fine_F, self._used)
@@ -644,7 +870,9 @@ class Simplification(Level):
         n = len(self.used)
         weight = numpy.ones(n)
         log = self.collapses[::-1]
-        for removed, kept, alpha in zip(log["removed"].tolist(), log["kept"].tolist(), log["alpha"].tolist()):
+        for removed, kept, alpha in zip(
+            log["removed"].tolist(), log["kept"].tolist(), log["alpha"].tolist()
+        ):
             # Before this merge both had what the kept one has afterwards, in their shares.
             weight[removed] = weight[kept] * alpha
             weight[kept] = weight[kept] * (1 - alpha)
@@ -676,7 +904,8 @@ class Evaluation(_Result):
     floor_C_L, floor_C_D : float
         Those of ideal linear elements, about.
     eigenvalue_error, eigenvalue_error_max, eigenvalue_error_low : float
-        Mean relative error of the eigenvalues, zeros left out; the largest; the mean of the modes 2 to k / 5.
+        Mean relative error of the eigenvalues, zeros left out; the largest; the mean of the modes
+        2 to k / 5.
     values, coarse_values : arrays
         Fine and coarse eigenvalues.
     judged_modes : int
@@ -699,7 +928,8 @@ class Evaluation(_Result):
     area_ratio: float
 
     def __repr__(self) -> str:
-        return (f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {100 * self.eigenvalue_error:.6f} %>")
+        error = 100 * self.eigenvalue_error
+        return f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {error:.6f} %>"
 
 
 class Match(_Result):

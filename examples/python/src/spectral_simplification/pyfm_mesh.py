@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# For pyFM (github.com/RobinMagnet/pyFM): meshes with eigenpairs that are ready, and the coarse mesh of one.
+# For pyFM (github.com/RobinMagnet/pyFM): meshes with eigenpairs that are ready, and the coarse
+# mesh of one.
 #
 #     from spectral_simplification.pyfm_mesh import simplified
 #     fine = TriMesh("cat.off")
@@ -10,8 +11,9 @@
 #     model = FunctionalMapping(coarse, other_coarse)
 #     model.preprocess(n_ev=(50, 50), k_process=100)
 #
-# pyFM uses A in products alone, so that the averaged mass, which is not diagonal, will do; pass A, not its diagonal. process(k)
-# with more than the k that are there, 200 unless k_process says otherwise, computes W and A anew, lumped.
+# pyFM uses A in products alone, so that the averaged mass, which is not diagonal, will do; pass
+# A, not its diagonal. process(k) with more than the k that are there, 200 unless k_process says
+# otherwise, computes W and A anew, lumped.
 
 from pyFM.mesh import TriMesh
 
@@ -27,9 +29,10 @@ def trimesh(V, F, pairs):
 
 
 def simplified(mesh, n, k=None, **options):
-    """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P carries functions of `mesh` to it,
-    run.Q back, run.vertex_map says which vertex became which. `mesh` gets W, A and the k eigenpairs of the run as well. Options as
-    of spectral_simplification.simplify()."""
+    """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P
+    carries functions of `mesh` to it, run.Q back, run.vertex_map says which vertex became which.
+    `mesh` gets W, A and the k eigenpairs of the run as well. Options as of
+    spectral_simplification.simplify()."""
     run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
     k, mass = run.report["eigenvectors"], run.report["mass"]
     pairs = run.eigenpairs or ss.eigenpairs(mesh.vertlist, mesh.facelist, k, mass)
