@@ -276,6 +276,10 @@ class Meshes(Case):
         alone = ss.simplify(part.V, part.F, 120, 30)
         np.testing.assert_array_equal(run.V, alone.V)
         np.testing.assert_array_equal(run.used, part.origin)
+        for own, other in zip(run.part(), (part.V, part.F)):
+            np.testing.assert_array_equal(own, other)
+        judged = ss.evaluate(*run.part(), run.V, run.F, run.P[:, run.used], 30)
+        self.assertLess(judged.eigenvalue_error, 0.04)
         labels = run.transfer_labels(np.where(V[:, 0] > 0, "east", "west"), by="area")
         away = abs(run.V[:, 0]) > 0.2
         np.testing.assert_array_equal(labels[away], np.where(run.V[:, 0] > 0, "east", "west")[away])

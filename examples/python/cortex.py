@@ -86,10 +86,7 @@ def errors(coarse, fine, k):
 def compared(run, modes, mass="consistent"):
     """Eigenpairs of the surface in `mass`, and those of the small mesh, aligned with them, in
     `mass` and in the mass of the run, whose elements err less."""
-    used = run.used
-    place = np.full(len(run.fine_V), -1)
-    place[used] = np.arange(len(used))
-    fine = ss.eigenpairs(run.fine_V[used], place[run.fine_F], modes, mass)
+    fine = ss.eigenpairs(*run.part(), modes, mass)
     return fine, run.coarse_eigenpairs(modes, mass), run.coarse_eigenpairs(modes)
 
 
@@ -113,12 +110,7 @@ def figure(path, run, fine, coarse, errors_by_k):
     import matplotlib.pyplot as plt
 
     aligned = ss.align(coarse, fine, run.P[:, run.used])
-    place = np.full(len(run.fine_V), -1)
-    place[run.used] = np.arange(len(run.used))
-    surfaces = (
-        (run.fine_V[run.used], place[run.fine_F], aligned.vectors),
-        (run.V, run.F, coarse.vectors),
-    )
+    surfaces = ((*run.part(), aligned.vectors), (run.V, run.F, coarse.vectors))
     picture = plt.figure(figsize=(13, 6))
     modes = [m for m in (2, 6, 20, 50) if m < coarse.vectors.shape[1]]
     for row, (V, F, vectors) in enumerate(surfaces):

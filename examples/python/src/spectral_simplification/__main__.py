@@ -176,7 +176,7 @@ def _run(a: argparse.Namespace) -> None:
     if not a.no_evaluation:
         k = min(report["eigenvectors"], len(run.V))
         e = evaluate(
-            *run._part(),
+            *run.part(),
             run.V,
             run.F,
             run._part_P(),

@@ -486,8 +486,16 @@ class Level(_Result):
         )
         return self._from_state(state)
 
-    def _part(self) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """Those vertices and faces of the input that were used, numbered among themselves."""
+    def part(self) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """What was used of the input, numbered among itself: what `eigenpairs` are about.
+
+        Returns
+        -------
+        V : (u, 3) float64
+            Positions of the vertices `used`.
+        F : (f, 3) int64
+            Their triangles. With P[:, used] both go to evaluate().
+        """
         if self._used is None:
             return self.fine_V, self.fine_F
         place = numpy.full(len(self.fine_V), -1, numpy.int64)
@@ -705,7 +713,7 @@ class Simplification(Level):
         n : int
             From the vertices of the result to those of the input.
         """
-        V, F = self._part()
+        V, F = self.part()
         return Level._of(
             _core.level(dict(V=V, F=F, collapses=self.collapses, n=n)),
             self.fine_V,
@@ -720,7 +728,7 @@ class Simplification(Level):
         if self.eigenpairs is not None:
             return self.eigenpairs
         if self._asked.get("pairs") is None:
-            V, F = self._part()
+            V, F = self.part()
             self._asked["pairs"] = self._pairs(
                 V, F, self.report["eigenvectors"], self.report["mass"], self._asked["coefficients"]
             )
@@ -929,7 +937,9 @@ class Evaluation(_Result):
 
     def __repr__(self) -> str:
         error = 100 * self.eigenvalue_error
-        return f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {error:.6f} %>"
+        return (
+            f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {error:.6f} %>"
+        )
 
 
 class Match(_Result):
