@@ -366,8 +366,8 @@ class Meshes(Case):
                     f'<DataArray type="Int32" Name="connectivity" '
                     f'format="binary">{code(F.astype(np.int32))}</DataArray>'
                     f'<DataArray type="Int32" Name="offsets" format="binary">'
-                    f'{code(np.arange(3, 3 * len(F) + 1, 3, dtype=np.int32))}</DataArray></Polys></Piece>'
-                    '</PolyData></VTKFile>'
+                    f'{code(np.arange(3, 3 * len(F) + 1, 3, dtype=np.int32))}</DataArray>'
+                    '</Polys></Piece></PolyData></VTKFile>'
                 )
         for name in "binary.vtk", "plain.vtp", "packed.vtp":
             v, f = ss.read_mesh(self.path(name))

@@ -121,8 +121,8 @@ def _here(
 
 
 def _on_processes(tasks, workers: int):
-    """Processes of this machine. Where one dies, what ran with it is tried again, each mesh alone: so
-    it is known whose fault it was."""
+    """Processes of this machine. Where one dies, what ran with it is tried again, each mesh alone:
+    so it is known whose fault it was."""
     import multiprocessing
 
     context = multiprocessing.get_context("spawn")  # libraries have threads, which fork loses
