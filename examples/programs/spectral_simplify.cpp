@@ -166,7 +166,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
     if(!a.quadrics_above)
       options.quadrics_above *= double(a.levels.front()) / double(target);
     if(a.signals.empty())
-      options.metric_eigenvectors = SMS::metric_eigenvectors_for(a.levels.front(), a.eigenvectors);
+      options.weights = SMS::weights_for_target(a.levels.front(), a.eigenvectors);
   }
   if(a.max_error)
     options.maximum_error = *a.max_error;

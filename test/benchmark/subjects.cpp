@@ -63,7 +63,7 @@ SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int
   options.quadrics_above = setting.quadrics_above;
   options.threads = threads;
   if(setting.all_in_metric)
-    options.metric_eigenvectors = setting.eigenvectors;
+    options.weights = Eigen::VectorXd::Ones(setting.eigenvectors);
   options.relocate = options.relocate && !setting.loop_alone;
   return options;
 }

@@ -56,10 +56,6 @@ struct Spectral_edge_collapse_options : Spectral_options
     return options;
   }
 
-  /// Where `metric_eigenvectors` is 0 and the target less than 3 K, without signals of the user's and without an error bound: the
-  /// metric sees as many as `metric_eigenvectors_for()` says.
-  bool metric_eigenvectors_by_target = true;
-
   /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
   /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
   /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number. It is a bound of the collapses:

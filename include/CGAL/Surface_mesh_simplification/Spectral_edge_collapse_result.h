@@ -57,8 +57,9 @@ struct Spectral_edge_collapse_result
   double seconds_operator_fit = 0;       ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
   double seconds_total = 0;              ///< the whole call
 
-  std::size_t signals = 0;   ///< how many the metric saw, see `Spectral_options::metric_eigenvectors`
-  double E = 0;              ///< Eq. 2 of these signals, for the input scaled to unit area
+  std::size_t signals =
+      0;        ///< how many steered the collapses, all at once or in mixtures: those of positive weight
+  double E = 0; ///< Eq. 2 of all signals, with their weights, for the input scaled to unit area
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
   /// what `Spectral_edge_collapse_options::flips` did: vertices by their rows of P, E in the scale of the input

@@ -81,14 +81,20 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
     return run(policies.get_placement(), common);
 }
 
+inline Eigen::Index number_of_components(const Spectral_geometry::Mesh_matrices& mesh)
+{
+  const std::vector<Eigen::Index> component =
+      Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
+  return *std::max_element(component.begin(), component.end()) + 1;
+}
+
 /// Why a mesh that has run out of edges cannot be reduced further.
 inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrices& mesh,
                                            const Spectral_edge_collapse_result& result,
                                            const std::size_t wanted)
 {
   using namespace Spectral_geometry::internal;
-  const std::vector<Eigen::Index> component = connected_components(mesh.V.rows(), mesh.T);
-  const Eigen::Index components = *std::max_element(component.begin(), component.end()) + 1;
+  const Eigen::Index components = number_of_components(mesh);
   using std::to_string;
   return "The mesh stopped at " + to_string(result.output_vertices) + " vertices instead of " +
          to_string(wanted) + " because every edge left was refused (topology " +
@@ -160,19 +166,20 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
                                                    : given.number_of_eigenvectors;
   // No copy where there is no need: signals may be large.
   std::optional<Spectral_edge_collapse_options> narrowed;
-  if(std::isfinite(given.maximum_error)) {
+  if(std::isfinite(given.maximum_error)) { // a bound holds for all signals, not for an estimate
     narrowed = given;
     narrowed->largest_loss = std::numeric_limits<double>::infinity();
-  } else if(given.metric_eigenvectors_by_target && given.signals.size() == 0 &&
-            given.metric_eigenvectors == 0 && metric_eigenvectors_for(target, K) < K) {
+    narrowed->number_of_mixtures = 0;
+  } else if(given.signals.size() == 0 && given.weights.size() == 0 && Eigen::Index(target / 3) < K) {
     narrowed = given;
-    narrowed->metric_eigenvectors = metric_eigenvectors_for(target, K);
+    narrowed->weights =
+        weights_for_target(target, K, number_of_components(Spectral_geometry::mesh_matrices(mesh, np)));
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
-  result.signals = std::size_t(state.core().number_of_signals());
+  result.signals = std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
   if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
     result.warnings.push_back(
         "The target of " + std::to_string(target) + " vertices is less than 3 K = " + std::to_string(3 * K) +
@@ -216,8 +223,6 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
       result.explanation =
           explain_exhausted_queue(Spectral_geometry::mesh_matrices(mesh, np), result, target);
   }
-  result.E = policies.error();
-  result.relative_error = policies.relative_error();
   result.eigenpairs = policies.eigenpairs();
   std::vector<Eigen::Index> slots = state.current_slots();
   if(first.done) {
@@ -231,8 +236,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   if(options.coefficients.rows() != 0)
     result.coefficients = policies.restriction() * options.coefficients;
   state.release();
-  if(has_post_process(options) && result.stop_reason != Stop_reason::cancelled)
-    Spectral_post_process(mesh, policies, options, np, result).run(first);
+  Spectral_post_process(mesh, policies, given, np, result).run(first);
 }
 
 /// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to return what was done.

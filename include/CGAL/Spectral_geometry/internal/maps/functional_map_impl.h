@@ -92,6 +92,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::I
   return CGAL_PI / 3 * theta * k * std::sqrt(k) / static_cast<double>(N);
 }
 
+namespace internal {
+
+/// The energy of signals that have been restricted, PF = P F and PZ = P Z.
+CGAL_SPECTRAL_GEOMETRY_INLINE double residual_energy(const Laplace_operator& coarse,
+                                                     const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
+{
+  const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
+  return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
+}
+
+} // namespace internal
+
 CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& coarse,
                                                         const Eigen::SparseMatrix<double>& P,
                                                         const Eigen::Ref<const Eigen::MatrixXd>& F,
@@ -101,9 +113,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& 
   internal::check_dimension("the number of rows of F", F.rows(), P.cols());
   internal::check_dimension("the number of rows of Z", Z.rows(), P.cols());
   internal::check_dimension("the number of columns of Z", Z.cols(), F.cols());
-  const Eigen::MatrixXd PF = P * F, PZ = P * Z;
-  const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
-  return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
+  return internal::residual_energy(coarse, P * F, P * Z);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,

@@ -11,12 +11,14 @@
 #if(defined(__GNUC__) || defined(__clang__)) && !defined(CGAL_SPECTRAL_NO_VECTOR_EXTENSION)
 #define CGAL_SPECTRAL_VECTOR_EXTENSION 1
 #define CGAL_SPECTRAL_INLINE inline __attribute__((always_inline))
+#define CGAL_SPECTRAL_INLINE_LAMBDA __attribute__((always_inline))
 #ifdef __x86_64__
 #include <immintrin.h>
 #define CGAL_SPECTRAL_DISPATCH 1
 #endif
 #else
 #define CGAL_SPECTRAL_INLINE inline
+#define CGAL_SPECTRAL_INLINE_LAMBDA
 #endif
 
 #include <boost/align/aligned_allocator.hpp>

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -28,7 +29,7 @@ enum class Spectral_placement_strategy {
   on_edge,  ///< strategy (ii): the minimiser along the edge of a parabola through three samples
   /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the edge, or the
   /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there; with a shape term its
-  /// minimiser, or the cheapest of the ends and the middle. The weights come
+  /// minimiser; where a triangle without area would arise there, the cheapest of the ends and the middle. The weights come
   /// from the projection on the edge, so P times the fine positions is no longer the coarse positions.
   free
 };
@@ -77,12 +78,13 @@ struct Spectral_options
   static Spectral_options best() { return Spectral_options(); }
 
   /// What Lescoat et al. describe, *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020: lumped mass, placement
-  /// on the edge, E alone.
+  /// on the edge, E alone, of all K eigenvectors.
   static Spectral_options paper()
   {
     Spectral_options options;
     options.mass = Spectral_geometry::Mass::lumped;
     options.placement = Spectral_placement_strategy::on_edge;
+    options.number_of_mixtures = 0;
     options.shape = 0;
     options.keep_free_of_self_intersections = false;
     return options;
@@ -93,18 +95,22 @@ struct Spectral_options
   /// `eigenpairs` are given: they bring their own number of columns.
   Eigen::Index number_of_eigenvectors = 100;
 
-  /// How many of the K eigenvectors the metric sees: the lowest of them, those of eigenvalue 0 not counted. The others are
-  /// found, returned, and used by the relocation of `spectral_edge_collapse()` all the same. 0: all. Not with `signals`; not
-  /// negative. See `metric_eigenvectors_for()`.
-  Eigen::Index metric_eigenvectors = 0;
+  /// r, the number of random mixtures of the signals that the metric sees in their place; 0: the signals themselves. E is
+  /// a squared norm of something linear in the signals, so mixtures estimate it without bias, with a relative standard
+  /// deviation of at most sqrt(2 / r). The order of the collapses needs no more, and costs do not depend on K. No more than r
+  /// signals are never mixed. Multiples of 16 are free of padding. Not negative.
+  Eigen::Index number_of_mixtures = 16;
+
+  /// Which mixtures. The same seed gives the same result everywhere.
+  std::uint64_t seed = 1;
 
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::free;
 
   /// The shape term: a candidate costs the change of E plus `shape` S n times that of a probabilistic plane quadric, where
   /// S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing left and n the number of vertices now. Without unit: one value
-  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone. As all of CGAL's costs, a
-  /// cost is that of when the edge was last near a collapse, with the n of then.
+  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone. As with all CGAL costs,
+  /// a cost dates from the last collapse near the edge and uses the n of that moment.
   double shape = 3;
 
   /// With a shape term no change of E counts for more than this many times S (M_u + M_v), what the signals have at both ends:
@@ -118,12 +124,6 @@ struct Spectral_options
   /// a twentieth as many points as the input has vertices were refused for it, in each run of the loop: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
   /// Of collapses by quadrics it holds for the mesh that they end with, and an edge whose collapse would waits.
   bool keep_free_of_self_intersections = true;
-
-  /// Whether every cost that CGAL asks for is evaluated at once. Otherwise an edge that costs much more than the collapses of late keeps the
-  /// cost of before until its turn comes, or gets one of fewer samples: the order hardly changes and half of the time is saved.
-  /// A stop predicate, filter or visitor that reads costs may want them exact; those of edges that CGAL's loop does not ask for
-  /// again, two rings away from a collapse, are of before with any cost.
-  bool exact_costs = false;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
   /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %; `voronoi` is Meyer et al.'s.
@@ -178,8 +178,8 @@ struct Spectral_options
   /// not kept stays) and with `Spectral_edge_collapse_options::pre_simplify`.
   std::vector<std::size_t> kept_vertices;
 
-  /// Number of threads that find eigenpairs and evaluate costs, and that relocate in `spectral_edge_collapse()`; from 1. The
-  /// result does not depend on it.
+  /// Number of threads that find eigenpairs, and that relocate in `spectral_edge_collapse()`; from 1. The result does not
+  /// depend on it. The collapses run on one.
   int threads = 1;
 
   /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
@@ -193,14 +193,17 @@ struct Spectral_options
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// How many eigenvectors the metric should see for a target of N vertices: all K from 3 K vertices on (section 4.3 of the
-/// paper), N / 4 below. There the upper modes cannot be had, and those who ask for them lose the lower ones with
-/// them: whole limbs, which carry few modes, are given up. For `Spectral_options::metric_eigenvectors`;
-/// `Spectral_edge_collapse_options::metric_eigenvectors_by_target` does it.
-inline Eigen::Index metric_eigenvectors_for(const std::size_t number_of_vertices, const Eigen::Index K)
+/// `Spectral_options::weights` for a target of N vertices. From 3 K vertices on all K eigenvectors have the weight 1 (section
+/// 4.3 of the paper), below only N / 4 after the `zeros` first: one of eigenvalue 0 for each component. There the upper modes
+/// cannot be had, and those who ask for them lose the lower ones with them: whole limbs, which carry few modes, are given up.
+inline Eigen::VectorXd weights_for_target(const std::size_t number_of_vertices, const Eigen::Index K,
+                                          const Eigen::Index zeros = 1)
 {
   const Eigen::Index N = Eigen::Index(number_of_vertices);
-  return N / 3 >= K ? K : (std::max)(N / 4, Eigen::Index(1));
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(K);
+  if(N / 3 < K)
+    weights.tail((std::max)(K - zeros - (std::max)(N / 4, Eigen::Index(1)), Eigen::Index(0))).setZero();
+  return weights;
 }
 
 /// @}

@@ -6,26 +6,28 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_signals.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <memory>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// What the metric preserves, for the input scaled to unit area: F (n x K), and Z = B^-1 L F, either as
-/// `lambda` (Z = F Lambda, where Z is empty) or in rows of its own. Columns carry the square root of
-/// their weight.
+/// What the metric preserves, for the input scaled to unit area: F and Z = B^-1 L F. Columns carry the square root of their
+/// weight. Where there are more than `Spectral_options::number_of_mixtures` of them, these are F R and Z R instead.
 struct Spectral_basis
 {
-  Eigen::MatrixXd F, Z;
-  Eigen::VectorXd lambda;
-  double area = 1; ///< of the input, weighted by the density
-  /// || Z ||_B^2; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
+  Spectral_signals signals;
+  Eigen::Index number_of_vertices = 0; ///< n, of the input
+  double area = 1;                     ///< of the input, weighted by the density
+  /// || Z ||_B^2 of all signals; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
   double sum_of_squares = 0;
+  bool rough = false; ///< whether Z = F Lambda is not good enough: signals of the user's, or rough pairs
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< all of them, at the input's scale
 };
 
@@ -56,6 +58,17 @@ inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
 {
   return residuals.size() != 0 && residuals.maxCoeff() > 1e-5;
 }
+
+/*!
+ * R, for r random mixtures F R of the columns of F: `rows` x r. Its columns are orthogonal and of random direction (uniform,
+ * by Haar's measure), of length sqrt(rows / r), so that the expectation of R R^T is the identity. Then \f$ \|A F R\|^2 \f$
+ * has, for any A, the expectation \f$ \|A F\|^2 = tr G \f$, G = (A F)^T A F, and with n rows the variance
+ * \f[ \frac{2 (n - r)}{r (n - 1) (n + 2)} \left( n \, tr G^2 - (tr G)^2 \right) \le \frac{2}{r} tr G^2 . \f]
+ * Independent normal entries (W. B. Johnson and J. Lindenstrauss 1984; M. F. Hutchinson 1990) reach the bound on the right.
+ * The same `seed` gives the same mixtures everywhere.
+ */
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(const Eigen::Index rows, const Eigen::Index r,
+                                                              const std::uint64_t seed);
 
 /// mesh -> Laplacian -> eigenpairs -> F and Z.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,

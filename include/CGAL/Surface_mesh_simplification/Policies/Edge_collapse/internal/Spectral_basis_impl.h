@@ -13,13 +13,16 @@
 #include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -33,9 +36,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
           ", use a number above 0.");
   if(options.signals.size() != 0) {
     require(!options.eigenpairs, "Spectral_options: both signals and eigenpairs are given, use one of them.");
-    require(options.metric_eigenvectors == 0,
-            "Spectral_options: metric_eigenvectors chooses among eigenvectors, but signals are given; pass "
-            "the signals that the metric is to see.");
     require(options.signals.rows() == n, "Spectral_options: signals has ", options.signals.rows(),
             " rows, but the mesh has ", n, " vertices; give one row for each.");
     require(options.signals.allFinite(),
@@ -50,8 +50,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
     require(pairs.values.size() != 0,
             "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
   }
-  require(options.metric_eigenvectors >= 0, "Spectral_options: metric_eigenvectors is ",
-          options.metric_eigenvectors, ", use a number from 0.");
+  require(options.number_of_mixtures >= 0, "Spectral_options: number_of_mixtures is ",
+          options.number_of_mixtures, ", use a number from 0.");
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
   require(!options.intrinsic_delaunay || (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
                                           options.boundary == Spectral_geometry::Boundary_condition::neumann),
@@ -138,6 +138,14 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
   return true;
 }
 
+/// Whether || Z ||_B^2 is what rounding leaves for constant signals: L f is then a rounding of 0 beside its diagonal times f,
+/// and Z is that over a mass of about 1 / n.
+inline bool is_rounding(const double sum_of_squares, const double norm_of_F, const Eigen::Index n)
+{
+  const double rounding = 1e-14 * double(n);
+  return !(sum_of_squares > rounding * rounding * norm_of_F);
+}
+
 /// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals must be small, or the very ones that
 /// they came with, as those of rough pairs are.
 inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
@@ -168,17 +176,57 @@ inline void check_signals_on_border(const Spectral_options& options, const Eigen
               " of the border, as the Dirichlet condition wants; set them to 0 there.");
 }
 
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(const Eigen::Index rows, const Eigen::Index r,
+                                                              const std::uint64_t seed)
+{
+  // G. E. P. Box and M. E. Muller 1958: the normal distribution of the standard library differs from one to the next.
+  std::mt19937_64 random(seed);
+  const auto uniform = [&random] { return (double(random() >> 11) + 0.5) / 9007199254740992.; };
+  Eigen::MatrixXd normal(rows, r);
+  for(Eigen::Index k = 0; k < r; ++k)
+    for(Eigen::Index i = 0; i < rows; ++i) {
+      const double radius = std::sqrt(-2 * std::log(uniform()));
+      normal(i, k) = radius * std::cos(6.283185307179586 * uniform());
+    }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(normal);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, r);
+  return Q * std::sqrt(double(rows) / double(r));
+}
+
+/// The mixtures of the signals of positive weight, each multiplied by the square root of that; all of these signals where
+/// there are no more than the mixtures asked for. R has a row for every signal.
+inline Eigen::MatrixXd mixing_matrix(const Spectral_options& options, const Eigen::VectorXd& weights)
+{
+  std::vector<Eigen::Index> seen;
+  for(Eigen::Index k = 0; k < weights.size(); ++k)
+    if(weights[k] > 0)
+      seen.push_back(k);
+  const Eigen::Index rows = Eigen::Index(seen.size()), r = options.number_of_mixtures;
+  const Eigen::MatrixXd mixtures = r == 0 || rows <= r
+                                       ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows))
+                                       : random_mixtures(rows, r, options.seed);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(weights.size(), mixtures.cols());
+  for(Eigen::Index i = 0; i < rows; ++i)
+    R.row(seen[std::size_t(i)]) = std::sqrt(weights[seen[std::size_t(i)]]) * mixtures.row(i);
+  return R;
+}
+
 inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
                                        const Spectral_options& options, const double area)
 {
   Spectral_basis basis;
   const Eigen::VectorXd weights = spectral_weights(options, options.signals.cols());
-  basis.F = options.signals * weights.cwiseSqrt().asDiagonal();
-  basis.Z = area * spectral_z(op, basis.F);
-  basis.sum_of_squares = basis.Z.cwiseProduct(op.B * basis.Z).sum() / area;
-  const double rounding = rounding_of_spectral_z(op, basis.F);
-  if(!(basis.sum_of_squares > area * rounding * rounding))
+  const Eigen::MatrixXd R = mixing_matrix(options, weights);
+  const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
+  basis.signals = Spectral_signals(Z.rows(), R.cols());
+  basis.signals.set(0, options.signals * R, Z * R);
+  basis.sum_of_squares = ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
+  const double rounding = rounding_of_spectral_z(op, options.signals * weights.cwiseSqrt().asDiagonal());
+  const double norm_of_F = (op.mass.transpose() * options.signals.cwiseAbs2()).dot(weights) / area;
+  if(!(basis.sum_of_squares > area * rounding * rounding) ||
+     is_rounding(basis.sum_of_squares, norm_of_F, Z.rows()))
     basis.sum_of_squares = 0;
+  basis.rough = true;
   return basis;
 }
 
@@ -188,19 +236,27 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
                                           const double area)
 {
   Spectral_basis basis;
-  const Eigen::VectorXd weights = spectral_weights(options, pairs->size());
+  Eigen::VectorXd weights = spectral_weights(options, pairs->size());
   const Eigen::VectorXd residuals =
       options.eigenpairs ? checked_residuals(*pairs, op, options.mass) : pairs->residuals;
-  Eigen::Index seen = pairs->size(); // by the metric, from the first
-  if(options.metric_eigenvectors != 0)
-    seen = (std::min)(seen, Spectral_geometry::number_of_zero_eigenvalues(op) + options.metric_eigenvectors);
-  basis.F = pairs->vectors.leftCols(seen) * (weights.head(seen) * area).cwiseSqrt().asDiagonal();
-  basis.lambda = area * pairs->values.head(seen);
-  basis.sum_of_squares = weights.head(seen).dot(basis.lambda.cwiseAbs2());
-  if(eigenvalues_are_rounding(op, *pairs, residuals))
+  basis.sum_of_squares = weights.dot((area * pairs->values).cwiseAbs2());
+  if(eigenvalues_are_rounding(op, *pairs, residuals) ||
+     is_rounding(basis.sum_of_squares, weights.sum(), pairs->vectors.rows()))
     basis.sum_of_squares = 0;
-  if(pairs_are_rough(residuals))
-    basis.Z = area * spectral_z(op, basis.F);
+  basis.rough = pairs_are_rough(residuals);
+  // What P carries over exactly, for every mesh, is nothing to look at: the constants of each component.
+  const Eigen::Index zeros = (std::min)(Spectral_geometry::number_of_zero_eigenvalues(op), pairs->size());
+  weights.head(zeros).setZero();
+  const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
+  basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
+  for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {
+    const auto columns = R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
+    const Eigen::MatrixXd F = pairs->vectors * columns;
+    if(basis.rough)
+      basis.signals.set(first, F, area * spectral_z(op, F));
+    else
+      basis.signals.set(first, F, pairs->vectors * ((area * pairs->values).asDiagonal() * columns));
+  }
   basis.eigenpairs = std::move(pairs);
   return basis;
 }
@@ -233,11 +289,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
     }
     basis = basis_of_eigenpairs(op, options, pairs, area);
   }
-  // L f of a constant f is a rounding of 0 beside its diagonal times f, and Z is that over a mass of about 1 / n.
-  const double norm_of_F = (op.mass.asDiagonal() * basis.F.cwiseAbs2()).sum() / area;
-  const double rounding = 1e-14 * double(V.rows());
-  if(!(basis.sum_of_squares > rounding * rounding * norm_of_F))
-    basis.sum_of_squares = 0;
+  basis.number_of_vertices = V.rows();
   basis.area = area;
   return basis;
 }

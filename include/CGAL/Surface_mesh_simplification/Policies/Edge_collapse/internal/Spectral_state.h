@@ -41,16 +41,15 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * What cost, placement and visitor of one `Spectral_policies` share: F and Z, the residual
+ * What cost, placement and visitor of one `Spectral_policies` share: F and Z or their mixtures, the residual
  * R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
  *
  * It translates between the mesh and slots (the order of `vertices(mesh)` at construction) and leaves
  * the mathematics to `Spectral_collapse_core`. `edge_collapse()` copies the policies several
  * times; all copies are handles on one state.
  *
- * Life of a run: on_started() builds everything from the mesh as it is and evaluates every edge;
- * placement() and cost() look up; on_collapsing() captures which candidate is about to be collapsed;
- * on_collapsed() follows the mesh and evaluates the edges that are costed next; on_finished() ends it.
+ * Life of a run: on_started() builds everything from the mesh as it is; placement() and cost() evaluate an edge;
+ * on_collapsing() captures which merge is about to happen; on_collapsed() follows the mesh; on_finished() ends it.
  * A further run continues: F, Z and P go on from where they are.
  */
 template <class TriangleMesh, class GeomTraits, class VertexPointMap>
@@ -96,7 +95,8 @@ public:
     m_eigenpairs = basis.eigenpairs;
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
-    m_core.set_basis(basis, local_operator(options), options, std::is_same<FT, float>::value);
+    m_has_rough_basis = basis.rough;
+    m_core.set_basis(std::move(basis), local_operator(options), options, std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
   }
 
@@ -136,11 +136,12 @@ public:
     m_selecting = m_selection_open = false;
     m_announced.reset();
     m_answer = Answer();
-    if(m_batched && !m_core.evaluate_all([this](const double fraction) {
-         return report(Spectral_phase::first_costs, fraction);
-       }))
-      throw Spectral_geometry::Cancelled();
-    m_seconds_first_costs = timer.time();
+    m_postponed = Postponed();
+    m_seconds_first_costs = timer.time(); // so far
+    m_first_costs.reset();
+    m_first_costs.start();
+    m_number_of_first_costs = 0;
+    m_expected_first_costs = num_edges(mesh);
     std::shared_ptr<void> token = std::make_shared<int>(0);
     m_run = token;
     ++m_number_of_runs;
@@ -157,9 +158,14 @@ public:
   /// \copydoc on_finished()
   void on_selected()
   {
+    if(m_first_costs.is_running()) {
+      m_first_costs.stop();
+      m_seconds_first_costs += m_first_costs.time();
+    }
     close_selection();
     m_selecting = m_selection_open = true;
     m_answer = Answer();
+    m_postponed = Postponed();
     m_placement_found.reset();
   }
 
@@ -184,7 +190,7 @@ public:
     m_announced = {Eigen::Index(removed), Eigen::Index(kept), weight_of(removed, kept, point)};
   }
 
-  /// Merges the two slots, follows the mesh, and evaluates the edges that CGAL costs next.
+  /// Merges the two slots and follows the mesh.
   template <class Profile>
   void on_collapsed(const Profile& profile, const vertex_descriptor kept_vertex)
   {
@@ -198,13 +204,8 @@ public:
     const Merge m = merge_into(kept, *std::exchange(m_announced, {}));
     m_selecting = false;
     m_answer = Answer();
+    m_postponed = Postponed();
     m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
-    if(!in_loop)
-      m_core.drop_candidates_around(kept);
-    else if(m_batched)
-      m_core.evaluate_around(kept);
-    else
-      m_core.defer_around(kept);
   }
 
   /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected,
@@ -215,7 +216,10 @@ public:
     using Optional_point = Spectral_optional<Point>;
     check_ready(profile);
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    const Spectral_candidate& c = answer(u, v);
+    if(is_postponed(u,
+                    v)) // CGAL asks for the cost next, and for the placement again when it selects the edge
+      return Optional_point(Point(profile.p0()));
+    const Spectral_sample& c = answer(u, v);
     m_placement_found = c.collapsible();
     if(!c.collapsible())
       return Optional_point();
@@ -238,10 +242,12 @@ public:
     if(!placement)
       return Optional_cost(largest_cost());
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
+    if(is_postponed(u, v))
+      return Optional_cost(FT(*m_postponed.cost));
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.fields().moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
-    const Spectral_candidate& c = answer(u, v);
+    const Spectral_sample& c = answer(u, v);
     const double value = c.collapsible() && c.point == point ? c.cost : m_core.cost_at(u, v, point);
     if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
@@ -279,7 +285,7 @@ public:
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.fields().moves_kept_vertex(u, v, point))
       return false;
-    const Spectral_candidate& own = answer(u, v); // which has been looked at
+    const Spectral_sample& own = answer(u, v); // which has been looked at
     return (own.collapsible() && own.point == point) || !m_core.crosses(u, v, point);
   }
 
@@ -327,6 +333,8 @@ public:
   void release() { m_core.release(); }
   /// The input, which the eigenpairs are of.
   const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
+  /// Whether relocation needs a Z = B^-1 L F of its own, because F Lambda is not good enough.
+  bool has_rough_basis() const { return m_has_rough_basis; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
   /// Candidates that were given up so far, over all runs.
@@ -369,16 +377,19 @@ public:
     return report_progress(m_core.options(), phase, fraction, number_of_vertices());
   }
 
-  /// Whether costs are evaluated ahead of CGAL's questions (default) or when they are asked for; the
-  /// result is the same.
-  void set_batched(const bool batched) { m_batched = batched; }
-
 private:
-  // The last one that was asked for; it holds until something is evaluated or committed.
+  // The last way to collapse an edge that was asked for, of u < v. It holds until the mesh changes or an edge is selected.
   struct Answer
   {
     Slot u = 0, v = 0;
-    const Spectral_candidate* candidate = nullptr;
+    std::optional<Spectral_sample> sample;
+  };
+
+  // The last edge that was found to keep its cost, or not, since the mesh changed.
+  struct Postponed
+  {
+    Slot u = 0, v = 0;
+    std::optional<double> cost;
   };
 
   using Merge = Spectral_geometry::Merge_forest::Merge;
@@ -392,20 +403,47 @@ private:
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
 
-  // The candidate that CGAL asks about. It asks for the placement and then for the cost of it.
-  const Spectral_candidate& answer(const Slot u, const Slot v)
+  bool is_postponed(Slot u, Slot v)
   {
-    if(m_answer.candidate == nullptr || m_answer.u != u || m_answer.v != v)
-      m_answer = {u, v, &m_core.candidate(u, v, m_selecting)};
-    return *m_answer.candidate;
+    if(m_selecting)
+      return false;
+    if(v < u)
+      std::swap(u, v);
+    if(m_postponed.u != u || m_postponed.v != v)
+      m_postponed = {u, v, m_core.postponed_cost(u, v)};
+    return m_postponed.cost.has_value();
   }
 
-  // Of `removed`, where it is merged into `kept` at `point`: the one that was costed with that point, or its projection.
+  // CGAL asks for the placement of an edge and then for the cost of that.
+  const Spectral_sample& answer(Slot u, Slot v)
+  {
+    if(v < u)
+      std::swap(u, v);
+    if(!m_answer.sample || m_answer.u != u || m_answer.v != v) {
+      if(m_first_costs.is_running())
+        report_first_cost();
+      m_answer = {u, v, m_selecting ? m_core.select(u, v) : m_core.evaluate(u, v)};
+    }
+    return *m_answer.sample;
+  }
+
+  // Called for each cost before the first collapse of a run, where cancelling leaves the mesh as it is.
+  void report_first_cost()
+  {
+    constexpr std::size_t between_reports = 1024;
+    if(m_number_of_first_costs++ % between_reports == 0 &&
+       !report(Spectral_phase::first_costs,
+               (std::min)(1., double(m_number_of_first_costs) / double(m_expected_first_costs))))
+      throw Spectral_geometry::Cancelled();
+  }
+
+  // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
-    const Spectral_candidate* c = m_core.candidates().find(removed, kept);
-    if(c != nullptr && c->collapsible() && c->point == point)
-      return c->other == removed ? c->weight : 1 - c->weight;
+    const auto [u, v] = std::minmax(removed, kept);
+    const Answer& a = m_answer;
+    if(a.sample && a.u == u && a.v == v && a.sample->collapsible() && a.sample->point == point)
+      return v == removed ? a.sample->weight : 1 - a.sample->weight;
     return m_core.projected_weight(kept, removed, point);
   }
 
@@ -483,14 +521,17 @@ private:
   std::weak_ptr<void> m_run;
   std::size_t m_number_of_runs = 0;
   Answer m_answer;
+  Postponed m_postponed;
   std::optional<Merge> m_announced; // the collapse under way
   bool m_positions_checked = false;
-  bool m_batched = true;
   bool m_selecting = false;              // a placement asked for now is that of the selected candidate
   bool m_selection_open = false;         // selected, and nothing has become of it yet
   std::optional<bool> m_placement_found; // whether there was one for it; none: not asked yet
   Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
+  bool m_has_rough_basis = false;
+  Real_timer m_first_costs; // runs until the first edge is selected
+  std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

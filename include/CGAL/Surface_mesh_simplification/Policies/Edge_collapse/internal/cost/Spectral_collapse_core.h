@@ -8,11 +8,11 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_search.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
@@ -21,39 +21,33 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <limits>
-#include <memory>
-#include <utility>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-class Spectral_collapse_kernel;
-class Spectral_placement_search;
-struct Spectral_row_entry;
-
 /*!
- * The spectral state without the mesh: F, Z, R = B Z - L F, mass, E, positions, connectivity,
- * candidates and the log of merges, all in slots. It is told what the mesh does and never looks at it.
+ * The spectral state without the mesh: signals, R = B Z - L F, mass, E, positions, connectivity and the log of merges, all in
+ * slots. It is told what the mesh does and never looks at it.
  *
- * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them; set_geometry()
- * at the start of each run; then, in any order, candidate(), cost_at() or evaluate_around(), which change nothing but candidates and
+ * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them;
+ * set_geometry() at the start of each run; then, in any order, evaluate(), select() or cost_at(), which change nothing but
  * counts, and commit(), which follows one collapse.
  */
 class Spectral_collapse_core
 {
 public:
-  /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as `float`. Signals and coefficients of the
-  /// options are not read.
-  void set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
+  /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as `float`. Signals and
+  /// coefficients of the options are not read.
+  void set_basis(Spectral_basis basis, const Spectral_geometry::Local_operator& op,
                  const Spectral_options& options, const bool single_precision);
 
   /// See `Spectral_fields`.
   void set_largest_degree_of_others(const std::size_t degree) { m_fields.largest_degree_of_others = degree; }
 
-  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. What set_geometry() does in the
-  /// first run, unless the mesh is another one then.
+  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. set_geometry() does it
+  /// in the first run, unless the mesh is another one then.
   void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
   /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The geometry is set afterwards.
@@ -69,26 +63,23 @@ public:
   /// Those of set_basis(), without their signals and coefficients.
   const Spectral_options& options() const { return m_options; }
   const Spectral_fields& fields() const { return m_fields; }
-  Eigen::Index number_of_signals() const { return m_number_of_signals; }
   const Collapse_log& log() const { return m_log; }
   const Spectral_shape_term& shape() const { return m_shape; }
-  const Spectral_candidates& candidates() const { return m_candidates; }
 
   /// E, the sum of E_w over the current vertices (Eq. 2).
   double total() const { return m_total.value(); }
 
-  /// The best way to collapse the edge between two slots. Reads only; one kernel per thread. Where all three samples of
-  /// section 3.4 cost more than `bound`, the best of them is taken and the candidate is marked as deferred: it is to be
-  /// evaluated again, with the minimiser, when its turn comes. For CGAL's queue an edge at an end of many neighbours is costed as
-  /// if that end stayed, unless costs are to be exact, and marked as well.
-  Spectral_candidate evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
-                              const double bound = std::numeric_limits<double>::infinity(),
-                              const bool for_queue = false) const;
+  /// The cost of the edge between two slots, u < v, that CGAL's queue may keep for now: a collapse beside the edge has changed
+  /// it, but it was far above the cost of recent collapses. None where it must be evaluated.
+  std::optional<double> postponed_cost(const Spectral_slot u, const Spectral_slot v) const;
 
-  /// The candidate of an edge, evaluated if need be. A candidate of an older version is good enough
-  /// where the edge was selected: it is what CGAL's queue holds. Where its placement would cross another sheet, then: the cheapest of the
+  /// The best way to collapse the edge between two slots, u < v, for CGAL's queue. An edge at a hub is costed as if that hub
+  /// stayed.
+  Spectral_sample evaluate(const Spectral_slot u, const Spectral_slot v);
+
+  /// The best way for an edge, u < v, whose turn has come. Where its placement would cross another sheet: the cheapest of the
   /// ends and the middle that does not.
-  const Spectral_candidate& candidate(Spectral_slot u, Spectral_slot v, const bool any_version);
+  Spectral_sample select(const Spectral_slot u, const Spectral_slot v);
 
   /// Whether a collapse of (u,v) to a point would put a face through another, where that is guarded.
   bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
@@ -106,44 +97,26 @@ public:
   /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
   double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
 
-  /// Evaluates every edge of the mesh. `progress(fraction)` returning false stops early.
-  bool evaluate_all(const std::function<bool(double)>& progress);
-
-  /// Evaluates every edge that CGAL's loop costs again after a collapse to `kept`, those incident to
-  /// the neighbours of `kept`, but for what is put off.
-  void evaluate_around(const Spectral_slot kept);
-
-  /// Only says which of them keep the candidate that they have; the others are evaluated when they are asked for, or from m_batch.
-  void defer_around(const Spectral_slot kept);
-
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
   void commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
               const Eigen::Vector3d& point, Spectral_ring ring);
 
-  /// Forgets the candidates of the edges whose H met the last commit, for one that CGAL costs nothing after: what they are now is found
-  /// when their turn comes.
-  void drop_candidates_around(const Spectral_slot kept);
-
-  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts; of the fields what is kept, and has_z_rows().
+  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts, what is kept.
   void release();
 
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
 
 private:
-  // An edge that leads away from the ring of the kept vertex, or along it, is put off where it cost so many times more
-  // than the collapses of late: long before its turn comes, others near it will have had it evaluated again. Measured on seven
-  // runs: with 4 times, along the ring never, 22 evaluations for each collapse instead of 37, |C|_L times 1.02 (lumped) and
-  // 1.00 (averaged); with these factors 16, and against the former |C|_L times 1.003 and 1.005.
-  static constexpr double outer_deferral_factor = 2, inner_deferral_factor = 8;
   static constexpr double recent_cost_decay = 0.998;
+  // Long before the turn of an edge comes that cost so many times more than recent collapses, others near it will have had it
+  // evaluated again; edges of the link change more than those that lead away from it. With these factors 16 evaluations for
+  // each collapse instead of 38, which saves a quarter of the loop; |C|_L was 1.004 times as large (14 runs).
+  static constexpr double outer_postponing_factor = 2, inner_postponing_factor = 8;
   // An edge whose placement would put a face through another may cost so many times more at another point than at that placement,
   // or than the collapses of late. Otherwise one vertex swallows what lies around it, at a thousand times the cost of others.
   // With 4, 8, 16, 32 and 64 |C|_L of 19 runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
-
-  struct Workspace; // the scratch memory of one thread
-  using Pool = Spectral_geometry::internal::Thread_pool<Workspace>;
 
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
   // E that it has seen, and a needle makes an E that dwarfs the rest for a while.
@@ -168,34 +141,26 @@ private:
   double surface_area() const;
 
   // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
-  void update_row(const Spectral_slot w, std::vector<Spectral_row_entry>& row);
+  void update_row(const Spectral_slot w);
 
   // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
   // accumulates, so E cannot drift.
   void refresh_around(const Spectral_slot kept);
 
-  // A candidate that costs more than the collapses of late gets the minimiser of section 3.4 when its turn comes, and the
-  // best of the three samples till then. Measured on 60 runs, 30 in each mass: |C|_L times 1.007 and 0.991, within
-  // their noise. Free placement gains too much from its search: there it was 1.03.
-  double minimiser_bound() const;
-
   Spectral_fields m_fields;
   Spectral_options m_options;
   Spectral_shape_term m_shape;
   Spectral_crossing_guard m_crossing;
-  Eigen::Index m_number_of_signals = 0;
-  // Edges around a vertex that are not put off, the smaller slot first, and who is a neighbour of it: whose mark is m_mark.
-  std::vector<std::pair<Spectral_slot, Spectral_slot>> m_batch;
-  std::vector<std::size_t> m_marks;
-  std::size_t m_mark = 0;
+  Spectral_collapse_kernel m_kernel;
+  Spectral_slot m_last_kept = null_spectral_slot;
+  std::vector<std::uint32_t>
+      m_last_neighbor; // for each slot the last collapse, by number, that it was a neighbour of
+  std::vector<Spectral_row_entry> m_row; // scratch of update_row()
 
   Sum m_total;
-  double m_recent_cost = 0; // about the largest of the last collapses, but for those at another point
+  double m_recent_cost = 0; // about the largest of the edges that were selected lately
   Collapse_log m_log;
-  Spectral_candidates m_candidates;
   std::size_t m_number_of_evaluations = 0, m_number_of_crossings = 0;
-
-  std::shared_ptr<Pool> m_pool; // shared by nobody: it can be destroyed where `Workspace` is incomplete
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

@@ -6,29 +6,16 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_search.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-// The scratch memory of one thread.
-struct alignas(cache_line) Spectral_collapse_core::Workspace
-{
-  Spectral_collapse_kernel kernel;
-  std::vector<Spectral_row_entry> row;
-};
-
-inline void merge_rows(Spectral_rows& rows, const Spectral_slot removed, const Spectral_slot kept,
-                       const double weight)
-{
-  rows.row(kept) = (1 - weight) * rows.row(kept) + weight * rows.row(removed);
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_geometry::Local_operator& op,
+Spectral_collapse_core::set_basis(Spectral_basis basis, const Spectral_geometry::Local_operator& op,
                                   const Spectral_options& options, const bool single_precision)
 {
   m_options = options;
@@ -37,12 +24,8 @@ Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_ge
   m_options.boundary = op.boundary;
   if(op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
     m_options.preserve_border = true;
-  m_number_of_signals = basis.F.cols();
-  m_fields.F.assign(basis.F);
-  if(basis.Z.size() != 0)
-    m_fields.Z.assign(basis.Z);
-  else
-    m_fields.lambda.assign(basis.lambda.transpose());
+  m_log = Collapse_log(basis.number_of_vertices);
+  m_fields.signals = std::move(basis.signals);
   m_fields.theta = op.theta;
   m_fields.voronoi = op.voronoi;
   const Spectral_geometry::Operator_coefficients& c = op.coefficients;
@@ -52,8 +35,6 @@ Spectral_collapse_core::set_basis(const Spectral_basis& basis, const Spectral_ge
   m_fields.area_scale = 1 / basis.area;
   m_fields.single_precision = single_precision;
   m_shape.set_weights(options, basis.sum_of_squares);
-  m_pool = std::make_shared<Pool>(options.threads);
-  m_log = Collapse_log(basis.F.rows());
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
@@ -81,9 +62,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow(const Spectral
   m_log.merge(removed, kept, weight, point);
   if(m_fields.is_kept(removed))
     m_fields.kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
-  merge_rows(m_fields.F, removed, kept, weight);
-  if(m_fields.has_z_rows())
-    merge_rows(m_fields.Z, removed, kept, weight);
+  m_fields.signals.merge(removed, kept, weight);
   if(m_fields.vanishes_at(removed))
     m_fields.vanishing[kept] = 1;
   if(!m_fields.coefficients.empty())
@@ -96,20 +75,19 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vec
 {
   set_input(std::move(points), std::move(rings)); // of a later run it keeps the positions and the rings alone
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
-  if(m_fields.R.empty())
-    m_fields.R.assign(n, m_number_of_signals);
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
-  m_pool->for_each(std::size_t(n), 256, [this](const std::size_t w, Workspace& workspace) {
+  for(Eigen::Index w = 0; w < n; ++w) {
     m_fields.rings.find_back(Spectral_slot(w));
     m_fields.update_triangles(Spectral_slot(w));
-    update_row(Spectral_slot(w), workspace.row);
-  });
+    update_row(Spectral_slot(w));
+  }
   if(m_options.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
+  m_last_kept = null_spectral_slot;
+  m_last_neighbor.assign(std::size_t(n), 0);
   m_total = Sum();
   m_total.add(m_fields.E.sum());
-  m_candidates.reset(std::size_t(n));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
@@ -122,53 +100,49 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() cons
   return sum / 3; // each triangle from its three corners
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_candidate
-Spectral_collapse_core::evaluate(Spectral_slot u, Spectral_slot v, Spectral_collapse_kernel& kernel,
-                                 const double bound, const bool for_queue) const
+CGAL_SPECTRAL_GEOMETRY_INLINE std::optional<double>
+Spectral_collapse_core::postponed_cost(const Spectral_slot u, const Spectral_slot v) const
 {
-  if(v < u)
-    std::swap(u, v);
-  Spectral_candidate result;
-  result.other = v;
-  if(!kernel.prepare(m_fields, u, v))
-    return result;
-  const Spectral_placement_search search = this->search(u, v);
-  Spectral_sample& sample = result;
-  if(for_queue && !m_options.exact_costs)
-    sample = search.at_large_end(kernel);
-  result.deferred = result.collapsible();
-  if(!result.deferred) {
-    sample = search.best(kernel, bound);
-    result.deferred = result.collapsible() && result.cost > bound;
+  if(u == m_last_kept || v == m_last_kept || m_last_kept == null_spectral_slot)
+    return {};
+  const double cost = m_fields.rings[u][m_fields.rings.find(u, v)].cost;
+  const bool inner = m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
+  const double factor = inner ? inner_postponing_factor : outer_postponing_factor;
+  return std::isfinite(cost) && cost > factor * m_recent_cost ? std::optional<double>(cost) : std::nullopt;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::evaluate(const Spectral_slot u,
+                                                                               const Spectral_slot v)
+{
+  ++m_number_of_evaluations;
+  Spectral_sample result; // of infinite cost
+  if(m_kernel.prepare(m_fields, u, v)) {
+    result = search(u, v).at_large_end(m_kernel);
+    if(!result.collapsible())
+      result = search(u, v).best(m_kernel);
   }
+  m_fields.rings[u][m_fields.rings.find(u, v)].cost = result.cost;
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE const Spectral_candidate&
-Spectral_collapse_core::candidate(Spectral_slot u, Spectral_slot v, const bool any_version)
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(const Spectral_slot u,
+                                                                             const Spectral_slot v)
 {
-  if(v < u)
-    std::swap(u, v);
-  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  const Spectral_candidate* found = m_candidates.find(u, v);
-  if(found == nullptr || (any_version ? found->deferred : found->version != m_candidates.version())) {
-    ++m_number_of_evaluations;
-    found = &m_candidates.insert(u, any_version ? evaluate(u, v, kernel)
-                                                : evaluate(u, v, kernel, minimiser_bound(), true));
+  ++m_number_of_evaluations;
+  if(!m_kernel.prepare(m_fields, u, v))
+    return Spectral_sample();
+  const Spectral_sample best = search(u, v).best(m_kernel);
+  if(!best.collapsible())
+    return best;
+  if(!crosses(u, v, best.point)) {
+    m_recent_cost = (std::max)(best.cost, m_recent_cost * recent_cost_decay);
+    return best;
   }
-  if(any_version && found->collapsible() && crosses(u, v, found->point)) {
-    ++m_number_of_evaluations;
-    Spectral_candidate apart;
-    apart.other = v;
-    apart.at_another_point = kernel.prepare(m_fields, u, v);
-    if(apart.at_another_point)
-      static_cast<Spectral_sample&>(apart) = search(u, v).best_on_edge(
-          kernel, crossing_factor * (std::max)(found->cost, m_recent_cost),
-          [&](const Eigen::Vector3d& point) { return point != found->point && !crosses(u, v, point); });
-    found = &m_candidates.insert(u, apart);
-    m_number_of_crossings += !found->collapsible();
-  }
-  return *found;
+  const Spectral_sample apart = search(u, v).best_on_edge(
+      m_kernel, crossing_factor * (std::max)(best.cost, m_recent_cost),
+      [&](const Eigen::Vector3d& point) { return point != best.point && !crosses(u, v, point); });
+  m_number_of_crossings += !apart.collapsible();
+  return apart;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE bool
@@ -180,13 +154,12 @@ Spectral_collapse_core::crosses(const Spectral_slot u, const Spectral_slot v, co
 CGAL_SPECTRAL_GEOMETRY_INLINE double
 Spectral_collapse_core::cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
 {
-  Spectral_collapse_kernel& kernel = m_pool->workspace().kernel;
-  if(!kernel.prepare(m_fields, u, v))
+  if(!m_kernel.prepare(m_fields, u, v))
     return std::numeric_limits<double>::infinity();
   ++m_number_of_evaluations;
   const Spectral_placement_search search = this->search(u, v);
   Spectral_sample sample{point, search.projected_weight(point)};
-  search.evaluate(kernel, &sample, 1);
+  search.evaluate(m_kernel, sample);
   return sample.cost;
 }
 
@@ -195,7 +168,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Spe
                                                                        const double weight,
                                                                        const Eigen::Vector3d& point)
 {
-  return m_pool->workspace().kernel.change(m_fields, u, v, weight, point);
+  return m_kernel.change(m_fields, u, v, weight, point);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double
@@ -205,82 +178,32 @@ Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_s
   return search(u, v).projected_weight(point);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE bool
-Spectral_collapse_core::evaluate_all(const std::function<bool(double)>& progress)
-{
-  const double bound = minimiser_bound();
-  const std::size_t n = m_fields.points.size(), chunk = 1024;
-  for(std::size_t first = 0; first < n; first += chunk) {
-    const std::size_t size = (std::min)(chunk, n - first);
-    m_pool->for_each(size, 16, [&](const std::size_t i, Workspace& workspace) {
-      const Spectral_slot u = Spectral_slot(first + i);
-      m_candidates.reserve(u, m_fields.rings.number_above(u));
-      for(const Spectral_ring_entry& e : m_fields.rings[u])
-        if(u < e.vertex)
-          m_candidates.insert(u, evaluate(u, e.vertex, workspace.kernel, bound, true));
-    });
-    for(std::size_t u = first; u < first + size; ++u)
-      m_number_of_evaluations += m_fields.rings.number_above(Spectral_slot(u));
-    if(!progress(double(first + size) / double(n)))
-      return false;
-  }
-  return true;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::evaluate_around(const Spectral_slot kept)
-{
-  defer_around(kept);
-  m_number_of_evaluations += m_batch.size();
-  const double bound = minimiser_bound();
-  m_pool->for_each(m_batch.size(), 2, [this, bound](const std::size_t i, Workspace& workspace) {
-    const auto [u, v] = m_batch[i];
-    m_candidates.insert(u, evaluate(u, v, workspace.kernel, bound, true));
-  });
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
                                const Eigen::Vector3d& point, Spectral_ring ring)
 {
-  const double before = total();
-  const double shape_cost = m_shape.cost(m_fields.points, removed, kept, point);
-  const double largest_loss = m_shape.largest_loss() * (m_fields.mass[removed] + m_fields.mass[kept]);
-  const Spectral_candidate* const candidate = m_candidates.find(removed, kept);
-  const bool at_another_point =
-      candidate != nullptr && candidate->at_another_point && candidate->point == point;
   follow(removed, kept, weight, point);
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
   m_fields.rings.merge(removed, kept, std::move(ring));
   m_fields.update_triangles(kept);
-  m_candidates.merge(removed);
-  for(std::size_t i = 0; i < m_fields.rings[kept].size(); ++i) {
+  for(std::size_t i = 0; i < m_fields.rings[kept].size(); ++i)
     m_fields.rings.follow(removed, kept, i);
-    m_candidates.forget(m_fields.rings[kept][i].vertex, removed);
-  }
+  m_last_kept = kept;
+  for(const Spectral_ring_entry& e : m_fields.rings[kept])
+    m_last_neighbor[e.vertex] = std::uint32_t(m_log.points().size());
   m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
   refresh_around(kept);
-  const double loss = (std::min)(total() - before, largest_loss);
-  m_recent_cost = (std::max)(at_another_point ? 0. : loss + shape_cost, m_recent_cost * recent_cost_decay);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::drop_candidates_around(const Spectral_slot kept)
-{
-  for(const Spectral_ring_entry& e : m_fields.rings[kept])
-    for(const Spectral_ring_entry& f : m_fields.rings[e.vertex])
-      m_candidates.forget(e.vertex, f.vertex);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 {
   Spectral_fields left;
-  left.lambda = m_fields.lambda; // it tells whether signals have rows of their own
   left.kept = m_fields.kept;
   m_fields = std::move(left);
   m_shape = Spectral_shape_term();
   m_crossing = Spectral_crossing_guard();
-  m_candidates = Spectral_candidates();
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search
@@ -289,28 +212,25 @@ Spectral_collapse_core::search(const Spectral_slot u, const Spectral_slot v) con
   return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w,
-                                                                      std::vector<Spectral_row_entry>& row)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w)
 {
   const Spectral_ring& ring = m_fields.rings[w];
   double area = 0, to_self = 0;
-  row.clear();
+  m_row.clear();
   for(std::size_t i = 0; i < ring.size(); ++i) {
     const Spectral_triangle &after = ring[i].triangle, &before = ring[Spectral_rings::prev(ring, i)].triangle;
     const double cot = (after.cot_second + before.cot_first) / 2;
-    row.push_back(Spectral_row_entry{
-        ring[i].vertex, Spectral_lanes{cot},
-        Spectral_lanes{(after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()}});
+    m_row.push_back({ring[i].vertex, cot,
+                     (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()});
     to_self -= cot;
     area += m_fields.area_of_center(after) * m_fields.area_scale;
   }
-  row.push_back(
-      Spectral_row_entry{w, Spectral_lanes{to_self}, Spectral_lanes{area * m_fields.diagonal_share()}});
+  m_row.push_back({w, to_self, area * m_fields.diagonal_share()});
   double square = 0;
   Spectral_geometry::internal::on_vector_units([&] {
-    const Spectral_row_entry *const first = row.data(), *const end = first + row.size();
-    spectral_combine_rows<1>(m_fields, first, m_fields.theta == 0 ? end - 1 : first, end, nullptr,
-                             m_fields.R[w], &square);
+    const Spectral_row_entry *const first = m_row.data(), *const end = first + m_row.size();
+    square = spectral_residual_row(m_fields.signals, first, m_fields.theta == 0 ? end - 1 : first, end,
+                                   nullptr, m_fields.signals[w]);
   });
   m_fields.mass[w] = area / 3;
   m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
@@ -323,39 +243,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const 
   const auto slot = [&](const std::size_t i) { return i == 0 ? kept : ring[i - 1].vertex; };
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(-m_fields.E[slot(i)]);
-  m_pool->for_each(
-      n, 1, [this, &slot](const std::size_t i, Workspace& workspace) { update_row(slot(i), workspace.row); });
+  for(std::size_t i = 0; i < n; ++i)
+    update_row(slot(i));
   for(std::size_t i = 0; i < n; ++i)
     m_total.add(m_fields.E[slot(i)]);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::minimiser_bound() const
-{
-  return m_options.placement == Spectral_placement_strategy::on_edge && !m_options.exact_costs
-             ? m_recent_cost
-             : std::numeric_limits<double>::infinity();
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::defer_around(const Spectral_slot kept)
-{
-  m_batch.clear();
-  m_marks.resize(m_fields.points.size(), 0);
-  ++m_mark;
-  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
-    m_marks[neighbor.vertex] = m_mark;
-  // An edge between two neighbours is in both of their rings.
-  for(const Spectral_ring_entry& neighbor : m_fields.rings[kept])
-    for(const Spectral_ring_entry& e : m_fields.rings[neighbor.vertex]) {
-      const bool inner = m_marks[e.vertex] == m_mark;
-      if(inner && e.vertex < neighbor.vertex)
-        continue;
-      const auto [u, v] = std::minmax(neighbor.vertex, e.vertex);
-      const bool at_once = m_options.exact_costs || e.vertex == kept;
-      const double factor = inner ? inner_deferral_factor : outer_deferral_factor;
-      if(!m_candidates.defer(u, v,
-                             at_once ? std::numeric_limits<double>::infinity() : factor * m_recent_cost))
-        m_batch.emplace_back(u, v);
-    }
 }
 
 } // namespace CGAL::Surface_mesh_simplification::internal

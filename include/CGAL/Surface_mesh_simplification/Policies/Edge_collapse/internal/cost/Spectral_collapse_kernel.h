@@ -5,9 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_candidates.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
@@ -22,6 +20,19 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
+/// A way to collapse an edge (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.
+///
+/// The weight belongs to a slot, never to an end of a halfedge: the direction in which CGAL presents the same edge can
+/// change after a collapse nearby.
+struct Spectral_sample
+{
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double weight = 0;
+  double cost = std::numeric_limits<double>::infinity();
+
+  bool collapsible() const { return std::isfinite(cost); }
+};
+
 /*!
  * The local cost of collapsing one edge: cost = sum over H of E_w after - sum over H of E_w before,
  * where H is the merged vertex and its link (section 3.3 of the paper).
@@ -32,22 +43,19 @@ namespace CGAL::Surface_mesh_simplification::internal {
  *       \ /    \ /    \ /          changes:   (u; a0 a1), (v; b1 b2), ... become (x; ., .), the outer triangles
  *        .  --- t ---- .           H = {x} + link, whose E_w a collapse changes
  *
- * The row of x is summed anew. For a vertex w of the link R_w after is R_w plus what its triangles around u and v give after and gave
- * before: a combination of a few rows of F and Z, however many neighbours w has. Where a vertex of many neighbours stays where it is with
- * its values, so is its own row, and of its neighbours only those change that the other end shares. Up to four samples are combined
- * side by side.
+ * The row of x is summed anew. For a vertex w of the link, R_w after is R_w plus what its triangles around u and v give after
+ * less what they gave before: a combination of a few rows of F and Z, however many neighbours w has. An end that stays where it
+ * is, with its values, keeps its triangles: its own row changes as those of the link do, and of its neighbours only those
+ * change that the other end shares.
  *
- * The object holds the scratch memory of one thread; it allocates only while a larger ring than any
- * before comes along.
+ * The object holds scratch memory; it allocates only when a ring is larger than any before.
  */
 class Spectral_collapse_kernel
 {
 public:
-  static constexpr int max_samples = 4;
-
-  /// Sets the edge and says whether it may be collapsed: CGAL's link condition, and its refusal of inner edges between border vertices.
-  /// Both depend only on the rings of u and v, and whenever those change CGAL costs the edge again. Unless it may, nothing may be
-  /// evaluated. In time linear in the smaller ring and those of its vertices, but for the border of the larger one.
+  /// Sets the edge and says whether it may be collapsed: CGAL's link condition, and its refusal of inner edges between border
+  /// vertices. Both depend only on the rings of u and v, and whenever those change CGAL costs the edge again. Unless it may,
+  /// nothing may be evaluated. In time linear in the smaller ring and those of its vertices, but for the border of the larger.
   bool prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
   {
     m_fields = &fields;
@@ -70,20 +78,16 @@ public:
     return !(ring[o_in_c].face && ring[before].face && rings.is_border(c) && rings.is_border(o));
   }
 
-  /// Fills `cost` of up to four samples; infinity where a triangle without area would arise.
-  void evaluate(Spectral_sample* samples, const int count)
+  /// Fills the cost of a sample; infinity where a triangle without area would arise.
+  void evaluate(Spectral_sample& sample)
   {
-    CGAL_precondition(count >= 1 && count <= max_samples);
     Spectral_geometry::internal::on_vector_units([&] {
       if(m_fields->theta == 0)
-        evaluate_body<false>(samples, count);
+        evaluate_body<false>(sample);
       else
-        evaluate_body<true>(samples, count);
+        evaluate_body<true>(sample);
     });
-    for(int s = 0; s < count; ++s)
-      samples[s].cost = m_invalid[s] != 0 || !std::isfinite(m_change[s])
-                            ? std::numeric_limits<double>::infinity()
-                            : m_change[s];
+    sample.cost = m_invalid || !std::isfinite(m_change) ? std::numeric_limits<double>::infinity() : m_change;
   }
 
   /// The change of E that a collapse makes, whatever triangles arise. Needs no prepare().
@@ -92,33 +96,15 @@ public:
   {
     prepare(fields, u, v);
     Spectral_sample sample{point, weight};
-    evaluate(&sample, 1);
-    return m_change[0];
+    evaluate(sample);
+    return m_change;
   }
 
 private:
-  using Lanes = Spectral_lanes;
   using Entry = Spectral_row_entry;
   using Slot = Spectral_slot;
 
-  // A `Spectral_triangle` for each sample.
-  struct Triangles
-  {
-    Lanes cot_center, cot_first, cot_second, area;
-
-    CGAL_SPECTRAL_INLINE void set(const int s, const Spectral_triangle& t)
-    {
-      cot_center[s] = t.cot_center;
-      cot_first[s] = t.cot_first;
-      cot_second[s] = t.cot_second;
-      area[s] = t.area;
-    }
-  };
-
   const Spectral_ring& ring(const int end) const { return m_fields->rings[m_end[end]]; }
-
-  // Whether what lies around an end is left as it is, but for what the other end shares.
-  bool is_left(const int end) const { return end == m_left; }
 
   // Whether the i-th triangle around an end survives the collapse.
   bool is_outer(const int end, const std::size_t i) const
@@ -129,89 +115,67 @@ private:
 
   // `Full`: with a mass that has off-diagonal entries.
   template <bool Full>
-  CGAL_SPECTRAL_INLINE void evaluate_body(const Spectral_sample* samples, const int count)
+  CGAL_SPECTRAL_INLINE void evaluate_body(const Spectral_sample& sample)
   {
-    m_count = count;
+    m_weight = sample.weight;
+    m_change = -m_fields->E[m_end[0]] - m_fields->E[m_end[1]];
+    m_invalid = false;
+    m_staying = -1;
     for(int end = 0; end < 2; ++end)
-      m_number_moving[end] = 0;
-    for(int s = 0; s < max_samples; ++s) {
-      const Spectral_sample& sample = samples[s < count ? s : 0];
-      m_weight[s] = sample.weight;
-      for(int c = 0; c < 3; ++c)
-        m_point[c][s] = sample.point[c];
-      m_change[s] = -m_fields->E[m_end[0]] - m_fields->E[m_end[1]];
-      m_invalid[s] = 0;
-      for(int end = 0; end < 2; ++end)
-        if(s < count && (sample.weight != double(end) || sample.point != m_fields->points[m_end[end]]))
-          m_moving[end][m_number_moving[end]++] = s;
-    }
-    const int larger = ring(0).size() >= ring(1).size() ? 0 : 1;
-    const bool hub_stays = m_fields->is_hub(m_end[larger]) && m_number_moving[larger] == 0;
-    m_left = hub_stays ? larger : -1;
+      if(sample.weight == double(end) && sample.point == m_fields->points[m_end[end]])
+        m_staying = end;
+    m_off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
+    m_row.resize((std::max)(m_row.size(), ring(0).size() + ring(1).size() + 8));
     for(int end = 0; end < 2; ++end)
-      if(!is_left(end))
-        set_outer_triangles(end, samples);
+      if(end != m_staying)
+        set_outer_triangles(end, sample);
     add_merged_vertex<Full>();
     for(int end = 0; end < 2; ++end)
-      for(std::size_t i = 0; !is_left(end) && i < ring(end).size(); ++i)
+      for(std::size_t i = 0; end != m_staying && i < ring(end).size(); ++i)
         if(i != m_other_in[end])
           add_link_vertex<Full>(end, i);
   }
 
-  CGAL_SPECTRAL_INLINE void set_outer_triangles(const int end, const Spectral_sample* samples)
+  CGAL_SPECTRAL_INLINE void set_outer_triangles(const int end, const Spectral_sample& sample)
   {
     const Spectral_ring& around = ring(end);
-    if(m_outer[end].size() < around.size())
-      m_outer[end].resize(around.size());
-    if(m_row.size() < ring(0).size() + ring(1).size() + 8)
-      m_row.resize(ring(0).size() + ring(1).size() + 8);
+    m_outer[end].resize((std::max)(m_outer[end].size(), around.size()));
     for(std::size_t i = 0; i < around.size(); ++i) {
-#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-      // The row that add_link_vertex() will read: by then it has arrived.
-      for(Eigen::Index k = 0; k < m_fields->R.cols(); k += spectral_padding)
-        __builtin_prefetch(m_fields->R[around[i].vertex] + k);
-#endif
       if(!is_outer(end, i))
         continue;
-      const Slot a = around[i].vertex, b = around[Spectral_rings::next(around, i)].vertex;
-      Lanes failed = {};
-      if(m_fields->coefficients.empty())
-        set_triangles(m_fields->points[a], m_fields->points[b], m_outer[end][i], failed);
-      else
-        for(int s = 0; s < m_count; ++s) {
-          const Spectral_triangle t = triangle(samples[s], a, b);
-          m_outer[end][i].set(s, t);
-          failed[s] = is_degenerate(t);
-        }
-      if(!is_degenerate(around[i].triangle))
-        m_invalid += failed;
+      const Spectral_triangle& t = m_outer[end][i] =
+          triangle(sample, around[i].vertex, around[Spectral_rings::next(around, i)].vertex);
+      if(is_degenerate(t) && !is_degenerate(around[i].triangle))
+        m_invalid = true;
     }
   }
 
-  // Those with the corners x, a, b. 1 is added to `failed` where one would have no area, to doubles.
-  CGAL_SPECTRAL_INLINE void set_triangles(const Eigen::Vector3d& pa, const Eigen::Vector3d& pb, Triangles& t,
-                                          Lanes& failed) const
-  {
-    const Eigen::Vector3d ab = pb - pa;
-    const Lanes a[3] = {pa[0] - m_point[0], pa[1] - m_point[1], pa[2] - m_point[2]};
-    const Lanes b[3] = {pb[0] - m_point[0], pb[1] - m_point[1], pb[2] - m_point[2]};
-    Lanes at_x, at_a, at_b, square, inverse;
-    Spectral_geometry::internal::triangle_products(a, ab, b, at_x, at_a, at_b, square);
-    const Lanes sum = at_x + at_a + at_b; // of the cotangents, times twice the area
-    constexpr double limit = Spectral_triangle::degenerate_cotangent;
-    const Lanes bound = sum * sum * (1 / (limit * limit));
-    spectral_inverse_sqrt(inverse, square, bound, failed);
-    t = Triangles{at_x * inverse, at_a * inverse, at_b * inverse, square * inverse * 0.5};
-  }
-
-  Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
+  // The triangle (x; a, b).
+  CGAL_SPECTRAL_INLINE Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
   {
     const Spectral_fields& fields = *m_fields;
+    if(fields.coefficients.empty())
+      return triangle(x.point, fields.points[a], fields.points[b]);
     const Spectral_geometry::internal::Point_coefficients of_x =
         (1 - x.weight) * fields.coefficients[m_end[0]] + x.weight * fields.coefficients[m_end[1]];
     const Spectral_geometry::internal::Point_coefficients mean =
         (of_x + fields.coefficients[a] + fields.coefficients[b]) / 3;
     return spectral_triangle(x.point, fields.points[a], fields.points[b], &mean);
+  }
+
+  // `spectral_triangle()` without its search for the longest edge; a triangle whose area doubles cannot tell has none.
+  CGAL_SPECTRAL_INLINE static Spectral_triangle triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
+                                                         const Eigen::Vector3d& b)
+  {
+    const double xa[3] = {a[0] - x[0], a[1] - x[1], a[2] - x[2]};
+    const double xb[3] = {b[0] - x[0], b[1] - x[1], b[2] - x[2]};
+    const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    double at_x, at_a, at_b, square;
+    Spectral_geometry::internal::triangle_products(xa, ab, xb, at_x, at_a, at_b, square);
+    constexpr double limit = Spectral_triangle::degenerate_cotangent;
+    const double sum = at_x + at_a + at_b; // of the cotangents, times twice the area
+    const double inverse = square > sum * sum * (1 / (limit * limit)) ? 1 / std::sqrt(square) : 0.;
+    return {at_x * inverse, at_a * inverse, at_b * inverse, square * inverse * 0.5};
   }
 
   bool is_degenerate(const Spectral_triangle& t) const
@@ -220,35 +184,36 @@ private:
                               Spectral_triangle::degenerate_cotangent * m_fields->conductivity);
   }
 
-  // E_x. Where a hub stays its row is what it was and what the triangles around the other end change.
+  // E_x. The row of an end that stays is what it was and what the triangles around the other end change.
   template <bool Full>
   CGAL_SPECTRAL_INLINE void add_merged_vertex()
   {
-    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
-    Lanes to_self = {}, area = {};
-    double lost = 0, lost_area = 0; // in the row of the hub, of the other end
+    double to_self = 0, area = 0;
+    double lost = 0, lost_area = 0; // in the row of an end that stays, of the other end
     m_size = 2;
-    for(int end = 0; end < 2; ++end)
-      for(std::size_t i = 0; !is_left(end) && i < ring(end).size(); ++i) {
-        const Spectral_ring& around = ring(end);
-        const std::size_t before = Spectral_rings::prev(around, i);
-        Lanes cot = {}, both_areas = {};
+    for(int end = 0; end < 2; ++end) {
+      if(end == m_staying)
+        continue;
+      const Spectral_ring& around = ring(end);
+      std::size_t before = around.size() - 1;
+      for(std::size_t i = 0; i < around.size(); before = i++) {
+        double cot = 0, both_areas = 0;
         if(is_outer(end, i)) {
-          const Triangles& t = m_outer[end][i];
+          const Spectral_triangle& t = m_outer[end][i];
           cot += t.cot_second;
           both_areas += t.area;
-          add_area(t, t.cot_center, t.cot_first, t.cot_second, area);
-        } else if(m_left >= 0 &&
-                  around[i].face) { // a triangle of the edge, of which the hub is the first or second corner
+          area += m_fields->area_of_center(t);
+        } else if(m_staying >= 0 &&
+                  around[i]
+                      .face) { // a triangle of the edge; the end that stays is its first or second corner
           const Spectral_triangle& t = around[i].triangle;
           const bool is_first = i == m_other_in[end];
-          Entry& e = m_row[m_size++];
-          e.vertex = around[is_first ? Spectral_rings::next(around, i) : i].vertex;
-          e.of_f = Lanes{} - t.cot_center / 2;
-          e.of_z = Lanes{} - t.area * off_diagonal;
-          lost += (is_first ? t.cot_second : t.cot_first) / 2;
-          lost_area += t.area * off_diagonal;
-          to_self += t.cot_center / 2 + (is_first ? t.cot_second : t.cot_first) / 2;
+          const double at_third = (is_first ? t.cot_second : t.cot_first) / 2;
+          m_row[m_size++] = {around[is_first ? Spectral_rings::next(around, i) : i].vertex, -t.cot_center / 2,
+                             -t.area * m_off_diagonal};
+          lost += at_third;
+          lost_area += t.area * m_off_diagonal;
+          to_self += t.cot_center / 2 + at_third;
           area -= m_fields->area_of_center(is_first ? t.from_first() : t.from_second());
         }
         if(i == m_other_in[end])
@@ -257,20 +222,18 @@ private:
           cot += m_outer[end][before].cot_first;
           both_areas += m_outer[end][before].area;
         }
-        Entry& e = m_row[m_size++];
-        e.vertex = around[i].vertex;
-        e.of_f = cot * 0.5;
-        e.of_z = both_areas * off_diagonal;
-        to_self -= e.of_f;
+        m_row[m_size++] = {around[i].vertex, cot / 2, both_areas * m_off_diagonal};
+        to_self -= cot / 2;
       }
+    }
     area *= m_fields->area_scale;
     set_ends(to_self, area * m_fields->diagonal_share());
-    if(m_left >= 0) {
-      m_row[1 - m_left].of_f -= lost;
-      m_row[1 - m_left].of_z -= lost_area;
+    if(m_staying >= 0) {
+      m_row[1 - m_staying].of_f -= lost;
+      m_row[1 - m_staying].of_z -= lost_area;
     }
     const bool vanishes = m_fields->vanishes_at(m_end[0]) || m_fields->vanishes_at(m_end[1]);
-    add_term<true>(m_left >= 0 ? m_end[m_left] : null_spectral_slot, area, vanishes, all_samples, m_count);
+    add_term<true>(m_staying >= 0 ? m_end[m_staying] : null_spectral_slot, area, vanishes);
   }
 
   // E_w after less before, of the i-th neighbour of an end. Those of both are met first around u.
@@ -280,52 +243,39 @@ private:
     const Spectral_ring &around = ring(end), &around_other = ring(1 - end);
     const std::size_t o = m_other_in[end], at_other = m_other_in[1 - end];
     const bool is_after = i == Spectral_rings::next(around, o) && around[o].face,
-               is_before = i == Spectral_rings::prev(around, o) && around[i].face,
-               is_both = is_after || is_before;
-    if(is_both && end == 1 && m_left < 0)
+               is_before = i == Spectral_rings::prev(around, o) && around[i].face;
+    const bool is_both = is_after || is_before;
+    if(is_both && end == 1 && m_staying < 0)
       return;
     Change change;
     m_size = 2;
     add_corner<Full>(end, i, true, change);
-    if(is_both && !is_left(1 - end))
+    if(is_both && m_staying < 0)
       add_corner<Full>(1 - end,
                        is_after ? Spectral_rings::prev(around_other, at_other)
                                 : Spectral_rings::next(around_other, at_other),
                        false, change);
-    const double off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
-    set_ends(change.to_x, change.area_at_x * off_diagonal);
-    Lanes to_self = {};
+    set_ends(change.to_x, change.area_at_x * m_off_diagonal);
+    double to_self = 0;
     for(int c = 0; c < 2; ++c) {
       m_row[c].of_f -= change.lost[c];
-      if(Full)
-        m_row[c].of_z -= change.lost_area[c] * off_diagonal;
+      m_row[c].of_z -= change.lost_area[c] * m_off_diagonal;
     }
     for(std::size_t e = 0; e < m_size; ++e)
       to_self -= m_row[e].of_f;
     const Slot w = around[i].vertex;
     change.area *= m_fields->area_scale;
-    m_row[m_size++] = Entry{w, to_self, change.area * m_fields->diagonal_share()};
-    // Where its end stays as it is so does the row of one that is next to no other.
-    const int* const samples = is_both ? all_samples : m_moving[end];
-    const int count = is_both ? m_count : m_number_moving[end];
-    for(int j = 0; j < count; ++j)
-      m_change[samples[j]] -= m_fields->E[w];
-    add_term<Full>(w, change.area, m_fields->vanishes_at(w), samples, count);
+    m_row[m_size++] = {w, to_self, change.area * m_fields->diagonal_share()};
+    m_change -= m_fields->E[w];
+    add_term<Full>(w, change.area, m_fields->vanishes_at(w));
   }
 
-  // Of the row of a vertex of the link, beside the entries for others: what its triangles with x bring, and what those with u and v
-  // took away.
+  // In the row of a vertex of the link, beside the entries for others: what its triangles with x bring, and what those with
+  // u and v took away.
   struct Change
   {
-    Lanes to_x, area_at_x, area;
-    double lost[2], lost_area[2];
-
-    // Assigned, because compilers clear what is initialised with zeros by a string instruction, which takes longer.
-    Change()
-    {
-      to_x = area_at_x = area = Lanes{};
-      lost[0] = lost[1] = lost_area[0] = lost_area[1] = 0;
-    }
+    double to_x = 0, area_at_x = 0, area = 0;
+    double lost[2] = {}, lost_area[2] = {};
   };
 
   // What the triangles at the i-th neighbour of an end bring and take away. Those of the edge are in both rings.
@@ -349,84 +299,45 @@ private:
         change.lost_area[1 - end] += old.area;
         continue;
       }
-      const Triangles& t = m_outer[end][j];
-      Entry& e = m_row[m_size++];
-      e.vertex = around[neighbor].vertex;
-      e.of_f = (t.cot_center - old.cot_center) * 0.5;
-      if(Full)
-        e.of_z = (t.area - old.area) * (m_fields->off_diagonal_share() * m_fields->area_scale);
-      change.to_x += (is_first ? t.cot_second : t.cot_first) * 0.5;
+      const Spectral_triangle& t = m_outer[end][j];
+      m_row[m_size++] = {around[neighbor].vertex, (t.cot_center - old.cot_center) / 2,
+                         (t.area - old.area) * m_off_diagonal};
+      change.to_x += (is_first ? t.cot_second : t.cot_first) / 2;
       change.area_at_x += t.area;
-      add_area(t, is_first ? t.cot_first : t.cot_second, t.cot_center, is_first ? t.cot_second : t.cot_first,
-               change.area);
+      change.area += m_fields->area_of_center(is_first ? t.from_first() : t.from_second());
     }
   }
 
-  // What a triangle gives to the mass of a corner with a cotangent c, a and b being those of the others.
-  CGAL_SPECTRAL_INLINE void add_area(const Triangles& t, const Lanes& c, const Lanes& a, const Lanes& b,
-                                     Lanes& area) const
-  {
-    if(!m_fields->voronoi)
-      area += t.area;
-    else
-      for(int s = 0; s < m_count; ++s)
-        area[s] += m_fields->area_of_center({c[s], a[s], b[s], t.area[s]});
-  }
-
   // The merged vertex has no rows yet: those of both ends, with their weights, take their place.
-  CGAL_SPECTRAL_INLINE void set_ends(const Lanes& of_f, const Lanes& of_z)
+  void set_ends(const double of_f, const double of_z)
   {
-    const Lanes rest = 1. - m_weight;
-    m_row[0] = Entry{m_end[0], rest * of_f, rest * of_z};
-    m_row[1] = Entry{m_end[1], m_weight * of_f, m_weight * of_z};
+    m_row[0] = {m_end[0], (1 - m_weight) * of_f, (1 - m_weight) * of_z};
+    m_row[1] = {m_end[1], m_weight * of_f, m_weight * of_z};
   }
 
   // E of the row that has been gathered: all of it, or what is new in that of w. Where functions vanish there is none.
   template <bool Full>
-  CGAL_SPECTRAL_INLINE void add_term(const Slot w, const Lanes& area, const bool vanishes, const int* samples,
-                                     const int count)
+  CGAL_SPECTRAL_INLINE void add_term(const Slot w, const double area, const bool vanishes)
   {
     const bool is_new = w == null_spectral_slot;
-    const double* const start = is_new ? nullptr : m_fields->R[w];
-    Entry *const row = m_row.data(), *const end = row + m_size, *const first_of_z = Full ? row : end - 1;
-    if(count != m_count)
-      for(Entry* e = row; e != end; ++e)
-        for(int j = 0; j < count; ++j) {
-          e->of_f[j] = e->of_f[samples[j]];
-          if(e >= first_of_z)
-            e->of_z[j] = e->of_z[samples[j]];
-        }
-    double square[max_samples];
-    if(count == 1)
-      spectral_combine_rows<1>(*m_fields, row, first_of_z, end, start, nullptr, square);
-    else if(count == 2)
-      spectral_combine_rows<2>(*m_fields, row, first_of_z, end, start, nullptr, square);
-    else if(count == 3)
-      spectral_combine_rows<3>(*m_fields, row, first_of_z, end, start, nullptr, square);
-    else if(count == 4)
-      spectral_combine_rows<4>(*m_fields, row, first_of_z, end, start, nullptr, square);
-    for(int j = 0; j < count; ++j) {
-      const int s = samples[j];
-      const double mass = (is_new ? 0. : m_fields->mass[w]) + area[s] / 3;
-      m_invalid[s] += !(mass > 0);
-      if(mass > 0 && !vanishes)
-        m_change[s] += square[j] / mass;
-    }
+    const Entry *const row = m_row.data(), *const end = row + m_size;
+    const double square =
+        spectral_residual_row(m_fields->signals, row, Full ? row : end - 1, end,
+                              is_new ? nullptr : m_fields->signals[w], static_cast<Spectral_block*>(nullptr));
+    const double mass = (is_new ? 0. : m_fields->mass[w]) + area / 3;
+    m_invalid = m_invalid || !(mass > 0);
+    if(mass > 0 && !vanishes)
+      m_change += square / mass;
   }
-
-  static constexpr int all_samples[max_samples] = {0, 1, 2, 3};
 
   const Spectral_fields* m_fields = nullptr;
   Slot m_end[2] = {null_spectral_slot, null_spectral_slot}; // u and v
   std::size_t m_other_in[2] = {0, 0}; // the place of v in the ring of u, of u in that of v
-  int m_left = -1;                    // the hub that stays, 0 or 1 for u or v, or none
-  int m_count = 0;                    // of samples; what follows is for each of them
-  int m_moving[2][max_samples] = {}, m_number_moving[2] = {}; // those that do not leave an end as it is
-  Lanes m_weight = {}, m_point[3] = {};
-  double m_change[max_samples] = {};
-  Lanes m_invalid = {};              // not 0: a triangle or a vertex would lose its area
-  std::vector<Triangles> m_outer[2]; // those that survive, (x; a, b)
-  std::vector<Entry> m_row;          // for u, for v, for others
+  int m_staying = -1;                 // the end that stays with its values, 0 or 1 for u or v, or none
+  double m_weight = 0, m_off_diagonal = 0, m_change = 0;
+  bool m_invalid = false;                    // a triangle or a vertex would lose its area
+  std::vector<Spectral_triangle> m_outer[2]; // those that survive, (x; a, b)
+  std::vector<Entry> m_row;                  // for u, for v, for others
   std::size_t m_size = 0;
 };
 

@@ -5,10 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_lanes.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_signals.h>
 
-#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
 
 #include <Eigen/Core>
@@ -18,47 +17,6 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-using Spectral_geometry::internal::Aligned_buffer;
-using Spectral_geometry::internal::cache_line;
-
-/// The rows of F, Z and R are padded with zeros to a multiple of this.
-constexpr std::size_t spectral_padding = cache_line / sizeof(double);
-
-/// A matrix whose rows begin with a cache line each.
-class Spectral_rows
-{
-public:
-  /// All zero; `length` before padding.
-  void assign(const Eigen::Index rows, const Eigen::Index length)
-  {
-    constexpr Eigen::Index multiple = spectral_padding;
-    m_rows = rows;
-    m_cols = (length + multiple - 1) / multiple * multiple;
-    m_numbers.assign(std::size_t(m_rows * m_cols), 0.);
-  }
-
-  void assign(const Eigen::MatrixXd& matrix)
-  {
-    assign(matrix.rows(), matrix.cols());
-    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    Eigen::Map<Rows>(data(), m_rows, m_cols).leftCols(matrix.cols()) = matrix;
-  }
-
-  bool empty() const { return m_rows == 0 || m_cols == 0; }
-  Eigen::Index cols() const { return m_cols; }
-  const double* data() const { return m_numbers.data(); }
-  double* data() { return m_numbers.data(); }
-
-  const double* operator[](const std::size_t i) const { return data() + i * std::size_t(m_cols); }
-  double* operator[](const std::size_t i) { return data() + i * std::size_t(m_cols); }
-  Eigen::Map<const Eigen::RowVectorXd> row(const std::size_t i) const { return {(*this)[i], m_cols}; }
-  Eigen::Map<Eigen::RowVectorXd> row(const std::size_t i) { return {(*this)[i], m_cols}; }
-
-private:
-  Aligned_buffer m_numbers;
-  Eigen::Index m_rows = 0, m_cols = 0;
-};
-
 /*!
  * The current mesh and what lives on it, in slots: for each slot w the rows f_w, z_w and
  * R_w = (B Z)_w - (L F)_w, the mass M_w and E_w = |R_w|^2 / M_w (Eq. 2, decomposed by vertex).
@@ -66,12 +24,9 @@ private:
  */
 struct Spectral_fields
 {
-  Spectral_rows F;      ///< n x padded K
-  Spectral_rows Z;      ///< the same, or empty where Z = F Lambda
-  Spectral_rows lambda; ///< 1 x padded K, read where Z is empty
-  Spectral_rows R;      ///< n x padded K
-  Eigen::VectorXd mass; ///< lumped M_w
-  Eigen::VectorXd E;    ///< E_w
+  Spectral_signals signals; ///< F, Z and R, or mixtures of their columns
+  Eigen::VectorXd mass;     ///< lumped M_w
+  Eigen::VectorXd E;        ///< E_w
   std::vector<Eigen::Vector3d> points;
   Spectral_rings rings;
   double theta = 0;     ///< B = (1 - theta) M_lumped + theta M_consistent
@@ -138,8 +93,6 @@ struct Spectral_fields
   // Shares of a triangle's area: row sums of B stay A / 3 per corner.
   double diagonal_share() const { return (1 - theta) / 3 + theta / 6; }
   double off_diagonal_share() const { return theta / 12; }
-
-  bool has_z_rows() const { return lambda.empty(); }
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

@@ -36,15 +36,14 @@ public:
     , m_v(v)
   {}
 
-  /// Fills the costs of up to four samples: the change of E and what the shape term adds.
-  void evaluate(Spectral_collapse_kernel& kernel, Spectral_sample* samples, const int count) const
+  /// Fills the cost of a sample: the change of E and what the shape term adds.
+  void evaluate(Spectral_collapse_kernel& kernel, Spectral_sample& sample) const
   {
-    kernel.evaluate(samples, count);
-    const double largest = m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v]);
-    for(int s = 0; s < count; ++s)
-      if(std::isfinite(samples[s].cost))
-        samples[s].cost =
-            (std::min)(samples[s].cost, largest) + m_shape.cost(m_fields.points, m_u, m_v, samples[s].point);
+    kernel.evaluate(sample);
+    if(sample.collapsible())
+      sample.cost =
+          (std::min)(sample.cost, m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v])) +
+          m_shape.cost(m_fields.points, m_u, m_v, sample.point);
   }
 
   /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
@@ -55,26 +54,25 @@ public:
   }
 
   /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
-  /// there. Where all three samples cost more than `bound`, the best of them.
-  Spectral_sample best(Spectral_collapse_kernel& kernel, const double bound) const
+  /// there.
+  Spectral_sample best(Spectral_collapse_kernel& kernel) const
   {
-    Spectral_sample samples[3];
     const Fixed_ends fixed = fixed_ends();
     if(fixed.u && fixed.v)
       return Spectral_sample(); // of infinite cost
-    if(fixed.u || fixed.v || m_options.placement == Spectral_placement_strategy::midpoint) {
-      samples[0] = sample_at(fixed.u ? 0. : fixed.v ? 1. : 0.5);
-      evaluate(kernel, samples, 1);
-      return samples[0];
-    }
+    if(fixed.u || fixed.v || m_options.placement == Spectral_placement_strategy::midpoint)
+      return evaluated(kernel, sample_at(fixed.u ? 0. : fixed.v ? 1. : 0.5));
     const bool free = m_options.placement == Spectral_placement_strategy::free && !fixed.on_border;
-    if(free && !m_shape.is_empty())
-      return best_by_shape(kernel);
+    if(free && !m_shape.is_empty()) {
+      const Spectral_sample at_minimum = evaluated(kernel, sample_off_edge(minimiser_of_shape()));
+      if(at_minimum.collapsible())
+        return at_minimum;
+    }
+    Spectral_sample samples[3];
     for(int s = 0; s < 3; ++s)
-      samples[s] = sample_at(s / 2.);
-    evaluate(kernel, samples, 3);
+      samples[s] = evaluated(kernel, sample_at(s / 2.));
     Spectral_sample best = *cheapest(samples, 3);
-    if(best.cost > bound)
+    if(free && !m_shape.is_empty())
       return best;
 
     // p(alpha) = c0 + b alpha + a alpha^2
@@ -82,8 +80,7 @@ public:
     const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
     const double alpha = -b / (2 * a);
     if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
-      Spectral_sample minimiser = sample_at(alpha);
-      evaluate(kernel, &minimiser, 1);
+      const Spectral_sample minimiser = evaluated(kernel, sample_at(alpha));
       if(minimiser.cost < best.cost)
         best = minimiser;
     }
@@ -95,17 +92,14 @@ public:
   /// The end of more neighbours stays where it is, which nearly always costs least at a hub. Infinite cost elsewhere.
   Spectral_sample at_large_end(Spectral_collapse_kernel& kernel) const
   {
-    Spectral_sample sample;
     if((!m_fields.is_hub(m_u) && !m_fields.is_hub(m_v)) ||
        m_options.placement == Spectral_placement_strategy::midpoint)
-      return sample;
+      return Spectral_sample();
     const bool more_at_u = m_fields.rings[m_u].size() >= m_fields.rings[m_v].size();
     const Fixed_ends fixed = fixed_ends();
     if(more_at_u ? fixed.v : fixed.u)
-      return sample;
-    sample = sample_at(more_at_u ? 0. : 1.);
-    evaluate(kernel, &sample, 1);
-    return sample;
+      return Spectral_sample();
+    return evaluated(kernel, sample_at(more_at_u ? 0. : 1.));
   }
 
   /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true, unless it costs more than
@@ -119,10 +113,7 @@ public:
     int count = 0;
     for(int s = 0; s < 3; ++s)
       if((!fixed.u || s == 0) && (!fixed.v || s == 2))
-        samples[count++] = sample_at(s / 2.);
-    if(count == 0)
-      return Spectral_sample(); // of infinite cost
-    evaluate(kernel, samples, count);
+        samples[count++] = evaluated(kernel, sample_at(s / 2.));
     for(; count > 0; --count) {
       Spectral_sample* const best = cheapest(samples, count);
       if(!std::isfinite(best->cost) || best->cost > bound)
@@ -135,6 +126,12 @@ public:
   }
 
 private:
+  Spectral_sample evaluated(Spectral_collapse_kernel& kernel, Spectral_sample sample) const
+  {
+    evaluate(kernel, sample);
+    return sample;
+  }
+
   static Spectral_sample* cheapest(Spectral_sample* samples, const int count)
   {
     return std::min_element(samples, samples + count,
@@ -188,23 +185,17 @@ private:
     return normal;
   }
 
-  // Free placement with a shape term: its minimiser, or what is cheaper of the ends and the middle, which the kernel evaluates
-  // at the same time. Where E has its least hardly matters then: ten samples around the edge and their quadric lower
-  // |C|_L by 3 % and take twice as long (twelve meshes).
-  Spectral_sample best_by_shape(Spectral_collapse_kernel& kernel) const
+  // The point of least shape term, no farther from the middle of the edge than its length. One sample is enough: the
+  // cheapest of this point, the ends and the middle gave the same norms and took twice as long; ten samples around the edge
+  // and their quadric lowered |C|_L by 3 % and took four times as long (twelve meshes, before relocation).
+  Eigen::Vector3d minimiser_of_shape() const
   {
     const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
-    const Eigen::Vector3d middle = (pu + pv) / 2;
-    const double radius = (pv - pu).norm();
-    Eigen::Vector3d x = m_shape.minimiser(m_u, m_v);
-    const double distance = (x - middle).norm();
-    if(distance > radius)
-      x = middle + radius / distance * (x - middle);
-    constexpr int n = Spectral_collapse_kernel::max_samples;
-    Spectral_sample samples[n] = {sample_at(0), sample_at(0.5), sample_at(1),
-                                  sample_off_edge(x.allFinite() ? x : middle)};
-    evaluate(kernel, samples, n);
-    return *cheapest(samples, n);
+    const Eigen::Vector3d middle = (pu + pv) / 2, x = m_shape.minimiser(m_u, m_v);
+    const double radius = (pv - pu).norm(), distance = (x - middle).norm();
+    if(!x.allFinite())
+      return middle;
+    return distance > radius ? Eigen::Vector3d(middle + radius / distance * (x - middle)) : x;
   }
 
   // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
@@ -221,9 +212,7 @@ private:
     double costs[n];
     std::copy(on_edge, on_edge + first, samples);
     for(int i = first; i < n; ++i)
-      samples[i] = sample_off_edge(quadric.point(i));
-    for(int i = first; i < n; i += Spectral_collapse_kernel::max_samples)
-      evaluate(kernel, samples + i, (std::min)(int(Spectral_collapse_kernel::max_samples), n - i));
+      samples[i] = evaluated(kernel, sample_off_edge(quadric.point(i)));
     for(int i = 0; i < n; ++i) {
       costs[i] = samples[i].cost;
       if(costs[i] < best.cost)
@@ -232,8 +221,7 @@ private:
     const std::optional<Eigen::Vector3d> x = quadric.minimiser(costs);
     if(!x)
       return best;
-    Spectral_sample minimiser = sample_off_edge(*x);
-    evaluate(kernel, &minimiser, 1);
+    const Spectral_sample minimiser = evaluated(kernel, sample_off_edge(*x));
     return minimiser.cost < best.cost ? minimiser : best;
   }
 

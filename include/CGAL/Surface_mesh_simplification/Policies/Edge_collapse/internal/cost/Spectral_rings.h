@@ -70,7 +70,11 @@ struct Spectral_ring_entry
   Spectral_slot vertex = null_spectral_slot;
   std::uint32_t back = 0; ///< index of c in the ring of `vertex`
   bool face = false;
+  /// the latest cost of collapsing the edge from a smaller slot to `vertex`; negative infinity: not known
+  double cost = unknown_cost;
   Spectral_triangle triangle;
+
+  static constexpr double unknown_cost = -std::numeric_limits<double>::infinity();
 };
 
 using Spectral_ring = std::vector<Spectral_ring_entry>;
@@ -203,6 +207,7 @@ private:
     if(i == ring.size())
       return i;
     ring[i].vertex = kept;
+    ring[i].cost = Spectral_ring_entry::unknown_cost;
     const std::size_t nx = next(ring, i), pv = prev(ring, i);
     const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
                              : pv != i && ring[pv].vertex == kept ? pv

@@ -62,6 +62,9 @@ public:
 
   void run(const Pre_simplification& first)
   {
+    set_error(m_P);
+    if(!has_post_process(m_options) || m_result.stop_reason == Result::Stop_reason::cancelled)
+      return;
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
     if(m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none)
       change();
@@ -175,10 +178,8 @@ private:
     Spectral_geometry::Edge_flip_options flipping = m_options.flipping;
     flipping.criterion = m_options.flips;
     flipping.progress = reporting(Spectral_phase::flips);
-    const Eigen::Index seen = m_state.core().number_of_signals();
-    m_result.flips = spectral_edge_flips(m_mesh, m_P, F.leftCols(seen), Z.leftCols(seen), local_operator(),
-                                         flipping, m_np);
-    set_error(m_P, F, Z);
+    m_result.flips = spectral_edge_flips(m_mesh, m_P, F, Z, local_operator(), flipping, m_np);
+    set_error(m_P);
   }
 
   void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
@@ -203,7 +204,7 @@ private:
     if(m_result.relocation.resampled &&
        m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
       keep_rows(own, Spectral_geometry::internal::border_vertices(coarse().T, m_P.rows()));
-    set_error(own, F, Z);
+    set_error(own);
   }
 
   // What the collapses have left in the rows that are flagged.
@@ -216,32 +217,41 @@ private:
     own += carried;
   }
 
-  // All of them, those that the metric sees first, at the scale of the input. Z has rows of its own where that of the loop had, for rough pairs as for signals.
+  Eigen::VectorXd weights() const { return spectral_weights(m_options, given_signals().cols()); }
+
+  const Eigen::MatrixXd& given_signals() const
+  {
+    return m_options.signals.size() != 0 ? m_options.signals : m_result.eigenpairs->vectors;
+  }
+
+  // All signals at the scale of the input, each multiplied by the root of its weight, and their Z.
   std::pair<Eigen::MatrixXd, Eigen::MatrixXd> signals() const
   {
-    const Spectral_geometry::Eigenpairs* const pairs = m_result.eigenpairs.get();
-    const Eigen::MatrixXd& given = m_options.signals.size() != 0 ? m_options.signals : pairs->vectors;
-    Eigen::MatrixXd F = given * spectral_weights(m_options, given.cols()).cwiseSqrt().asDiagonal();
-    Eigen::MatrixXd Z = m_state.core().fields().has_z_rows()
+    Eigen::MatrixXd F = given_signals() * weights().cwiseSqrt().asDiagonal();
+    Eigen::MatrixXd Z = m_state.has_rough_basis()
                             ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
-                            : Eigen::MatrixXd(F * pairs->values.asDiagonal());
+                            : Eigen::MatrixXd(F * m_result.eigenpairs->values.asDiagonal());
     return {std::move(F), std::move(Z)};
   }
 
-  // E of the input scaled to unit area, as the loop has it. There eigenvectors are longer by the root of the area, user's
-  // signals are as they were given, and Z is multiplied by the area.
-  void set_error(const SpMat& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
+  // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors are longer by the root of
+  // the area, a user's signals are as they were given, and Z is multiplied by the area. The result is scaled, not the
+  // signals, which are large, nor the positions: far from the origin that would cost digits.
+  void set_error(const SpMat& P)
   {
-    const Eigen::Index seen = m_state.core().number_of_signals();
     const double area = m_state.area();
-    const double scale = m_options.signals.size() != 0 ? 1. : std::sqrt(area);
-    const double before = m_result.E;
-    // The result is scaled, not the signals, which are large, nor the positions: far from the origin that would cost digits.
-    m_result.E =
-        area * scale * scale *
-        Spectral_geometry::restriction_energy(coarse_operator(), P, F.leftCols(seen), Z.leftCols(seen));
-    if(before > 0)
-      m_result.relative_error *= std::sqrt(m_result.E / before);
+    const bool own_signals = m_options.signals.size() != 0;
+    const Eigen::VectorXd roots = weights().cwiseSqrt();
+    const Eigen::MatrixXd PF = P * given_signals() * roots.asDiagonal();
+    const Eigen::MatrixXd PZ = m_state.has_rough_basis()
+                                   ? Eigen::MatrixXd(P * signals().second)
+                                   : Eigen::MatrixXd(PF * m_result.eigenpairs->values.asDiagonal());
+    m_result.E = area * (own_signals ? 1. : area) *
+                 Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
+    const double sum_of_squares =
+        own_signals ? m_state.sum_of_squares()
+                    : (roots.asDiagonal() * m_result.eigenpairs->values).squaredNorm() * area * area;
+    m_result.relative_error = m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares) : 0.;
   }
 
   TriangleMesh& m_mesh;
