@@ -144,6 +144,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& 
                                                         const Eigen::Ref<const Eigen::MatrixXd>& F,
                                                         const Eigen::Ref<const Eigen::MatrixXd>& Z);
 
+namespace internal {
+
+/// The energy of signals that have been restricted, PF = P F and PZ = P Z.
+CGAL_SPECTRAL_GEOMETRY_INLINE double residual_energy(const Laplace_operator& coarse,
+                                                     const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ);
+
+} // namespace internal
+
 /// relative errors \f$ |\widetilde\lambda_k - \lambda_k| / \lambda_k \f$ of a range of eigenvalues.
 struct Eigenvalue_errors
 {

@@ -92,17 +92,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::I
   return CGAL_PI / 3 * theta * k * std::sqrt(k) / static_cast<double>(N);
 }
 
-namespace internal {
-
-/// The energy of signals that have been restricted, PF = P F and PZ = P Z.
-CGAL_SPECTRAL_GEOMETRY_INLINE double residual_energy(const Laplace_operator& coarse,
-                                                     const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
+CGAL_SPECTRAL_GEOMETRY_INLINE double
+internal::residual_energy(const Laplace_operator& coarse, const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
 {
   const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
   return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
 }
-
-} // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& coarse,
                                                         const Eigen::SparseMatrix<double>& P,
