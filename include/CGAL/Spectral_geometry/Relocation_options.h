@@ -60,7 +60,9 @@ struct Relocation_options
   bool keep_hausdorff_distance = true;
   /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
   bool fix_boundary = false;
-  /// So many of the coarse modes beyond the number of signals K, in parts of K, keep their eigenvalues in the mean, at unit
+  /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not negative.
+  Eigen::Index modes = 0;
+  /// So many of the coarse modes beyond K, in parts of K, keep their eigenvalues in the mean, at unit
   /// area: they are too low with the averaged mass, and without this the descent lowers them further, see
   /// `relocate_positions()`. 0: they may fall. In [0, 10].
   double beyond = 0.5;
@@ -138,6 +140,7 @@ inline void check_relocation_options(const Relocation_options& o)
 {
   require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
           "relocation: smoothing and plain must be numbers from 0.");
+  require(o.modes >= 0, "relocation: modes is ", o.modes, ", use a number from 0.");
   require(o.beyond >= 0 && o.beyond <= 10, "relocation: beyond must lie in [0, 10], but is ", o.beyond, ".");
   require(
       o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,

@@ -138,7 +138,9 @@ public:
     , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
-    , m_spectrum(T, start, op, F.cols(), F.cols() + Eigen::Index(options.beyond * double(F.cols())))
+    , m_spectrum(T, start, op, number_of_modes(F, options),
+                 number_of_modes(F, options) +
+                     Eigen::Index(options.beyond * double(number_of_modes(F, options))))
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
@@ -166,6 +168,11 @@ public:
   }
 
 private:
+  static Eigen::Index number_of_modes(const Eigen::MatrixXd& F, const Relocation_options& options)
+  {
+    return options.modes == 0 ? F.cols() : options.modes;
+  }
+
   Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
   Spectrum_guard m_spectrum;

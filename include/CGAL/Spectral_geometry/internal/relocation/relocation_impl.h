@@ -218,29 +218,28 @@ private:
   {
     const Closest_point_query closest(Mesh_matrices{m_start, m_T});
     m_nearest.resize(std::size_t(m_fine.V.rows()));
+    std::vector<double> distances(m_nearest.size());
     const auto measure = [&](const Eigen::Index i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
       const Closest_point_query::Answer answer = closest(point);
-      m_nearest[std::size_t(i)] = {answer.face, (answer.point - point).norm()};
+      m_nearest[std::size_t(i)] = answer.face;
+      distances[std::size_t(i)] = (answer.point - point).norm();
     };
     for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
-    for(const Nearest& n : m_nearest)
-      m_furthest = (std::max)(m_furthest, n.distance);
+    m_furthest = *std::max_element(distances.begin(), distances.end());
   }
 
-  // The corners of the faces closest to fine vertices that are further from V than any was at the start. A face that was
-  // near and has moved little is still near: most need not be looked for.
+  // The corners of the faces closest to fine vertices that are further from V than any was at the start. The face that was
+  // closest then is nearly always near enough still, and the search is spared.
   void mark_left_behind(const Positions& V, std::vector<char>& marks) const
   {
     const Closest_point_query closest(Mesh_matrices{V, m_T});
-    const Eigen::VectorXd moved = (V - m_start).rowwise().norm();
     std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
     const auto look = [&](const Eigen::Index i) {
-      const Nearest& n = m_nearest[std::size_t(i)];
-      const auto corners = m_T.row(n.face);
-      if(n.distance + (std::max)({moved(corners(0)), moved(corners(1)), moved(corners(2))}) <= m_furthest)
-        return;
       const Eigen::Vector3d point = m_fine.V.row(i);
+      const Eigen::Index nearest = m_nearest[std::size_t(i)];
+      if(std::sqrt(closest_point_of_triangle(point, closest.corners(nearest)).squared_distance) <= m_furthest)
+        return;
       const Closest_point_query::Answer answer = closest(point);
       if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
         left_behind[std::size_t(i)] = answer.face;
@@ -249,15 +248,9 @@ private:
     for(std::size_t i = 0; i < m_nearest.size(); ++i)
       if(left_behind[i] >= 0) {
         mark_face(left_behind[i], marks);
-        mark_face(m_nearest[i].face, marks); // once that is back, the distance is what it was
+        mark_face(m_nearest[i], marks); // once that is back, the distance is what it was
       }
   }
-
-  struct Nearest
-  {
-    Eigen::Index face;
-    double distance;
-  };
 
   Relocation_options m_options;
   Positions m_start;
@@ -272,8 +265,8 @@ private:
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
   Face_pairs m_crossing;          // at the start
-  std::vector<Nearest> m_nearest; // of each fine vertex at the start
-  double m_furthest = 0;
+  std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
+  double m_furthest = 0;               // the largest distance then
   std::size_t m_reverted = 0; // vertices that went back, and stay
 };
 

@@ -70,6 +70,11 @@ inline bool pairs_are_rough(const Eigen::VectorXd& residuals)
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(const Eigen::Index rows, const Eigen::Index r,
                                                               const std::uint64_t seed);
 
+/// The mixtures of the signals of positive weight, each multiplied by the square root of that; all of these signals where
+/// there are no more than `Spectral_options::number_of_mixtures`. R has a row for every signal.
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
+                                                            const Eigen::VectorXd& weights);
+
 /// mesh -> Laplacian -> eigenpairs -> F and Z.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,
                                                             const Eigen::MatrixXi& T,

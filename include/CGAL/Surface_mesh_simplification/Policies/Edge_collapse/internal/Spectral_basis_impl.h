@@ -193,9 +193,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(const Eigen::Index
   return Q * std::sqrt(double(rows) / double(r));
 }
 
-/// The mixtures of the signals of positive weight, each multiplied by the square root of that; all of these signals where
-/// there are no more than the mixtures asked for. R has a row for every signal.
-inline Eigen::MatrixXd mixing_matrix(const Spectral_options& options, const Eigen::VectorXd& weights)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
+                                                            const Eigen::VectorXd& weights)
 {
   std::vector<Eigen::Index> seen;
   for(Eigen::Index k = 0; k < weights.size(); ++k)

@@ -90,7 +90,7 @@ private:
   void change()
   {
     using namespace Spectral_geometry;
-    const auto [F, Z] = signals();
+    const auto [F, Z] = signals(mixtures_for_relocation());
     const char* where = "as the collapses left them";
     try {
       if(m_options.flips != Edge_flips::none && allows("No edge was flipped: ", false)) {
@@ -189,6 +189,7 @@ private:
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
+    relocation.modes = given_signals().cols();
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
@@ -224,14 +225,25 @@ private:
     return m_options.signals.size() != 0 ? m_options.signals : m_result.eigenpairs->vectors;
   }
 
-  // All signals at the scale of the input, each multiplied by the root of its weight, and their Z.
-  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> signals() const
+  // F R and Z R at the scale of the input. R: the roots of the weights for all signals, or mixtures.
+  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> signals(const Eigen::MatrixXd& R) const
   {
-    Eigen::MatrixXd F = given_signals() * weights().cwiseSqrt().asDiagonal();
-    Eigen::MatrixXd Z = m_state.has_rough_basis()
-                            ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
-                            : Eigen::MatrixXd(F * m_result.eigenpairs->values.asDiagonal());
+    Eigen::MatrixXd F = given_signals() * R;
+    Eigen::MatrixXd Z =
+        m_state.has_rough_basis()
+            ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
+            : Eigen::MatrixXd(given_signals() * (m_result.eigenpairs->values.asDiagonal() * R));
     return {std::move(F), std::move(Z)};
+  }
+
+  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures: with 64 of 100 signals |C|_L was
+  // 1.08 times as large. They are others than those of the collapses.
+  Eigen::MatrixXd mixtures_for_relocation() const
+  {
+    Spectral_options options;
+    options.number_of_mixtures = 8 * m_options.number_of_mixtures;
+    options.seed = m_options.seed + 1;
+    return mixing_matrix(options, weights());
   }
 
   // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors are longer by the root of
@@ -244,7 +256,7 @@ private:
     const Eigen::VectorXd roots = weights().cwiseSqrt();
     const Eigen::MatrixXd PF = P * given_signals() * roots.asDiagonal();
     const Eigen::MatrixXd PZ = m_state.has_rough_basis()
-                                   ? Eigen::MatrixXd(P * signals().second)
+                                   ? Eigen::MatrixXd(P * signals(roots.asDiagonal()).second)
                                    : Eigen::MatrixXd(PF * m_result.eigenpairs->values.asDiagonal());
     m_result.E = area * (own_signals ? 1. : area) *
                  Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
