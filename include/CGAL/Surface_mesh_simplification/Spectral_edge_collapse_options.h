@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_EDGE_COLLAPSE_OPTIONS_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
@@ -124,6 +125,10 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
 {
   require(options.quadrics_above >= 1, "Spectral_edge_collapse_options: quadrics_above is ",
           options.quadrics_above, ", use a number from 1.");
+  require(
+      !std::isfinite(options.maximum_error) || !is_filtered(options),
+      "Spectral_edge_collapse_options: maximum_error is a bound for eigenvectors, of which filtered noise "
+      "only estimates the error; set source to eigenpairs.");
   require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
           options.maximum_error, ", use a number from 0.");
   if(options.flips != Spectral_geometry::Edge_flips::none)

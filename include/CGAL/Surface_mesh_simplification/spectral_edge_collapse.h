@@ -88,6 +88,12 @@ inline Eigen::Index number_of_components(const Spectral_geometry::Mesh_matrices&
   return *std::max_element(component.begin(), component.end()) + 1;
 }
 
+template <class TriangleMesh, class NamedParameters>
+Eigen::Index number_of_components(const TriangleMesh& mesh, const NamedParameters& np)
+{
+  return number_of_components(Spectral_geometry::mesh_matrices(mesh, np));
+}
+
 /// Why a mesh that has run out of edges cannot be reduced further.
 inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrices& mesh,
                                            const Spectral_edge_collapse_result& result,
@@ -170,10 +176,14 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed = given;
     narrowed->largest_loss = std::numeric_limits<double>::infinity();
     narrowed->number_of_mixtures = 0;
+  } else if(is_filtered(given)) {
+    narrowed = given;
+    narrowed->number_of_relocation_signals = given.relocate ? 64 : 0;
+    narrowed->number_of_eigenvectors =
+        Eigen::Index(weights_for_target(target, K, number_of_components(mesh, np)).sum());
   } else if(given.signals.size() == 0 && given.weights.size() == 0 && Eigen::Index(target / 3) < K) {
     narrowed = given;
-    narrowed->weights =
-        weights_for_target(target, K, number_of_components(Spectral_geometry::mesh_matrices(mesh, np)));
+    narrowed->weights = weights_for_target(target, K, number_of_components(mesh, np));
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);

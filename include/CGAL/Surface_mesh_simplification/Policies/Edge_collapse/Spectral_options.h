@@ -34,6 +34,16 @@ enum class Spectral_placement_strategy {
   free
 };
 
+/// Where the signals come from that the metric preserves.
+enum class Spectral_signal_source {
+  /// the first K eigenvectors, or mixtures of them
+  eigenpairs,
+  /// random functions without high frequencies: mixtures of about the first K eigenvectors that no eigensolver has made, see
+  /// `Spectral_geometry::filtered_signals()`. One factorisation and a few solves. There are no eigenpairs then, and E and the
+  /// relative error are estimates
+  filtered_noise
+};
+
 /// Candidates that were given up when their turn came, by cause. One edge may be counted several times: it comes back whenever
 /// something near it has changed.
 struct Spectral_refusals
@@ -101,8 +111,16 @@ struct Spectral_options
   /// signals are never mixed. Multiples of 16 are free of padding. Not negative.
   Eigen::Index number_of_mixtures = 16;
 
-  /// Which mixtures. The same seed gives the same result everywhere.
+  /// Which mixtures, or which noise. The same seed gives the same result everywhere.
   std::uint64_t seed = 1;
+
+  /// Where the signals come from, unless `signals` or `eigenpairs` are given. With `filtered_noise` there are
+  /// `number_of_mixtures` of them, which must not be 0, and no `weights`.
+  Spectral_signal_source source = Spectral_signal_source::eigenpairs;
+
+  /// How many signals of filtered noise are made and kept for a relocation afterwards, where that is more than
+  /// `number_of_mixtures`; `spectral_edge_collapse()` sets it. One factorisation serves both. Not negative.
+  Eigen::Index number_of_relocation_signals = 0;
 
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::free;

@@ -10,6 +10,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/filtered_signals.h>
 
 #include <Eigen/Core>
 
@@ -28,13 +29,22 @@ struct Spectral_basis
   /// || Z ||_B^2 of all signals; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the rounding of 0
   double sum_of_squares = 0;
   bool rough = false; ///< whether Z = F Lambda is not good enough: signals of the user's, or rough pairs
+  /// with `Spectral_signal_source::filtered_noise`, at the input's scale; those that the metric sees are the first
+  std::shared_ptr<const Spectral_geometry::Filtered_signals> filtered;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs; ///< all of them, at the input's scale
 };
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n);
 
-/// That of which the metric takes rows.
+/// Whether signals are made of noise.
+inline bool is_filtered(const Spectral_options& options)
+{
+  return options.source == Spectral_signal_source::filtered_noise && options.signals.size() == 0 &&
+         !options.eigenpairs;
+}
+
+/// The operator that the metric takes rows of.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
 local_operator(const Spectral_options& options);
 

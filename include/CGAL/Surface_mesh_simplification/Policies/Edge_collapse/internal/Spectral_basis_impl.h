@@ -50,8 +50,16 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
     require(pairs.values.size() != 0,
             "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
   }
+  require(options.number_of_relocation_signals >= 0, "Spectral_options: number_of_relocation_signals is ",
+          options.number_of_relocation_signals, ", use a number from 0.");
   require(options.number_of_mixtures >= 0, "Spectral_options: number_of_mixtures is ",
           options.number_of_mixtures, ", use a number from 0.");
+  if(is_filtered(options)) {
+    require(options.number_of_mixtures != 0, "Spectral_options: number_of_mixtures is 0, but filtered noise "
+                                             "has no signals to be seen one by one; use 16, or eigenpairs.");
+    require(options.weights.size() == 0, "Spectral_options: weights are for eigenvectors or signals, but the "
+                                         "source is filtered noise; leave one of them out.");
+  }
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
   require(!options.intrinsic_delaunay || (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
                                           options.boundary == Spectral_geometry::Boundary_condition::neumann),
@@ -260,6 +268,30 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
   return basis;
 }
 
+inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& op,
+                                     const Spectral_options& options, const double area)
+{
+  Spectral_geometry::Filtered_signals_options how;
+  const Eigen::Index r = options.number_of_mixtures;
+  how.signals = (std::max)(r, options.number_of_relocation_signals);
+  how.seed = options.seed;
+  how.threads = options.threads;
+  how.progress = [&options, &op](const double fraction) {
+    return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(op.L.rows()));
+  };
+  const auto filtered = std::make_shared<Spectral_geometry::Filtered_signals>(
+      Spectral_geometry::filtered_signals(op, options.number_of_eigenvectors, how));
+  Spectral_basis basis;
+  basis.sum_of_squares = area * area * (op.B * filtered->Z).cwiseProduct(filtered->Z).sum();
+  if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
+    basis.sum_of_squares = 0;
+  const double scale = std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
+  basis.signals = Spectral_signals(op.L.rows(), r);
+  basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r));
+  basis.filtered = filtered;
+  return basis;
+}
+
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,
                                                             const Eigen::MatrixXi& T,
                                                             const Spectral_options& options)
@@ -272,6 +304,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
   if(options.signals.size() != 0) {
     check_signals_on_border(options, T);
     basis = basis_of_signals(op, options, area);
+  } else if(is_filtered(options)) {
+    basis = basis_of_noise(op, options, area);
   } else {
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
     if(!pairs) {

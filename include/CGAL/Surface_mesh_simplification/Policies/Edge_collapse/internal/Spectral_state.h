@@ -96,6 +96,7 @@ public:
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
     m_has_rough_basis = basis.rough;
+    m_filtered = basis.filtered;
     m_core.set_basis(std::move(basis), local_operator(options), options, std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
   }
@@ -335,7 +336,9 @@ public:
   const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
   /// Whether relocation needs a Z = B^-1 L F of its own, because F Lambda is not good enough.
   bool has_rough_basis() const { return m_has_rough_basis; }
-  /// The eigenpairs of the input at its own scale; null with signals of the user's.
+  /// The signals of filtered noise at the scale of the input; null with others.
+  const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
+  /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered noise.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
   /// Candidates that were given up so far, over all runs.
   Spectral_refusals refusals() const
@@ -530,6 +533,7 @@ private:
   Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
   bool m_has_rough_basis = false;
+  std::shared_ptr<const Spectral_geometry::Filtered_signals> m_filtered;
   Real_timer m_first_costs; // runs until the first edge is selected
   std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;
 };

@@ -90,7 +90,7 @@ private:
   void change()
   {
     using namespace Spectral_geometry;
-    const auto [F, Z] = signals(mixtures_for_relocation());
+    const auto [F, Z] = signals_for_relocation();
     const char* where = "as the collapses left them";
     try {
       if(m_options.flips != Edge_flips::none && allows("No edge was flipped: ", false)) {
@@ -121,7 +121,8 @@ private:
         Eigenpairs_options solver = m_options.eigenpairs_options;
         solver.threads = (std::max)(solver.threads, m_options.threads);
         solver.progress = [&](const double fraction) { return progress(fraction / 2); };
-        const Eigen::Index K = m_result.eigenpairs->size();
+        const Eigen::Index K =
+            m_result.eigenpairs ? m_result.eigenpairs->size() : m_options.number_of_eigenvectors;
         pairs = std::make_shared<Eigenpairs>(eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
       }
       Operator_fit_options options = m_options.operator_fit;
@@ -189,7 +190,8 @@ private:
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.modes = given_signals().cols();
+    relocation.modes =
+        m_state.filtered_signals() != nullptr ? m_options.number_of_eigenvectors : given_signals().cols();
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
@@ -218,15 +220,19 @@ private:
     own += carried;
   }
 
-  Eigen::VectorXd weights() const { return spectral_weights(m_options, given_signals().cols()); }
+  using Signals = std::pair<Eigen::MatrixXd, Eigen::MatrixXd>;
 
   const Eigen::MatrixXd& given_signals() const
   {
-    return m_options.signals.size() != 0 ? m_options.signals : m_result.eigenpairs->vectors;
+    return m_options.signals.size() != 0           ? m_options.signals
+           : m_state.filtered_signals() != nullptr ? m_state.filtered_signals()->F
+                                                   : m_result.eigenpairs->vectors;
   }
 
-  // F R and Z R at the scale of the input. R: the roots of the weights for all signals, or mixtures.
-  std::pair<Eigen::MatrixXd, Eigen::MatrixXd> signals(const Eigen::MatrixXd& R) const
+  Eigen::VectorXd weights() const { return spectral_weights(m_options, given_signals().cols()); }
+
+  // F R and Z R at the scale of the input, for mixtures or weights R.
+  Signals signals(const Eigen::MatrixXd& R) const
   {
     Eigen::MatrixXd F = given_signals() * R;
     Eigen::MatrixXd Z =
@@ -236,14 +242,38 @@ private:
     return {std::move(F), std::move(Z)};
   }
 
-  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures: with 64 of 100 signals |C|_L was
-  // 1.08 times as large. They are others than those of the collapses.
-  Eigen::MatrixXd mixtures_for_relocation() const
+  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures of eigenvectors: with 64 of 100
+  // |C|_L was 1.08 times as large.
+  Signals signals_for_relocation() const
   {
+    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
+      return {filtered->F, filtered->Z};
     Spectral_options options;
     options.number_of_mixtures = 8 * m_options.number_of_mixtures;
-    options.seed = m_options.seed + 1;
-    return mixing_matrix(options, weights());
+    options.seed = m_options.seed + 1; // others than those of the collapses
+    return signals(mixing_matrix(options, weights()));
+  }
+
+  // All signals, restricted, each multiplied by the root of its weight.
+  Signals restricted_signals(const SpMat& P) const
+  {
+    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
+      return {P * filtered->F, P * filtered->Z};
+    const Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
+    Eigen::MatrixXd PF = P * given_signals() * R;
+    Eigen::MatrixXd PZ = m_state.has_rough_basis()
+                             ? Eigen::MatrixXd(P * signals(R).second)
+                             : Eigen::MatrixXd(PF * m_result.eigenpairs->values.asDiagonal());
+    return {std::move(PF), std::move(PZ)};
+  }
+
+  // || Z ||_B^2 of these signals, for the input scaled to unit area.
+  double sum_of_squares() const
+  {
+    if(!m_result.eigenpairs)
+      return m_state.sum_of_squares();
+    const double area = m_state.area();
+    return area * area * weights().dot(m_result.eigenpairs->values.cwiseAbs2());
   }
 
   // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors are longer by the root of
@@ -252,18 +282,10 @@ private:
   void set_error(const SpMat& P)
   {
     const double area = m_state.area();
-    const bool own_signals = m_options.signals.size() != 0;
-    const Eigen::VectorXd roots = weights().cwiseSqrt();
-    const Eigen::MatrixXd PF = P * given_signals() * roots.asDiagonal();
-    const Eigen::MatrixXd PZ = m_state.has_rough_basis()
-                                   ? Eigen::MatrixXd(P * signals(roots.asDiagonal()).second)
-                                   : Eigen::MatrixXd(PF * m_result.eigenpairs->values.asDiagonal());
-    m_result.E = area * (own_signals ? 1. : area) *
+    const auto [PF, PZ] = restricted_signals(P);
+    m_result.E = area * (m_options.signals.size() != 0 ? 1. : area) *
                  Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
-    const double sum_of_squares =
-        own_signals ? m_state.sum_of_squares()
-                    : (roots.asDiagonal() * m_result.eigenpairs->values).squaredNorm() * area * area;
-    m_result.relative_error = m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares) : 0.;
+    m_result.relative_error = m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares()) : 0.;
   }
 
   TriangleMesh& m_mesh;
