@@ -29,7 +29,7 @@ enum class Spectral_placement_strategy {
   on_edge,  ///< strategy (ii): the minimiser along the edge of a parabola through three samples
   /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the edge, or the
   /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there; with a shape term its
-  /// minimiser; where a triangle without area would arise there, the cheapest of the ends and the middle. The weights come
+  /// minimiser, or the cheapest of the ends and the middle. The weights come
   /// from the projection on the edge, so P times the fine positions is no longer the coarse positions.
   free
 };
