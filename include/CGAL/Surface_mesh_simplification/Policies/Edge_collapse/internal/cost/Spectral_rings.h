@@ -162,6 +162,7 @@ public:
     // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
     ring[prev(ring, j)].triangle = around[i].triangle.from_first();
     ring[j].triangle = around[prev(around, i)].triangle.from_second();
+    ring[j].cost = Spectral_ring_entry::unknown_cost;
     for(std::size_t k = moved; k < ring.size(); ++k)
       link(around[i].vertex, k);
   }
@@ -207,7 +208,6 @@ private:
     if(i == ring.size())
       return i;
     ring[i].vertex = kept;
-    ring[i].cost = Spectral_ring_entry::unknown_cost;
     const std::size_t nx = next(ring, i), pv = prev(ring, i);
     const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
                              : pv != i && ring[pv].vertex == kept ? pv
