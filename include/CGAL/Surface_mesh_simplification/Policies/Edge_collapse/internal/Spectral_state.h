@@ -189,6 +189,8 @@ public:
     const Slot removed = slot(profile.v0()), kept = slot(profile.v1());
     const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[kept];
     m_announced = {Eigen::Index(removed), Eigen::Index(kept), weight_of(removed, kept, point)};
+    if(!is_answered(removed, kept))
+      m_core.postpone_no_more();
   }
 
   /// Merges the two slots and follows the mesh.
@@ -250,6 +252,7 @@ public:
       return Optional_cost(largest_cost());
     const Spectral_sample& c = answer(u, v);
     const double value = c.collapsible() && c.point == point ? c.cost : m_core.cost_at(u, v, point);
+    m_core.set_queued_cost((std::min)(u, v), (std::max)(u, v), value);
     if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
     return Optional_cost(FT(value));
@@ -417,12 +420,17 @@ private:
     return m_postponed.cost.has_value();
   }
 
+  bool is_answered(const Slot u, const Slot v) const
+  {
+    return m_answer.sample && m_answer.u == (std::min)(u, v) && m_answer.v == (std::max)(u, v);
+  }
+
   // CGAL asks for the placement of an edge and then for the cost of that.
   const Spectral_sample& answer(Slot u, Slot v)
   {
     if(v < u)
       std::swap(u, v);
-    if(!m_answer.sample || m_answer.u != u || m_answer.v != v) {
+    if(!is_answered(u, v)) {
       if(m_first_costs.is_running())
         report_first_cost();
       m_answer = {u, v, m_selecting ? m_core.select(u, v) : m_core.evaluate(u, v)};
@@ -443,10 +451,9 @@ private:
   // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
-    const auto [u, v] = std::minmax(removed, kept);
     const Answer& a = m_answer;
-    if(a.sample && a.u == u && a.v == v && a.sample->collapsible() && a.sample->point == point)
-      return v == removed ? a.sample->weight : 1 - a.sample->weight;
+    if(is_answered(removed, kept) && a.sample->collapsible() && a.sample->point == point)
+      return a.v == removed ? a.sample->weight : 1 - a.sample->weight;
     return m_core.projected_weight(kept, removed, point);
   }
 

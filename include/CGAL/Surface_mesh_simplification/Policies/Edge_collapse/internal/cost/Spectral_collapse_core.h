@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -72,6 +73,13 @@ public:
   /// The cost of the edge between two slots, u < v, that CGAL's queue may keep for now: a collapse beside the edge has changed
   /// it, but it was far above the cost of recent collapses. None where it must be evaluated.
   std::optional<double> postponed_cost(const Spectral_slot u, const Spectral_slot v) const;
+
+  /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of evaluate(): with a placement of
+  /// the user's.
+  void set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost);
+
+  /// No cost is postponed from now on: somebody else chooses what is collapsed, and what that costs is not known.
+  void postpone_no_more() { m_recent_cost = std::numeric_limits<double>::infinity(); }
 
   /// The best way to collapse the edge between two slots, u < v, for CGAL's queue. An edge at a hub is costed as if that hub
   /// stayed.

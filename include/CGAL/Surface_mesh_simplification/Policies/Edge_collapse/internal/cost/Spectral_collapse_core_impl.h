@@ -121,8 +121,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::evaluate(c
     if(!result.collapsible())
       result = search(u, v).best(m_kernel);
   }
-  m_fields.rings[u][m_fields.rings.find(u, v)].cost = result.cost;
+  set_queued_cost(u, v, result.cost);
   return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost)
+{
+  m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(const Spectral_slot u,
