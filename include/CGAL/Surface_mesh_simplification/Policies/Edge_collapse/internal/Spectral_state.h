@@ -441,7 +441,7 @@ private:
   // Called for each cost before the first collapse of a run, where cancelling leaves the mesh as it is.
   void report_first_cost()
   {
-    constexpr std::size_t between_reports = 1024;
+    const std::size_t between_reports = (std::min)(std::size_t(1024), m_expected_first_costs / 100 + 1);
     if(m_number_of_first_costs++ % between_reports == 0 &&
        !report(Spectral_phase::first_costs,
                (std::min)(1., double(m_number_of_first_costs) / double(m_expected_first_costs))))
