@@ -69,7 +69,6 @@ struct Outcome
   Eigen::SparseMatrix<double> P;
   double E, relative_error;
   const SG::Eigenpairs* pairs;
-  Eigen::Index signals; // that the metric saw, the first ones
   SG::Operator_coefficients coefficients;
 };
 
@@ -98,8 +97,6 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
     PF *= options.weights.cwiseSqrt().asDiagonal();
     PZ *= options.weights.cwiseSqrt().asDiagonal();
   }
-  PF.conservativeResize(Eigen::NoChange, outcome.signals);
-  PZ.conservativeResize(Eigen::NoChange, outcome.signals);
   const Eigen::VectorXd mass = now.mass / basis.area;
   const Eigen::VectorXd E = (B * PZ - now.L * PF).rowwise().squaredNorm().cwiseQuotient(mass);
   const Eigen::SparseMatrix<double> size_of_L = now.L.cwiseAbs();
@@ -111,6 +108,13 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
   if(!(std::abs(E.sum() - outcome.E) <= tolerance))
     return "E is off by " + std::to_string((E.sum() - outcome.E) / tolerance) + " tolerances";
   return "";
+}
+
+// Whether the metric may see mixtures: of fewer signals it never does.
+bool has_mixtures(const Policies& policies, const SMS::Spectral_edge_collapse_options& options)
+{
+  const Eigen::Index K = policies.eigenpairs() ? policies.eigenpairs()->size() : options.signals.cols();
+  return options.number_of_mixtures != 0 && options.number_of_mixtures < K;
 }
 
 std::string fault_of_result(const Mesh& mesh, const Policies& policies, const shapes::Matrices& fine,
@@ -126,9 +130,12 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies, const sh
   if(!options.binary && options.placement != SMS::Spectral_placement_strategy::free &&
      !(position_error(P, fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off by " + std::to_string(position_error(P, fine.V, coarse.V));
+  if(has_mixtures(policies, options)) // then E is an estimate
+    return std::isfinite(policies.error()) && policies.error() >= 0
+               ? ""
+               : "E is " + std::to_string(policies.error());
   return fault_of_E(coarse,
                     {P, policies.error(), policies.relative_error(), policies.eigenpairs().get(),
-                     policies.state().core().number_of_signals(),
                      SG::Local_operator(options.mass, options.coefficients).restricted(P).coefficients},
                     fine, options);
 }
@@ -248,10 +255,10 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
     return std::isfinite(result.E) && result.E >= 0 ? "" : "E is " + std::to_string(result.E);
-  return fault_of_E(coarse,
-                    {result.restriction, result.E, result.relative_error, result.eigenpairs.get(),
-                     Eigen::Index(result.signals), result.coefficients},
-                    call.fine, call.options);
+  return fault_of_E(
+      coarse,
+      {result.restriction, result.E, result.relative_error, result.eigenpairs.get(), result.coefficients},
+      call.fine, call.options);
 }
 
 // Operators of the coarse mesh, fitted to the pairs of the run, or to what has nothing to do with them.
@@ -445,7 +452,6 @@ std::string fault_of_kept(const Mesh& mesh, const Policies& policies, const shap
 std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagnosis& diagnosis,
                               SMS::Spectral_edge_collapse_options options, const std::size_t N, Bytes& bytes)
 {
-  const bool batched = !bytes.one_in(4);
   const Handling handling(bytes);
   options.kept_vertices = some_vertices(bytes, fine);
   auto mesh = std::make_unique<Mesh>(make_mesh(fine));
@@ -457,7 +463,6 @@ std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagn
     const bool expected = std::string(error.what()).find("both to be kept") != std::string::npos;
     return expected && unchanged(*mesh, before) ? "" : std::string("refused: ") + error.what();
   }
-  policies->state().set_batched(batched);
   bool costs_are_numbers = true;
   const SMS::Restriction_visitor<Mesh, Cost_probe> tracker(*mesh, Cost_probe(costs_are_numbers));
   auto handles = std::make_unique<Handles>(Policies(*policies), handling, tracker);

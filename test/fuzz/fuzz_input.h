@@ -186,8 +186,10 @@ inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shap
     shapes::Matrices unit = mesh;
     unit.V /= extent > 0 && std::isfinite(extent) ? extent : 1.;
     options.signals = rough_signals(unit, options.number_of_eigenvectors);
-  } else
-    options.metric_eigenvectors = Eigen::Index(basis / 4 % 4);
+  }
+  const Eigen::Index mixtures[] = {16, 0, 3, 20};
+  options.number_of_mixtures = mixtures[bytes.below(4)];
+  options.seed = bytes.byte();
   if(bytes.one_in(4)) {
     options.weights.resize(options.number_of_eigenvectors);
     for(double& weight : options.weights)
