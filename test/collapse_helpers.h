@@ -84,6 +84,18 @@ inline Input eigen_input(const shapes::Matrices& mesh, const SG::Mass mass, cons
   return {mesh, basis_of_pairs(SG::laplace_operator(mesh.V, mesh.T, mass), pairs, mass)};
 }
 
+// The columns of F that the metric sees where it mixes none: not those of weight 0, nor eigenvectors of eigenvalue 0.
+inline Eigen::MatrixXd seen_signals(const Basis& basis)
+{
+  Eigen::MatrixXd seen(basis.F.rows(), 0);
+  for(Eigen::Index k = 0; k < basis.F.cols(); ++k)
+    if(!basis.F.col(k).isZero(0) && (basis.lambda.size() == 0 || basis.lambda[k] > 1e-6)) {
+      seen.conservativeResize(Eigen::NoChange, seen.cols() + 1);
+      seen.rightCols(1) = basis.F.col(k);
+    }
+  return seen;
+}
+
 struct Check
 {
   bool binary = false;
@@ -91,7 +103,7 @@ struct Check
   double tolerance = 1e-8;
 };
 
-// What is wrong with a mesh, its P and the E that was tracked; empty if nothing is.
+// What is wrong with a mesh, its P and the E that was tracked of all signals; empty if nothing is.
 template <class Mesh, class Policies>
 std::string fault_of_run(const Mesh& mesh, const Policies& policies, const Input& input,
                          const Check check = {})
@@ -110,14 +122,16 @@ std::string fault_of_run(const Mesh& mesh, const Policies& policies, const Input
   if(check.positions && !(off < (check.binary ? 10. : 1e-3 * check.tolerance)))
     return "P times the fine positions is off by " + std::to_string(off);
 
-  const Eigen::MatrixXd PF = P * input.basis.F;
+  const Eigen::MatrixXd PF = P * seen_signals(input.basis);
+  const SMS::internal::Spectral_fields& fields = policies.state().core().fields();
+  if(fields.signals.size() != PF.cols())
+    return "the metric sees " + std::to_string(fields.signals.size()) + " signals, not " +
+           std::to_string(PF.cols());
   const std::vector<Eigen::Index> slots = policies.state().current_slots();
   double worst = 0;
-  for(std::size_t i = 0; i < slots.size(); ++i)
-    worst = (std::max)(
-        worst, (PF.row(Eigen::Index(i)) - policies.state().core().fields().F.row(slots[i]).head(PF.cols()))
-                   .cwiseAbs()
-                   .maxCoeff());
+  for(std::size_t i = 0; i < slots.size() && PF.cols() != 0; ++i)
+    worst = (std::max)(worst,
+                       (PF.row(Eigen::Index(i)) - tracked_signals(fields, slots[i])).cwiseAbs().maxCoeff());
   if(!(worst < 1e-10 * input.basis.F.cwiseAbs().maxCoeff()))
     return "P F is off by " + std::to_string(worst);
 

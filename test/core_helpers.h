@@ -6,7 +6,6 @@
 #define SPECTRAL_TEST_CORE_HELPERS_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_kernel.h>
 
 #include "slow_mesh.h"
 #include "spectral_test_helpers.h"
@@ -28,25 +27,31 @@ namespace spectral_test {
 namespace SMS = CGAL::Surface_mesh_simplification;
 
 using Core = SMS::internal::Spectral_collapse_core;
-using Core_kernel = SMS::internal::Spectral_collapse_kernel;
-using Candidate = SMS::internal::Spectral_candidate;
+using Sample = SMS::internal::Spectral_sample;
 using Parameters = SMS::Spectral_options;
 using Rings = SMS::internal::Spectral_rings;
 using Slot = SMS::internal::Spectral_slot;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-enum class Z_rows { from_lambda, stored };
+// Every signal of the basis, as it is.
+inline SMS::internal::Spectral_basis core_basis(const Basis& basis)
+{
+  SMS::internal::Spectral_basis result;
+  result.signals = SMS::internal::Spectral_signals(basis.F.rows(), basis.F.cols());
+  result.signals.set(0, basis.F, basis.Z);
+  result.number_of_vertices = basis.F.rows();
+  result.area = basis.area;
+  result.sum_of_squares = basis.lambda.squaredNorm();
+  return result;
+}
 
-inline Core make_core(const Slow_mesh& mesh, const Basis& basis, const Z_rows z,
-                      const Parameters& parameters = Parameters::paper(),
+inline Core make_core(const Slow_mesh& mesh, SMS::internal::Spectral_basis signals,
+                      const SG::Local_operator& local, const Parameters& parameters,
                       const std::size_t largest_degree_of_others = 256)
 {
-  const bool stored = z == Z_rows::stored;
   Core core;
-  core.set_basis({basis.F, stored ? basis.Z : Eigen::MatrixXd(), stored ? Eigen::VectorXd() : basis.lambda,
-                  basis.area, basis.lambda.squaredNorm(), nullptr},
-                 basis.local, parameters, false);
+  core.set_basis(std::move(signals), local, parameters, false);
   core.set_largest_degree_of_others(largest_degree_of_others);
   std::vector<Eigen::Vector3d> points;
   Rings rings;
@@ -59,7 +64,14 @@ inline Core make_core(const Slow_mesh& mesh, const Basis& basis, const Z_rows z,
   return core;
 }
 
-inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Candidate& c, const bool keep_first)
+inline Core make_core(const Slow_mesh& mesh, const Basis& basis,
+                      const Parameters& parameters = Parameters::paper(),
+                      const std::size_t largest_degree_of_others = 256)
+{
+  return make_core(mesh, core_basis(basis), basis.local, parameters, largest_degree_of_others);
+}
+
+inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Sample& c, const bool keep_first)
 {
   const int kept = keep_first ? e.first : e.second, removed = keep_first ? e.second : e.first;
   const double weight = keep_first ? c.weight : 1 - c.weight;
@@ -70,15 +82,14 @@ inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Candidate& 
 // Collapses `count` edges, each the cheapest of a few drawn at random, in the core and in the slow mesh alike.
 inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& random)
 {
-  Core_kernel kernel;
   int done = 0;
   for(int i = 0; i < 2 * count && done < count; ++i) {
     const std::vector<Edge> edges = mesh.edge_list();
-    Candidate best;
+    Sample best;
     Edge edge(0, 0);
     for(int k = 0; k < 12; ++k) {
       const Edge e = edges[random() % edges.size()];
-      const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      const Sample c = core.evaluate(Slot(e.first), Slot(e.second));
       if(c.collapsible() && c.cost < best.cost) {
         best = c;
         edge = e;

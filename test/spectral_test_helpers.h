@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 
 #include "shapes.h"
 
@@ -33,6 +34,18 @@ struct Basis
   SG::Local_operator local; // for the vertices of the input
   double area = 1;          // weighted by the density
 };
+
+// f_w of the signals that a state has: each column of F, or mixtures of them.
+inline Eigen::RowVectorXd
+tracked_signals(const CGAL::Surface_mesh_simplification::internal::Spectral_fields& fields,
+                const Eigen::Index slot)
+{
+  constexpr Eigen::Index width = CGAL::Surface_mesh_simplification::internal::spectral_width;
+  Eigen::RowVectorXd result(fields.signals.size());
+  for(Eigen::Index k = 0; k < result.size(); ++k)
+    result[k] = fields.signals[std::size_t(slot)][k / width].f[k % width];
+  return result;
+}
 
 inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs& pairs,
                             const SG::Local_operator& local)

@@ -75,18 +75,17 @@ TEST_CASE("A free candidate is the best of ten samples around the edge, of those
   Slow_mesh mesh(input, basis);
   Parameters parameters = Parameters::paper();
   parameters.placement = Spectral_placement_strategy::free;
-  Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
+  Core core = make_core(mesh, basis, parameters);
   std::mt19937 random(12);
   REQUIRE(simplify(core, mesh, 40, random) == 40);
   parameters.placement = Spectral_placement_strategy::on_edge;
-  const Core on_edge_core = make_core(mesh, Basis{mesh.F, mesh.Z, basis.lambda, basis.local, basis.area},
-                                      Z_rows::from_lambda, parameters);
-  Core_kernel kernel;
+  Core on_edge_core =
+      make_core(mesh, Basis{mesh.F, mesh.Z, basis.lambda, basis.local, basis.area}, parameters);
   const double before = mesh.energy();
   int quadric_won = 0, better = 0;
   for(const Edge& e : mesh.edge_list()) {
     const Slot u = Slot(e.first), v = Slot(e.second);
-    const Candidate candidate = core.evaluate(u, v, kernel), d = on_edge_core.evaluate(u, v, kernel);
+    const Sample candidate = core.evaluate(u, v), d = on_edge_core.evaluate(u, v);
     if(!candidate.collapsible())
       continue;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();

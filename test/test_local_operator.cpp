@@ -398,7 +398,7 @@ TEST_CASE("With any operator the local cost of a collapse is the change of the g
       scaled(bordered ? wavy_grid_matrices(15, 14) : shapes::bumpy_icosphere_matrices(2), 3.);
   const Basis basis = eigenbasis(input, operator_on(input.V, kind, mass), 10);
   Slow_mesh mesh(input, basis);
-  Core core = make_core(mesh, basis, Z_rows::from_lambda, Parameters::paper(), largest_ring);
+  Core core = make_core(mesh, basis, Parameters::paper(), largest_ring);
   std::mt19937 random(7);
   CHECK(core.total() < 1e-12 * basis.Z.squaredNorm());
   for(const int collapses : {0, 30, 50}) {

@@ -138,17 +138,17 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
   parameters.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
   parameters.shape = GENERATE(0.5, 300.);
   const double sum_of_squares = basis.lambda.squaredNorm();
-  Core core = make_core(mesh, basis, Z_rows::from_lambda, parameters);
+  Core core = make_core(mesh, basis, parameters);
   std::mt19937 random(5);
-  Core_kernel kernel;
   std::size_t n = std::size_t(input.V.rows());
   for(int round = 0; round < 3; ++round) {
     int counts[2] = {}; // costs that the loss of E decides in part, and those where it is bounded
+    int at_minimum[2] = {};
     const double before = mesh.energy();
     for(const Edge& e : mesh.edge_list()) {
       if(random() % 8 != 0)
         continue;
-      const Candidate candidate = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      const Sample candidate = core.evaluate(Slot(e.first), Slot(e.second));
       if(!candidate.collapsible())
         continue;
       const Eigen::Vector3d x = candidate.point;
@@ -163,12 +163,28 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
                           parameters.shape * sum_of_squares * double(n) * change / (basis.area * basis.area);
       ++counts[loss > bound];
       CHECK(std::abs(candidate.cost - slow) < 1e-8 * (std::abs(slow) + before + std::abs(loss)));
+      if(parameters.placement == Spectral_placement_strategy::free) {
+        // One sample: the least quadric within reach, unless that cannot be collapsed to.
+        const Eigen::Vector3d middle = on_edge(mesh, e, 0.5);
+        const double radius = (on_edge(mesh, e, 1) - on_edge(mesh, e, 0)).norm(), reach = (x - middle).norm();
+        const bool at_sample = x == on_edge(mesh, e, 0) || x == middle || x == on_edge(mesh, e, 1);
+        const auto both = [&](const Eigen::Vector3d& y) { return quadric(at_u, y) + quadric(at_v, y); };
+        ++at_minimum[at_sample];
+        CHECK(reach < radius * (1 + 1e-12));
+        for(int axis = 0; axis < 6 && !at_sample && reach < 0.99 * radius; ++axis) {
+          const Eigen::Vector3d step =
+              (axis % 2 == 0 ? 1e-3 : -1e-3) * radius * Eigen::Vector3d::Unit(axis / 2);
+          CHECK(both(x) < both(x + step));
+        }
+      }
     }
     CHECK(counts[0] > 10);
+    if(parameters.placement == Spectral_placement_strategy::free)
+      CHECK(at_minimum[0] > 20 * at_minimum[1]);
     for(int i = 0; i < 15; ++i) {
       const std::vector<Edge> edges = mesh.edge_list();
       const Edge e = edges[random() % edges.size()];
-      const Candidate c = core.evaluate(Slot(e.first), Slot(e.second), kernel);
+      const Sample c = core.evaluate(Slot(e.first), Slot(e.second));
       if(!c.collapsible())
         continue;
       commit(core, mesh, e, c, true);
@@ -419,7 +435,7 @@ TEST_CASE("Several runs with a shape term go on from each other")
   collapse(once, a, 100);
   collapse(twice, b, 300);
   collapse(twice, b, 100);
-  // The order may differ by candidates that the first run had put off; planes and crossings are those of the input.
+  // The order may differ by edges that the first run had put off; planes and crossings are those of the input.
   const double difference =
       std::abs(furthest(input, SG::mesh_matrices(once)) / furthest(input, SG::mesh_matrices(twice)) - 1);
   CHECK(difference < 0.3);
@@ -513,9 +529,8 @@ TEST_CASE("Options that contradict each other are refused before the mesh change
   options.shape = -1;
   CHECK_THAT(refusal(options), ContainsSubstring("shape is -1"));
   options = options_with(5);
-  options.signals = Eigen::MatrixXd::Ones(42, 3);
-  options.metric_eigenvectors = 2;
-  CHECK_THAT(refusal(options), ContainsSubstring("metric_eigenvectors") && ContainsSubstring("signals"));
+  options.number_of_mixtures = -2;
+  CHECK_THAT(refusal(options), ContainsSubstring("number_of_mixtures is -2"));
   CHECK(mesh.number_of_vertices() == 42);
 }
 
