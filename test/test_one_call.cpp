@@ -60,10 +60,7 @@ std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes
     return fault;
   if(position_error(result.restriction, input.V, coarse.V) > 1e-12)
     return "P V";
-  SG::Eigenpairs seen = *result.eigenpairs; // by the metric
-  seen.values.conservativeResize(Eigen::Index(result.signals));
-  seen.vectors.conservativeResize(Eigen::NoChange, Eigen::Index(result.signals));
-  const Basis basis = eigen_input(input, options.mass, seen).basis;
+  const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
   if(relative_difference(energy(coarse, basis, result.restriction), result.E) > 1e-8)
     return "E";
   if(relative_difference(std::sqrt(result.E / basis.lambda.squaredNorm()), result.relative_error) > 1e-8)
