@@ -142,7 +142,7 @@ public:
     m_first_costs.reset();
     m_first_costs.start();
     m_number_of_first_costs = 0;
-    m_expected_first_costs = num_edges(mesh);
+    m_expected_first_costs = edges(mesh).size(); // num_edges() may count what has been removed
     std::shared_ptr<void> token = std::make_shared<int>(0);
     m_run = token;
     ++m_number_of_runs;
@@ -211,8 +211,8 @@ public:
     m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
   }
 
-  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected,
-  /// this is the placement that was costed.
+  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected, this is the best of the
+  /// mesh as it is: a collapse two rings away, after which CGAL does not ask again, may have moved it.
   template <class Profile>
   auto placement(const Profile& profile)
   {
