@@ -77,7 +77,7 @@ struct Shifted_placement
   }
 };
 
-// Keeps the point at which each edge was last costed, and compares the one that is collapsed with it.
+// Keeps the point at which each edge was last costed, and compares the one that is collapsed with it and with the best of now.
 struct Costed_points
 {
   using Edge = std::pair<Mesh::Vertex_index, Mesh::Vertex_index>;
@@ -85,15 +85,21 @@ struct Costed_points
   std::map<Edge, std::optional<Point>> points; // none: the cost was put off
   const Policies* policies = nullptr;
   bool selecting = false;
-  std::size_t compared = 0, different = 0, put_off = 0;
+  std::size_t compared = 0, different = 0, put_off = 0, not_best = 0;
 
-  // An edge that keeps its cost is evaluated when it is selected. Vertices are numbered as slots are.
+  // Vertices are numbered as slots are.
   bool is_put_off(const Edge& edge) const
   {
     return policies->state()
         .core()
         .postponed_cost(std::uint32_t(edge.first), std::uint32_t(edge.second))
         .has_value();
+  }
+  bool is_best(const Edge& edge, const Point& point) const
+  {
+    SMS::internal::Spectral_collapse_core core = policies->state().core();
+    const Eigen::Vector3d best = core.evaluate(std::uint32_t(edge.first), std::uint32_t(edge.second)).point;
+    return best == Eigen::Vector3d(point.x(), point.y(), point.z());
   }
 };
 
@@ -113,11 +119,11 @@ struct Recording_placement
       log->points[edge].reset();
       if(point && !put_off)
         log->points[edge] = *point;
-    } else if(point && !log->points[edge])
-      ++log->put_off;
-    else if(point) {
-      ++log->compared;
-      log->different += *log->points[edge] != *point;
+    } else if(point) {
+      const std::optional<Point>& costed = log->points[edge];
+      ++(costed ? log->compared : log->put_off);
+      log->different += costed && *costed != *point;
+      log->not_best += !log->is_best(edge, *point);
     }
     return point;
   }
@@ -232,7 +238,7 @@ TEST_CASE("A wrapper may move the point anywhere: the cost is that of its point,
   CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options), off_the_edge) == "");
 }
 
-TEST_CASE("The placement that was costed is the one that is collapsed, unless it was put off")
+TEST_CASE("The placement that is collapsed is the best of the mesh as it is, mostly the one that was costed")
 {
   Mesh mesh = make_mesh(wavy_grid_matrices(24, 22));
   const Policies policies(mesh, options_with(10));
@@ -249,7 +255,8 @@ TEST_CASE("The placement that was costed is the one that is collapsed, unless it
   CHECK(log.compared + log.put_off >= 475);
   CHECK(log.compared >= 300);
   CHECK(log.put_off > 0);
-  CHECK(log.different == 0);
+  CHECK(log.not_best == 0);
+  CHECK(log.different < log.compared / 4); // by collapses two rings away, after which CGAL does not ask
 }
 
 TEST_CASE("The relaxed queue works, and P stays right")
