@@ -165,7 +165,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   if(!a.levels.empty()) { // one run for all of them: the largest decides
     if(!a.quadrics_above)
       options.quadrics_above *= double(a.levels.front()) / double(target);
-    if(a.signals.empty())
+    if(a.signals.empty() && options.source == SMS::Spectral_signal_source::eigenpairs)
       options.weights = SMS::weights_for_target(a.levels.front(), a.eigenvectors);
   }
   if(a.max_error)

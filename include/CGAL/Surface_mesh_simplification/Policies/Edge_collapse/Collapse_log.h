@@ -63,7 +63,7 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
  * \endcode
  *
  * (Without `Spectral_edge_collapse_options::quadrics_above`, which depends on the target, and from 3 K vertices on: below,
- * `Spectral_options::metric_eigenvectors` does as well; set it to K for all.)
+ * the weights do as well, see `weights_for_target()`; set `Spectral_options::weights` to 1 for all.)
  *
  * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done to the mesh
  * after the collapses, relocation of its vertices for instance, is not in the log. Neither are vertices that were

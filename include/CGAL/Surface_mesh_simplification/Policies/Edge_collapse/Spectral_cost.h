@@ -19,9 +19,10 @@ namespace CGAL::Surface_mesh_simplification {
  * A handle on the state of `Spectral_policies`: the change of E (Eq. 2 of the paper), with what `Spectral_options::shape` adds, that the collapse
  * of an edge to the given placement brings, on the input scaled to unit area. It may be negative.
  *
- * What CGAL's queue holds, and hands to a stop predicate, may be of before some collapses nearby: an edge that cost much more
- * than the collapses of late is evaluated again when its turn comes, and not before, unless `Spectral_options::exact_costs` asks for
- * it. A predicate that needs the error itself asks the policies, as `Spectral_error_stop_predicate` does.
+ * The costs in CGAL's queue, and hence those passed to a stop predicate, may be out of date: an edge whose cost is far above
+ * that of recent collapses keeps it when a collapse nearby changes it, and is evaluated again at the head of the queue. They
+ * are estimates where the metric sees mixtures, see `Spectral_options::number_of_mixtures`. A predicate that needs the error
+ * itself asks the policies, as `Spectral_error_stop_predicate` does.
  *
  * \cgalModels{GetCost}
  *
