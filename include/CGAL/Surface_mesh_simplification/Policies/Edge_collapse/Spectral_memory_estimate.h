@@ -69,7 +69,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
   const double seen = options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
   const double mixed =
-      options.number_of_mixtures == 0 ? K : (std::min)(K, 8. * double(options.number_of_mixtures));
+      options.number_of_mixtures == 0 ? K : (std::min)(K, 4. * double(options.number_of_mixtures));
   const double noise = options.relocate ? 64 : double(options.number_of_mixtures);
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.

@@ -108,8 +108,9 @@ struct Spectral_options
   /// r, the number of random mixtures of the signals that the metric sees in their place; 0: the signals themselves. E is
   /// a squared norm of something linear in the signals, so mixtures estimate it without bias, with a relative standard
   /// deviation of at most sqrt(2 / r). The order of the collapses needs no more, and costs do not depend on K. No more than r
-  /// signals are never mixed. Multiples of 16 are free of padding. Not negative.
-  Eigen::Index number_of_mixtures = 16;
+  /// signals are never mixed. Multiples of 16 are free of padding. With 16, 32 and all 100 eigenvectors |C|_L after relocation
+  /// was 1.08, 1.02 and 1.01 times that of all 100 in version 0.2 (geometric means of twelve meshes). Not negative.
+  Eigen::Index number_of_mixtures = 32;
 
   /// Which mixtures, or which noise. The same seed gives the same result everywhere.
   std::uint64_t seed = 1;

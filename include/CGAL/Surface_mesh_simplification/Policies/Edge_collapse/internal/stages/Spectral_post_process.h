@@ -249,7 +249,7 @@ private:
     if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
       return {filtered->F, filtered->Z};
     Spectral_options options;
-    options.number_of_mixtures = 8 * m_options.number_of_mixtures;
+    options.number_of_mixtures = 4 * m_options.number_of_mixtures;
     options.seed = m_options.seed + 1; // others than those of the collapses
     return signals(mixing_matrix(options, weights()));
   }
