@@ -499,6 +499,10 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
     CHECK(o.relocate);
     CHECK(o.relocation.signals == SG::Relocation_options::Signals::sampled);
   }
+  for(const Spectral_edge_collapse_options& o : {plain, best, paper})
+    CHECK(o.source == SMS::Spectral_signal_source::eigenpairs);
+  CHECK(Spectral_edge_collapse_options::fast(600).source == SMS::Spectral_signal_source::filtered_noise);
+  CHECK(Spectral_edge_collapse_options::fast(600).quadrics_above == 5);
   CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 18000);
   CHECK(Spectral_edge_collapse_options::fast(100).pre_simplify == 10000);
   CHECK(Spectral_options().shape == Spectral_options::best().shape);
