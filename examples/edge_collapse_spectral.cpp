@@ -11,6 +11,7 @@
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -18,7 +19,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
 int main(int argc, char* argv[])
-{
+try {
   Mesh mesh;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], mesh)) {
     std::cerr << "usage: edge_collapse_spectral INPUT OUTPUT N, INPUT being a triangle mesh\n";
@@ -36,4 +37,7 @@ int main(int argc, char* argv[])
   std::cout << "P, which takes functions to the coarse mesh, is " << P.rows() << " x " << P.cols() << '\n';
   return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
                                                                                              : EXIT_FAILURE;
+} catch(const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return EXIT_FAILURE;
 }

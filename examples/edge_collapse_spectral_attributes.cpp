@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <map>
 #include <vector>
@@ -68,7 +69,7 @@ private:
 //! [visitor]
 
 int main(int argc, char* argv[])
-{
+try {
   Mesh mesh;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], mesh)) {
     std::cerr << "usage: edge_collapse_spectral_attributes INPUT OUTPUT.ply N, INPUT being a triangle mesh\n";
@@ -146,4 +147,7 @@ int main(int argc, char* argv[])
   mesh.remove_property_map(mixed);
   return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
                                                                                              : EXIT_FAILURE;
+} catch(const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return EXIT_FAILURE;
 }

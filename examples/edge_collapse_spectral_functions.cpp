@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 
 using Kernel = CGAL::Simple_cartesian<double>;
@@ -24,7 +25,7 @@ namespace SG = CGAL::Spectral_geometry;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
 int main(int argc, char* argv[])
-{
+try {
   Mesh fine;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], fine)) {
     std::cerr << "usage: edge_collapse_spectral_functions INPUT OUTPUT N, INPUT being a triangle mesh\n";
@@ -75,4 +76,7 @@ int main(int argc, char* argv[])
   std::cout << "the height, carried to the coarse mesh and back, is off by " << 100 * error << " %\n";
   return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
                                                                                              : EXIT_FAILURE;
+} catch(const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return EXIT_FAILURE;
 }

@@ -106,11 +106,11 @@ awk 'BEGIN { n = 60; m = 30; pi = atan2(0, -1)
     print "f", a, corner(i + 1, j), c; print "f", a, c, corner(i, j + 1) } }
   function corner(i, j) { return (i % n) * m + j % m + 1 "/" i * (m + 1) + j + 1 }' >torus.obj
 "$program" torus.obj out.obj --vertices 300 --eigenvectors 25 --no-evaluation >said 2>complained
-grep -q 'The seams of the texture, 90 edges, are lost: add --keep-seams, and write an .obj file\.$' complained ||
+grep -q 'The seams of the texture, 90 edges, are lost: add --keep seams, and write an .obj file\.$' complained ||
   fail "seams that are lost: $(cat complained)"
 ! grep -q '^vt' out.obj || fail "there are texture coordinates without seams"
 runs "no word of seams" torus.obj out.obj --vertices 300 --eigenvectors 25 --no-evaluation --no-attributes
-runs "seams" torus.obj seams.obj --vertices 200 --levels 400 --eigenvectors 25 --keep-seams --json seams.json
+runs "seams" torus.obj seams.obj --vertices 200 --levels 400 --eigenvectors 25 --keep seams --json seams.json
 grep -q 'kept edges of seams * 90$' said && grep -q '"seam_edges": 90' seams.json || fail "seams are not in the table and the JSON"
 for file in seams.obj seams-400.obj; do
   # Both sides of the seams: each corner has the angle of its vertex, without a jump within a face, and 90 vertices have two values at least.
@@ -123,11 +123,11 @@ for file in seams.obj seams-400.obj; do
         split($(i == 4 ? 2 : i + 1), d, "/"); if((s[k] - s[d[2]]) ^ 2 > 0.2 || (r[k] - r[d[2]]) ^ 2 > 0.2) ++wrong } }
     END { exit !(wrong == 0 && t == v + 91) }' $file || fail "the texture of $file"
 done
-refuses "seams in PLY" "only OBJ files have: choose .obj for 'out.ply'" torus.obj out.ply --vertices 300 --keep-seams
-refuses "seams and no attributes" "leave one of them out" torus.obj new.obj --vertices 300 --keep-seams --no-attributes
-refuses "seams and flips" "leave out --flips or --keep-seams" torus.obj new.obj --vertices 300 --keep-seams --flips spectral
-refuses "fewer vertices than seams have" "88 vertices, but --keep-seams keeps 89" torus.obj new.obj --vertices 88 --eigenvectors 20 --keep-seams
-refuses "seams of nothing" "no seams to keep in 'shape.off', it has no texture" shape.off new.obj --vertices 300 --keep-seams
+refuses "seams in PLY" "only OBJ files have: choose .obj for 'out.ply'" torus.obj out.ply --vertices 300 --keep seams
+refuses "seams and no attributes" "leave one of them out" torus.obj new.obj --vertices 300 --keep seams --no-attributes
+refuses "seams and flips" "leave out --flips or --keep seams" torus.obj new.obj --vertices 300 --keep seams --flips spectral
+refuses "fewer vertices than seams have" "88 vertices, but --keep keeps 89" torus.obj new.obj --vertices 88 --eigenvectors 20 --keep seams
+refuses "seams of nothing" "no seams to keep in 'shape.off', it has no texture.*leave it out of --keep" shape.off new.obj --vertices 300 --keep seams
 
 runs "fitted operators" shape.off a.off --vertices 250 --eigenvectors 25 --fit-operators fitted --json fit.json
 for file in L.mtx mass.mtx; do

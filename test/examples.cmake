@@ -39,6 +39,14 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
   set_tests_properties("input" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
 endif()
 
+# With the other programs where they are built.
+if(TARGET spectral_simplify AND TARGET make_demo_shape)
+  add_test(NAME "brought-files"
+           COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/brought_files_test.sh" $<TARGET_FILE_DIR:spectral_simplify> "${shape}"
+                   "${CMAKE_CURRENT_BINARY_DIR}/brought")
+  set_tests_properties("brought-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 60)
+endif()
+
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "corrupted-files"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/corrupted_files.sh" $<TARGET_FILE:spectral_simplify> "${shape}"

@@ -487,6 +487,32 @@ class Memory(Shapes):
         pairs = self.run_.eigenpairs
         self.assertTrue(np.shares_memory(pairs.vectors, pairs.vectors))
 
+    def test_borders_and_sharp_edges_stay(self):
+        n = 13  # a square sheet, bent by 45 degrees
+        x, y = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
+        V = np.column_stack([x.ravel(), y.ravel(), np.maximum(0, x.ravel() - 6)]).astype(float)
+        a = (x[:-1, :-1] * n + y[:-1, :-1]).ravel()
+        F = np.vstack([np.column_stack([a, a + n, a + n + 1]), np.column_stack([a, a + n + 1, a + 1])])
+        border = (V[:, 0] == 0) | (V[:, 0] == 12) | (V[:, 1] == 0) | (V[:, 1] == 12)
+        corners = [0, 12, 156, 168]
+        for keep, kept in (("border", np.flatnonzero(border)), ("sharp:44", np.r_[corners, np.flatnonzero(V[:, 0] == 6)]),
+                           (["sharp:60", [30, 31], 44], [30, 31, 44] + corners)):
+            run = ss.simplify(V, F, 70, 10, keep=keep)
+            np.testing.assert_array_equal(run.V[run.vertex_map[kept]], V[kept])
+
+    def test_integers_beyond_double_precision_are_refused(self):
+        run = ss.simplify(self.V, self.F, 200, 20)
+        for dtype in "u8", "i8":
+            with self.assertRaisesRegex(ValueError, "integers beyond 2"):
+                run.interpolate(np.full(len(self.V), np.iinfo(dtype).max, dtype))
+            self.assertEqual(run.interpolate(np.full(len(self.V), 2 ** 40, dtype))[0], 2 ** 40)
+
+    def test_a_target_that_leaves_nothing_is_refused(self):
+        V = np.vstack([self.V + 3 * i for i in range(3)])
+        F = np.vstack([self.F + len(self.V) * i for i in range(3)])
+        with self.assertRaisesRegex(ValueError, "3 components need at least 12 vertices"):
+            ss.simplify(V, F, 12, 5)
+
     def test_views_keep_what_they_show(self):
         vectors = ss.eigenpairs(self.V, self.F, 20).vectors
         expected = vectors.copy()
@@ -599,6 +625,9 @@ class Wrong_input(Shapes):
                 (ValueError, "keep has a 0 or a 1 for each vertex of V, but integers are indices: pass booleans",
                  dict(keep=np.ones(2562, int))),
                 (TypeError, "keep has the dtype float64, it must hold integers", dict(keep=np.ones(3))),
+                (ValueError, r"keep\[1\] names vertex 0 again: .* a mask must hold booleans", dict(keep=[0, 0])),
+                (ValueError, "keep has 'sharp', an angle must follow", dict(keep="sharp")),
+                (ValueError, "keep has 'seams', it must be 'border', 'sharp:ANGLE'", dict(keep=["border", "seams"])),
                 (ValueError, "mask has the dtype int64, it must hold booleans", dict(mask=np.ones(2562, int))),
                 (ValueError, r"mask has the shape \(5,\), it must be \(2562,\)", dict(mask=np.ones(5, bool))),
                 (ValueError, "mask leaves no face", dict(mask=np.zeros(2562, bool))),

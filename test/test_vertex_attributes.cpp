@@ -28,7 +28,7 @@ namespace test_vertex_attributes {
 
 using Values = std::vector<double>;
 using Catch::Matchers::ContainsSubstring;
-using Kind = Vertex_attribute::Kind;
+using Kind = Attribute::Kind;
 
 namespace {
 
@@ -48,21 +48,21 @@ struct File
   std::string path;
 };
 
-Vertex_attributes attributes_of(const std::string& extension, const std::string& text)
+Attributes attributes_of(const std::string& extension, const std::string& text)
 {
   const File file(extension, text);
   return read_polygon_soup(file.path).attributes;
 }
 
-Values values(const Vertex_attributes& attributes, const std::string& name)
+Values values(const Attributes& attributes, const std::string& name)
 {
-  const Vertex_attribute* const found = attributes.find(name);
+  const Attribute* const found = attributes.find(name);
   return found == nullptr ? Values() : found->values;
 }
 
-std::string type(const Vertex_attributes& attributes, const std::string& name)
+std::string type(const Attributes& attributes, const std::string& name)
 {
-  const Vertex_attribute* const found = attributes.find(name);
+  const Attribute* const found = attributes.find(name);
   return found == nullptr ? "none" : found->type;
 }
 
@@ -136,7 +136,7 @@ double largest_error(const Mesh& mesh, const Corner_texture& texture)
 
 TEST_CASE("PLY files have any property, and what cannot be carried is named")
 {
-  const Vertex_attributes a = attributes_of(".ply", ply);
+  const Attributes a = attributes_of(".ply", ply);
   CHECK(joined(a.names()) == "red, green, blue, label, heat, nx, ny, nz");
   CHECK(values(a, "red") == Values{10, 11, 12, 250});
   CHECK(values(a, "label") == Values{7, -2, 7, 9});
@@ -145,10 +145,10 @@ TEST_CASE("PLY files have any property, and what cannot be carried is named")
   CHECK(type(a, "red") == "uchar");
   CHECK(type(a, "label") == "int");
   CHECK(type(a, "heat") == "double");
-  CHECK(a.find("red")->kind() == Kind::colour);
-  CHECK(a.find("label")->kind() == Kind::label);
-  CHECK(a.find("heat")->kind() == Kind::function);
-  CHECK(a.find("nz")->kind() == Kind::normal);
+  CHECK(a.find("red")->kind == Kind::colour);
+  CHECK(a.find("label")->kind == Kind::label);
+  CHECK(a.find("heat")->kind == Kind::function);
+  CHECK(a.find("nz")->kind == Kind::normal);
   CHECK(a.unknown ==
         std::vector<std::string>{"property friends of vertex", "property quality of face", "element edge"});
 }
@@ -157,7 +157,7 @@ TEST_CASE("OBJ files have colours behind the coordinates, and normals and textur
 {
   const std::string points = "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 1 1 0 0 0 1\nv 0 1 0 0 0 0\nv 5 5 5 1 1 1\n";
   const std::string texture = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 0 1\n";
-  const Vertex_attributes a =
+  const Attributes a =
       attributes_of(".obj", points + texture + "f 1/1/1 2/2/1 3/3/1\nf 1/1/2 3/3/-1 4/-1/2\n");
   CHECK(values(a, "red") == Values{255, 0, 0, 0, 255});
   CHECK(values(a, "green") == Values{0, 128, 0, 0, 255});
@@ -181,7 +181,7 @@ TEST_CASE("OBJ files have colours behind the coordinates, and normals and textur
 TEST_CASE("OFF files have what their first word announces")
 {
   const std::string end = "3 0 1 2\n";
-  const Vertex_attributes all = attributes_of(
+  const Attributes all = attributes_of(
       ".off", "STCNOFF\n3 1 0\n0 0 0  0 0 1  10 20 30 255  0 0.5\n1 0 0  0 0 1  1 2 3 255  1 0\n"
               "0 1 0  1 0 0  0 0 0 0  0 1\n" +
                   end);
@@ -189,12 +189,12 @@ TEST_CASE("OFF files have what their first word announces")
   CHECK(values(all, "nx") == Values{0, 0, 1});
   CHECK(values(all, "blue") == Values{30, 3, 0});
   CHECK(values(all, "t") == Values{0.5, 0, 1});
-  const Vertex_attributes small =
+  const Attributes small =
       attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0.5\n1 0 0 0 1 0\n0 1 0 0 0 1\n" + end);
   CHECK(values(small, "red") == Values{255, 0, 0});
   CHECK(values(small, "blue") == Values{128, 0, 255});
   CHECK(attributes_of(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + end).known.empty());
-  const Vertex_attributes less =
+  const Attributes less =
       attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
   CHECK(less.known.empty());
   CHECK(less.unknown.size() == 1);
@@ -219,21 +219,21 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   for(const std::string extension : {".ply", ".off", ".obj"}) {
     const File copy(extension);
     write_mesh(copy.path, input.mesh, copy.path, input.attributes);
-    const Vertex_attributes again = read_polygon_soup(copy.path).attributes;
+    const Attributes again = read_polygon_soup(copy.path).attributes;
     for(const std::string name : {"red", "green", "blue"})
       CHECK(values(again, name) == values(input.attributes, name));
   }
 
-  const Vertex_attributes opacity = attributes_of(".ply", with("property float alpha\n", "7"));
-  CHECK(opacity.find("red")->kind() == Kind::colour);
-  CHECK(opacity.find("alpha")->kind() == Kind::function);
+  const Attributes opacity = attributes_of(".ply", with("property float alpha\n", "7"));
+  CHECK(opacity.find("red")->kind == Kind::colour);
+  CHECK(opacity.find("alpha")->kind == Kind::function);
   for(const std::string number : {"1.5", "-0.1", "nan"}) {
-    const Vertex_attributes bright = attributes_of(
+    const Attributes bright = attributes_of(
         ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float red\n"
                 "property float green\nproperty float blue\nelement face 1\n"
                 "property list uchar int vertex_indices\nend_header\n0 0 1 " +
                     number + "\n3 0 0 0\n");
-    CHECK(bright.find("red")->kind() == Kind::function);
+    CHECK(bright.find("red")->kind == Kind::function);
     CHECK(values(bright, "green") == Values{1});
     CHECK(writable(bright, "a.ply").known.size() == 3);
     CHECK(writable(bright, "a.off").known.empty());
@@ -272,7 +272,7 @@ TEST_CASE("Numbers that their integer type does not hold are refused")
 
 TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")
 {
-  const Vertex_attributes fine = attributes_of(".ply", ply);
+  const Attributes fine = attributes_of(".ply", ply);
   Eigen::SparseMatrix<double> P(3, 4);
   P.insert(0, 0) = 0.3;
   P.insert(0, 1) = 0.4;
@@ -281,7 +281,7 @@ TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1,
   P.insert(1, 2) = -0.2;
   P.insert(2, 2) = 0.5;
   P.insert(2, 3) = 0.5;
-  const Vertex_attributes coarse = restricted(fine, P);
+  const Attributes coarse = restricted(fine, P);
   CHECK(coarse.names() == fine.names());
   CHECK(coarse.unknown == fine.unknown);
   CHECK(values(coarse, "red") == Values{11, 255, 131});
@@ -304,7 +304,7 @@ TEST_CASE("What is written is read again, as far as the format holds it")
   write_mesh(file.path, input.mesh, file.path, input.attributes);
   const Polygon_soup soup = read_polygon_soup(file.path);
   CHECK(soup.polygons.size() == 2);
-  for(const Vertex_attribute& a : input.attributes.known) {
+  for(const Attribute& a : input.attributes.known) {
     const bool written = writable(input.attributes, file.path).find(a.name) != nullptr;
     CHECK(written == (extension == ".ply" || (extension != ".stl" && a.name != "label" && a.name != "heat")));
     const Values again = values(soup.attributes, a.name);
@@ -331,7 +331,7 @@ TEST_CASE("Binary PLY files have the same attributes as their text")
     bytes +=
         raw(float(v == 1)) + raw(float(v == 2)) + raw(0.f) + raw(std::int16_t(v - 1)) + raw(0.25f * float(v));
   bytes += raw(std::uint8_t(3)) + raw(std::int32_t(0)) + raw(std::int32_t(1)) + raw(std::int32_t(2));
-  const Vertex_attributes a = attributes_of(".ply", bytes);
+  const Attributes a = attributes_of(".ply", bytes);
   CHECK(values(a, "part") == Values{-1, 0, 1});
   CHECK(values(a, "heat") == Values{0, 0.25, 0.5});
 }

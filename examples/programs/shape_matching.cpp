@@ -4,10 +4,12 @@
 
 // Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows the options.
 
+#include "io/index_reader.h"
 #include "io/input_mesh.h"
 #include "io/machine_memory.h"
 #include "io/matrix_io.h"
 #include "io/mesh_io.h"
+#include "io/orientation.h"
 #include "io/output_files.h"
 #include "io/program.h"
 #include "matching/geodesic_error.h"
@@ -61,8 +63,8 @@ public:
   explicit Run(const Matching_arguments& arguments)
     : m_arguments(arguments)
     , m_reading(started())
-    , m_input_X(read_input_mesh(arguments.X, mending(arguments.strict, arguments.repair)))
-    , m_input_Y(read_input_mesh(arguments.Y, mending(arguments.strict, arguments.repair)))
+    , m_input_X(read(arguments.X))
+    , m_input_Y(read(arguments.Y))
     , m_proxy_size(proxy_size(arguments, m_X.number_of_vertices(), m_Y.number_of_vertices()))
     , m_files(inputs(arguments))
   {
@@ -126,9 +128,29 @@ private:
       std::cout << printable(input.changes_of(path)) << "\n" << std::flush;
   }
 
-  Input_mesh read_proxy(const std::string& path, const Mesh& fine) const
+  // The start of a match tells a shape from its mirror image by the orientation: of closed surfaces it must be that of their volume.
+  Input_mesh read(const std::string& path) const
   {
     Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));
+    SG::Mesh_matrices matrices = SG::mesh_matrices(input.mesh);
+    const std::vector<Eigen::Index> turned = inside_out(matrices.V, matrices.T);
+    if(turned.empty())
+      return input;
+    if(m_arguments.strict)
+      throw std::runtime_error("'" + path +
+                               "' is inside out, its volume is negative, and would be matched to a mirror "
+                               "image: turn its faces round, or leave out --strict.");
+    for(const Eigen::Index t : turned)
+      std::swap(matrices.T(t, 1), matrices.T(t, 2));
+    input.mesh = mesh_of(matrices);
+    input.changes.push_back({"face of an inside-out body turned round",
+                             "faces of inside-out bodies turned round", turned.size()});
+    return input;
+  }
+
+  Input_mesh read_proxy(const std::string& path, const Mesh& fine) const
+  {
+    Input_mesh input = read(path);
     const std::size_t n = input.mesh.number_of_vertices();
     if(n > fine.number_of_vertices() || static_cast<long>(n) < m_arguments.eigenvectors)
       throw std::runtime_error("'" + path + "' has " + std::to_string(n) +
@@ -144,7 +166,7 @@ private:
     const Vertex_numbering &X = m_input_X.numbering, &Y = m_input_Y.numbering;
     const std::size_t n_X = X.number_of_file_vertices(), n_Y = Y.number_of_file_vertices();
     if(!m_arguments.landmarks.empty())
-      for(const auto& line : read_vertex_lines(m_arguments.landmarks, {n_X, n_Y}, false))
+      for(const auto& line : read_vertex_lines(m_arguments.landmarks, {n_X, n_Y}))
         m_landmarks.emplace_back(mesh_vertex(X, line[0]), mesh_vertex(Y, line[1]));
     if(m_arguments.ground_truth.empty())
       return;
@@ -154,16 +176,15 @@ private:
                                " lines, it must have one for each of the " + std::to_string(n_X) +
                                " vertices of X.");
     for(std::size_t w = 0; w < X.number_of_mesh_vertices(); ++w) {
-      const Eigen::Index v = truth[X.file_vertex(w)][0];
-      const std::size_t there = v < 0 ? no_vertex : Y.mesh_vertex(static_cast<std::size_t>(v));
+      const std::size_t v = truth[X.file_vertex(w)][0];
+      const std::size_t there = v == no_vertex ? no_vertex : Y.mesh_vertex(v);
       m_truth.push_back(there == no_vertex ? Eigen::Index(-1) : static_cast<Eigen::Index>(there));
     }
   }
 
-  Eigen::Index mesh_vertex(const Vertex_numbering& numbering, const Eigen::Index v) const
+  Eigen::Index mesh_vertex(const Vertex_numbering& numbering, const std::size_t v) const
   {
-    return static_cast<Eigen::Index>(
-        numbering.vertices_of_mesh({static_cast<std::size_t>(v)}, m_arguments.landmarks).front());
+    return static_cast<Eigen::Index>(numbering.vertices_of_mesh({v}, m_arguments.landmarks).front());
   }
 
   void reduce()

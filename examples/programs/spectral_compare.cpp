@@ -8,6 +8,7 @@
 #include "compare/coloured_mesh.h"
 #include "compare/compare_arguments.h"
 #include "compare/evaluation.h"
+#include "compare/lies_on.h"
 #include "compare/shape_measures.h"
 #include "io/Progress_bar.h"
 #include "io/command_line.h"
@@ -408,9 +409,13 @@ private:
 
   void judge_rival(Read_rival& rival)
   {
-    if(rival.candidate.op.L.rows() == 0)
+    if(rival.candidate.op.L.rows() == 0) {
+      const std::string reason = not_on(SG::mesh_matrices(rival.coarse.mesh), m_matrices);
+      if(!reason.empty())
+        throw std::runtime_error("'" + rival.rival->mesh + "', a simplification of '" + m_arguments.mesh +
+                                 "', " + reason + ".");
       judge_mesh(rival.coarse, rival.row);
-    else
+    } else
       judge_operator(rival.candidate, rival.row);
   }
 

@@ -6,6 +6,7 @@
 
 #include "io/Progress_bar.h"
 #include "io/index_reader.h"
+#include "io/face_attributes.h"
 #include "io/input_mesh.h"
 #include "io/machine_memory.h"
 #include "io/matrix_io.h"
@@ -97,14 +98,27 @@ void announce(Output_files& files, const Arguments& a)
   add_folder(a.fit_operators, fitted_files);
 }
 
-// What the input has and the output will not have; empty if there is nothing.
-std::string lost_attributes(const Vertex_attributes& attributes, const std::string& output)
+// The names of attributes of faces, as they stand beside those of vertices.
+std::vector<std::string> names_of_faces(const Attributes& attributes)
 {
-  Vertex_attributes others = attributes;
-  others.remove(writable(attributes, output).names());
-  std::vector<std::string> lost = others.names();
+  std::vector<std::string> names;
+  for(const Attribute& a : attributes.known)
+    names.push_back(a.name + " of faces");
+  return names;
+}
+
+// What the input has and the output will not have; empty if there is nothing.
+std::string lost_attributes(const Input_mesh& input, const std::string& output)
+{
+  Attributes at_vertices = input.attributes, at_faces = input.face_attributes;
+  at_vertices.remove(writable(input.attributes, output).names());
+  at_faces.remove(writable_at_faces(input.face_attributes, output).names());
+  std::vector<std::string> lost = at_vertices.names();
+  for(const std::string& name : names_of_faces(at_faces))
+    lost.push_back(name);
   const bool of_format = !lost.empty();
-  lost.insert(lost.end(), others.unknown.begin(), others.unknown.end());
+  for(const Attributes* const a : {&at_vertices, &at_faces})
+    lost.insert(lost.end(), a->unknown.begin(), a->unknown.end());
   return lost.empty() ? ""
                       : "The output is without what the input has beside: " + printable(joined(lost)) +
                             (of_format ? "; a .ply file holds more." : ".");
@@ -113,22 +127,22 @@ std::string lost_attributes(const Vertex_attributes& attributes, const std::stri
 // What becomes of seams that are not kept; empty if there are none.
 std::string lost_seams(const Arguments& a, const Input_mesh& input)
 {
-  if(a.keep_seams || input.texture.empty())
+  if(a.kept.seams || input.texture.empty())
     return "";
   const std::size_t n = Texture_seams(input.mesh, input.texture).number_of_edges();
   return n == 0 ? ""
                 : "The seams of the texture, " + std::to_string(n) + (n == 1 ? " edge" : " edges") +
-                      ", are lost: add --keep-seams, and write an .obj file.";
+                      ", are lost: add --keep seams, and write an .obj file.";
 }
 
 // The seams to keep.
 std::optional<Texture_seams> seams_of(const Arguments& a, Input_mesh& input)
 {
-  if(!a.keep_seams)
+  if(!a.kept.seams)
     return {};
   if(input.texture.empty())
     throw std::runtime_error("there are no seams to keep in '" + a.input + "', " + input.without_texture +
-                             ": leave out --keep-seams.");
+                             ": leave out the word seams of --keep.");
   return Texture_seams(input.mesh, std::move(input.texture));
 }
 
@@ -141,10 +155,49 @@ struct Both_meshes
   SG::Eigenpairs coarse_pairs;
 };
 
+// What --keep names, by places in `vertices(mesh)`, each once.
+std::vector<std::size_t> kept_vertices(const Arguments& a, const Input_mesh& input,
+                                       const std::optional<Texture_seams>& seams)
+{
+  std::vector<std::size_t> kept = feature_vertices(input.mesh, a.kept);
+  const auto add = [&kept](const std::vector<std::size_t>& more) {
+    kept.insert(kept.end(), more.begin(), more.end());
+  };
+  for(const std::string& file : a.kept.files)
+    add(input.numbering.vertices_of_mesh(read_indices(file, input.numbering.number_of_file_vertices()),
+                                         file));
+  if(seams)
+    add(seams->vertices());
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
+
+// Carries as labels what --labels names.
+void set_labels(const Arguments& a, Input_mesh& input)
+{
+  for(const std::string& name : a.labels) {
+    bool found = false;
+    for(Attributes* const attributes : {&input.attributes, &input.face_attributes})
+      for(Attribute& attribute : attributes->known)
+        if(attribute.name == name) {
+          attribute.kind = Attribute::Kind::label;
+          found = true;
+        }
+    if(!found) {
+      std::vector<std::string> names = input.attributes.names();
+      for(const std::string& of_faces : names_of_faces(input.face_attributes))
+        names.push_back(of_faces);
+      throw std::runtime_error("--labels names '" + name + "', but '" + a.input + "' has " +
+                               (names.empty() ? "no attributes" : "only " + joined(names)) +
+                               ": choose among them, or leave it out.");
+    }
+  }
+}
+
 SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std::size_t target,
                                                    const Vertex_numbering& numbering,
-                                                   const std::optional<Texture_seams>& seams,
-                                                   Progress_bar& bar)
+                                                   std::vector<std::size_t> kept, Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options =
       options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape,
@@ -178,12 +231,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
     options.operator_fit = SG::Operator_fit_options::for_mass(a.fit_mass == "edges" ? 1. : 0.);
   if(a.fit_rings)
     options.operator_fit.rings = *a.fit_rings;
-  if(!a.keep.empty())
-    options.kept_vertices =
-        numbering.vertices_of_mesh(read_indices(a.keep, numbering.number_of_file_vertices()), a.keep);
-  if(seams)
-    options.kept_vertices.insert(options.kept_vertices.end(), seams->vertices().begin(),
-                                 seams->vertices().end());
+  options.kept_vertices = std::move(kept);
   if(!a.signals.empty())
     options.signals = numbering.rows_of_mesh(read_signals(a.signals, numbering.number_of_file_vertices()));
   return options;
@@ -363,7 +411,23 @@ void write_json(const Output_files& files, const Arguments& a, const Simplificat
   finish_writing(stream, a.json);
 }
 
-// Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called.
+// Files of materials, named as seen from the folder of the output.
+std::vector<std::string> libraries_from(const std::string& output, const std::string& input,
+                                        std::vector<std::string> libraries)
+{
+  namespace fs = std::filesystem;
+  const auto folder = [](const std::string& path) {
+    return fs::absolute(path).parent_path().lexically_normal();
+  };
+  if(folder(output) != folder(input))
+    for(std::string& library : libraries)
+      if(fs::path(library).is_relative() && fs::exists(folder(input) / library))
+        library = (folder(input) / library).lexically_proximate(folder(output)).generic_string();
+  return libraries;
+}
+
+// Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called. The mesh of
+// `input` is as it was read.
 template <class Name>
 void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Input_mesh& input,
                          const std::optional<Texture_seams>& seams, const Mesh& mesh,
@@ -374,11 +438,15 @@ void write_mesh_and_maps(const Output_files& files, const Arguments& a, const In
     written.push_back(name(path));
     return files.temporary(name(path));
   };
-  write_mesh(file(a.output), mesh, name(a.output),
-             input.attributes.known.empty()
-                 ? Vertex_attributes()
-                 : restricted(input.attributes, input.numbering.columns_of_file(P)),
-             seams ? seams->simplified(mesh, map) : Corner_texture());
+  Decoration decoration;
+  if(!input.attributes.known.empty())
+    decoration.vertices = restricted(input.attributes, input.numbering.columns_of_file(P));
+  if(!input.face_attributes.known.empty())
+    decoration.faces = carried_by_area(input.face_attributes, input.mesh, mesh, map);
+  if(seams)
+    decoration.texture = seams->simplified(mesh, map);
+  decoration.libraries = libraries_from(a.output, a.input, input.material_libraries);
+  write_mesh(file(a.output), mesh, name(a.output), decoration);
   if(!a.restriction.empty())
     write_matrix_market(file(a.restriction), input.numbering.columns_of_file(P, a.binary),
                         name(a.restriction));
@@ -520,6 +588,49 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   return failure.empty() ? 130 : evaluation_failed;
 }
 
+// How many vertices a mesh has when it has so many faces. A closed mesh has two for each vertex, less what its handles take; a
+// border is taken to lose vertices as its mesh does.
+std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
+{
+  if(!a.faces)
+    return 0;
+  const double F = double(mesh.number_of_faces()), V = double(mesh.number_of_vertices());
+  const double wanted = double(a.faces->of(mesh.number_of_faces()));
+  if(wanted > F)
+    throw std::runtime_error("--faces is " + std::to_string(std::size_t(wanted)) + ", but '" + a.input +
+                             "' has " + std::to_string(mesh.number_of_faces()) + " faces.");
+  const auto edges = mesh.edges();
+  const auto border =
+      double(std::count_if(edges.begin(), edges.end(), [&](const auto e) { return mesh.is_border(e); }));
+  const double twice_characteristic = 2 * V - border - F;
+  double vertices = (wanted + twice_characteristic) / 2;
+  for(int i = 0; i < 50 && border > 0; ++i)
+    vertices = (wanted + twice_characteristic + border * std::sqrt((std::max)(vertices, 0.) / V)) / 2;
+  return std::size_t((std::max)((std::min)(std::floor(vertices), V), 1.));
+}
+
+// The number of faces follows from that of the vertices where no border loses edges. Else the run is done again from a copy, with as
+// many vertices more or less as the faces ask for.
+SMS::Spectral_edge_collapse_result simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
+                                                     const SMS::Spectral_edge_collapse_options& options)
+{
+  const Mesh copy = is_closed(mesh) ? Mesh() : mesh;
+  SMS::Spectral_edge_collapse_result result = simplify_mesh(mesh, target, options);
+  for(int i = 0; i < 8 && !copy.is_empty() && result.explanation.empty() && !interrupted; ++i) {
+    const auto off = static_cast<long>(faces) - static_cast<long>(mesh.number_of_faces());
+    if(off == 0 || off == 1 || (i > 3 && off > 0)) // a border may jump over the number
+      break;
+    const long step = off / 2 + (off < 0 && off % 2 != 0 ? -1 : 0);
+    const long next = static_cast<long>(target) + step;
+    if(next < 3 || next > static_cast<long>(copy.number_of_vertices()))
+      break;
+    target = static_cast<std::size_t>(next);
+    mesh = copy;
+    result = simplify_mesh(mesh, target, options);
+  }
+  return result;
+}
+
 int run(Arguments a)
 {
   a.threads = usable_threads(a.threads, a.quiet);
@@ -535,15 +646,25 @@ int run(Arguments a)
   bar.clear();
   Simplification_report report;
   report.seconds_reading = timer.time();
-  const std::size_t target = resolve_sizes(a, num_vertices(input.mesh), seams ? seams->vertices().size() : 0);
-  SMS::Spectral_edge_collapse_options options = options_of_run(a, target, input.numbering, seams, bar);
+  set_labels(a, input);
+  std::vector<std::size_t> kept = kept_vertices(a, input, seams);
+  const std::size_t target = resolve_sizes(a, input.diagnosis, num_vertices(input.mesh), kept.size(),
+                                           vertices_for_faces(a, input.mesh));
+  SMS::Spectral_edge_collapse_options options =
+      options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
-  Output_files files({a.input, a.keep, a.signals, a.operator_.file});
+  std::vector<std::string> inputs = {a.input, a.signals, a.operator_.file};
+  inputs.insert(inputs.end(), a.kept.files.begin(), a.kept.files.end());
+  Output_files files(inputs);
   announce(files, a);
+  std::vector<std::string> rounded = {a.repaired.empty() ? "" : rounding(input.mesh, a.repaired)};
+  rounding(input.mesh, a.output, target);
   check_memory(a, input.mesh, target, options);
   if(!a.quiet && !input.changes.empty())
     std::cout << printable(input.changes_of(a.input)) << "\n\n" << std::flush;
-  Mesh mesh = std::move(input.mesh), copy;
+  // What faces have is carried from the mesh as it was.
+  const bool stays = !input.face_attributes.known.empty();
+  Mesh mesh = stays ? input.mesh : std::move(input.mesh), copy;
   if(!a.repaired.empty())
     write_mesh(files.temporary(a.repaired), mesh, a.repaired);
   if(!a.levels.empty())
@@ -552,7 +673,8 @@ int run(Arguments a)
   if(!a.no_evaluation || !a.prolongation.empty())
     meshes.fine = SG::mesh_matrices(mesh);
 
-  report.result = simplify_mesh(mesh, target, options);
+  report.result = a.faces ? simplify_to_faces(mesh, target, a.faces->of(num_faces(mesh)), options)
+                          : simplify_mesh(mesh, target, options);
   if(interrupted && a.on_interrupt != "write")
     throw SG::Cancelled();
   const std::vector<std::string> warnings =
@@ -565,8 +687,11 @@ int run(Arguments a)
   report.operator_word = a.operator_word;
   report.options = options;
   report.attributes = writable(input.attributes, a.output).names();
-  const std::string lost = lost_attributes(input.attributes, a.output);
-  for(const std::string& loss : {lost, lost_edges})
+  for(const std::string& name : names_of_faces(writable_at_faces(input.face_attributes, a.output)))
+    report.attributes.push_back(name);
+  rounded.push_back(rounding(mesh, a.output));
+  for(const std::string& loss :
+      {lost_attributes(input, a.output), lost_edges, rounded[0], rounded[1], input.still_cut})
     if(!loss.empty())
       report.result.warnings.push_back(loss);
   if(seams)

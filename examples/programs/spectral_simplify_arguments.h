@@ -6,11 +6,14 @@
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 
 #include "io/command_line.h"
+#include "io/kept_vertices.h"
 #include "io/mesh_io.h"
 #include "io/operator_reader.h"
 #include "io/program.h"
 #include "io/vertex_target.h"
 #include "option_words.h"
+
+#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +31,7 @@ constexpr int evaluation_failed = 3;
 struct Arguments
 {
   std::string input, output;
-  std::optional<Vertex_target> vertices;
+  std::optional<Vertex_target> vertices, faces;
   std::optional<double> max_error;
   std::vector<std::size_t> levels; // descending, once the size of INPUT is known
   long eigenvectors = 100;
@@ -42,16 +45,18 @@ struct Arguments
   std::optional<double> shape;                               // the same
   int threads = all_threads();
   bool binary = false, preserve_border = false, no_evaluation = false, quiet = false, repair = false,
-       strict = false, intrinsic_delaunay = false, no_attributes = false, keep_seams = false;
+       strict = false, intrinsic_delaunay = false, no_attributes = false;
   std::string restriction, prolongation, map, eigenpairs, json, report, repaired; // empty: not wanted
   std::string fit_operators;                                                      // the same
   std::string fit_mass;                                                           // empty: as the mass has it
   std::optional<int> fit_rings;                                                   // the same
-  std::string keep, signals, on_interrupt = "discard";
-  std::string command; // as it was typed
-  std::string help;    // the text, if it was asked for
+  std::string signals, on_interrupt = "discard";
+  Kept kept;
+  std::vector<std::string> labels; // attributes whose numbers are labels
+  std::string command;             // as it was typed
+  std::string help;                // the text, if it was asked for
 
-  std::string vertices_word, levels_word; // as they were typed
+  std::string vertices_word, faces_word, levels_word, keep, labels_word; // as they were typed
   std::vector<Vertex_target> level_targets;
 
   bool wants_matrices() const
@@ -77,6 +82,9 @@ inline Command_line described(Arguments& a)
   line.group("Size");
   line.option("vertices", a.vertices_word, "N|P%", "how many vertices OUTPUT has, such as 600 or 3%");
   line.option(
+      "faces", a.faces_word, "N|P%",
+      "in its place, how many faces it has at most; two or three fewer where its border loses an edge");
+  line.option(
       "levels", a.levels_word, "N1,N2,...",
       "write these sizes as well: OUTPUT-N1, OUTPUT-N2, ..., with a matrix of --restriction and a map "
       "of --map for each");
@@ -95,7 +103,12 @@ inline Command_line described(Arguments& a)
 
   line.group("Input");
   line.flag("repair", a.repair, "make INPUT an oriented manifold of triangles and say what was changed");
-  line.option("keep", a.keep, "FILE", "vertices that stay where they are, one index per line, from 0");
+  line.option(
+      "keep", a.keep, "LIST",
+      "vertices that stay where they are, words separated by commas: border; sharp:ANGLE, those of edges "
+      "where the normals of both faces are ANGLE degrees apart, and corners of the border; seams, those of a "
+      "texture; "
+      "FILE, one index per line, from 0");
 
   line.group("Outputs");
   line.option("restriction", a.restriction, "P.mtx",
@@ -155,16 +168,17 @@ inline Command_line described(Arguments& a)
       "for each vertex of INPUT");
   line.flag("binary", a.binary, "a restriction of ones and zeros: it picks vertices of INPUT");
   line.flag("preserve-border", a.preserve_border, "no edge is drawn away from the border");
-  line.flag(
-      "keep-seams", a.keep_seams,
-      "the seams of INPUT's texture stay: edges whose two faces have other texture coordinates, and "
-      "edges that INPUT has twice in the same place. Their vertices are kept, and OUTPUT, an .obj file, "
-      "has texture coordinates at the corners of faces");
+  line.option("labels", a.labels_word, "NAMES",
+              "attributes of INPUT whose floating numbers are labels, separated by commas: the one of most "
+              "weight is taken");
   line.flag("no-attributes", a.no_attributes,
-            "leave behind what INPUT has at its vertices beside positions. Otherwise OUTPUT has it as well, "
-            "as far as its format holds it (.ply all, .obj colours, normals and texture coordinates, .off "
-            "colours and normals): numbers by the restriction, integers that are no colours as labels, of "
-            "which the one of most weight is taken");
+            "leave behind what INPUT has at its vertices and faces. Otherwise OUTPUT has it as well, "
+            "as far as its format holds it (.ply all, .obj colours, normals, texture coordinates, materials "
+            "and groups, .off "
+            "colours and normals, .stl colours of faces): numbers by the restriction, integers that are no "
+            "colours as labels, of "
+            "which the one of most weight is taken; what faces have by the area that each face of OUTPUT "
+            "takes over");
   line.choice("flips", a.flips, words_of(flip_words),
               "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite "
               "angles are more than 180 degrees together; --levels are written without");
@@ -210,8 +224,12 @@ inline void check(const Arguments& a)
   if(a.input.empty() || a.output.empty())
     refuse(
         "INPUT and OUTPUT are needed: spectral_simplify INPUT OUTPUT --vertices N; --help shows everything.");
-  if(!a.vertices && !a.max_error && a.level_targets.empty())
-    refuse("say how far to simplify: --vertices N, --vertices P%, --levels N1,N2,... or --max-error E.");
+  if(!a.vertices && !a.faces && !a.max_error && a.level_targets.empty())
+    refuse("say how far to simplify: --vertices N, --vertices P%, --faces N, --levels N1,N2,... or "
+           "--max-error E.");
+  if(a.faces && (a.vertices || a.max_error))
+    refuse(std::string("--faces and ") + (a.vertices ? "--vertices" : "--max-error") +
+           " both say how far to simplify: leave one of them out.");
   if(a.max_error && !(*a.max_error > 0 && std::isfinite(*a.max_error)))
     refuse("--max-error is " + shown(*a.max_error) + ", it must be greater than 0.");
   if(a.eigenvectors < 1)
@@ -243,17 +261,19 @@ inline void check(const Arguments& a)
     refuse("--fit-rings is " + std::to_string(*a.fit_rings) + ", it must be 1 or 2.");
   if(a.no_evaluation && !a.report.empty())
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
-  if(a.keep_seams && a.no_attributes)
-    refuse("--keep-seams writes a texture, --no-attributes leaves it behind: leave one of them out.");
-  if(a.keep_seams && a.flips != "none")
-    refuse("--flips may turn an edge of a seam: leave out --flips or --keep-seams.");
+  if(a.kept.seams && a.no_attributes)
+    refuse("--keep seams writes a texture, --no-attributes leaves it behind: leave one of them out.");
+  if(a.kept.seams && a.flips != "none")
+    refuse("--flips may turn an edge of a seam: leave out --flips or --keep seams.");
+  if(!a.labels.empty() && a.no_attributes)
+    refuse("--labels names attributes, --no-attributes leaves them behind: leave one of them out.");
   if(!a.repaired.empty() && !a.repair)
     refuse("--repaired writes what --repair makes: add --repair.");
   if(!a.repaired.empty())
     mesh_format(a.repaired);
   mesh_format(a.input);
-  if(a.keep_seams && mesh_format(a.output) != ".obj")
-    refuse("--keep-seams writes texture coordinates at the corners of faces, which only OBJ files have: "
+  if(a.kept.seams && mesh_format(a.output) != ".obj")
+    refuse("--keep seams writes texture coordinates at the corners of faces, which only OBJ files have: "
            "choose .obj for '" +
            a.output + "'.");
   if(mesh_format(a.output) == ".stl" && a.wants_matrices())
@@ -275,6 +295,13 @@ inline Arguments parse_arguments(int argc, char* argv[])
     return a;
   if(!a.vertices_word.empty())
     a.vertices = parsed_vertex_target("--vertices", a.vertices_word);
+  if(!a.faces_word.empty())
+    a.faces = parsed_vertex_target("--faces", a.faces_word, "faces");
+  if(!a.keep.empty())
+    a.kept = parsed_keep(a.keep);
+  std::istringstream labels(a.labels_word);
+  for(std::string name; std::getline(labels, name, ',');)
+    a.labels.push_back(name);
   if(!a.levels_word.empty())
     a.level_targets = parsed_vertex_targets("--levels", a.levels_word);
   arguments_internal::check(a);
@@ -282,9 +309,10 @@ inline Arguments parse_arguments(int argc, char* argv[])
   return a;
 }
 
-// Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of which `at_seams` are kept; throws
-// when one of these or K does not suit it.
-inline std::size_t resolve_sizes(Arguments& a, const std::size_t n, const std::size_t at_seams)
+// Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of which `kept` stay; throws when
+// one of these or K does not suit it. `for_faces`: the number of vertices that --faces means.
+inline std::size_t resolve_sizes(Arguments& a, const CGAL::Spectral_geometry::Mesh_diagnosis& diagnosis,
+                                 const std::size_t n, const std::size_t kept, const std::size_t for_faces)
 {
   const std::string size = "'" + a.input + "' has " + std::to_string(n) + " vertices";
   a.levels.clear();
@@ -294,10 +322,11 @@ inline std::size_t resolve_sizes(Arguments& a, const std::size_t n, const std::s
   if(const auto twice = std::adjacent_find(a.levels.begin(), a.levels.end()); twice != a.levels.end())
     throw std::runtime_error("--levels names " + std::to_string(*twice) + " twice.");
   const long advised = 3 * a.eigenvectors; // section 4.3 of the paper
-  const long target = a.vertices          ? static_cast<long>(a.vertices->of(n))
-                      : !a.levels.empty() ? static_cast<long>(a.levels.back())
-                                          : (std::max)((std::min)(advised, static_cast<long>(n)),
-                                                       static_cast<long>(at_seams));
+  const long target = a.faces      ? static_cast<long>(for_faces)
+                      : a.vertices ? static_cast<long>(a.vertices->of(n))
+                      : !a.levels.empty()
+                          ? static_cast<long>(a.levels.back())
+                          : (std::max)((std::min)(advised, static_cast<long>(n)), static_cast<long>(kept));
   if(!a.levels.empty() && a.levels.front() > n)
     throw std::runtime_error("--levels names " + std::to_string(a.levels.front()) + ", but " + size + ".");
   if(static_cast<std::size_t>(target) > n)
@@ -306,10 +335,13 @@ inline std::size_t resolve_sizes(Arguments& a, const std::size_t n, const std::s
     throw std::runtime_error("--levels names " + std::to_string(a.levels.back()) +
                              ", but OUTPUT is to have " + std::to_string(target) +
                              " vertices: name only levels above that.");
-  if(static_cast<std::size_t>(target) < at_seams)
-    throw std::runtime_error("OUTPUT is to have " + std::to_string(target) +
-                             " vertices, but --keep-seams keeps " + std::to_string(at_seams) +
-                             ": ask for more, or leave it out.");
+  if(static_cast<std::size_t>(target) < kept)
+    throw std::runtime_error("OUTPUT is to have " + std::to_string(target) + " vertices, but --keep keeps " +
+                             std::to_string(kept) + ": ask for more, or keep fewer.");
+  if(const std::string reason = diagnosis.too_small(static_cast<std::size_t>(target));
+     !reason.empty() && static_cast<std::size_t>(target) < n)
+    throw std::runtime_error("OUTPUT is to have " + std::to_string(target) + " vertices, but " + reason +
+                             ".");
   if(static_cast<std::size_t>(a.eigenvectors) >= n)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) + ", it must be below " +
                              std::to_string(n) + ": " + size + ".");

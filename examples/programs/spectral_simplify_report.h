@@ -8,7 +8,7 @@
 #include "io/mesh_repair.h"
 #include "io/program.h"
 #include "io/text_lines.h"
-#include "io/vertex_attributes.h"
+#include "io/attributes.h"
 #include "option_words.h"
 #include "report/run_json.h"
 

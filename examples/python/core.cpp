@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "arrays.h"
 #include "distances.h"
+#include "kept.h"
 #include "meshes.h"
 #include "spectra.h"
 #include "watch.h"
@@ -211,6 +212,13 @@ py::dict simplify(const Arguments& a)
   options.intrinsic_delaunay = a.intrinsic_delaunay();
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
+  for(const std::size_t v : feature_vertices(surface_mesh(*fine), kept_features(a)))
+    options.kept_vertices.push_back(v);
+  std::sort(options.kept_vertices.begin(), options.kept_vertices.end());
+  options.kept_vertices.erase(std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
+                              options.kept_vertices.end());
+  if(const std::string reason = diagnosis.too_small(std::size_t(n)); !reason.empty() && n < vertices)
+    refuse("n is " + to_string(n) + ", but " + reason + ".");
   Watch watch(a);
   options.progress = [&](const SMS::Spectral_progress& progress) {
     return watch(word_of(phase_words, progress.phase), progress.fraction);
@@ -238,6 +246,7 @@ py::dict simplify(const Arguments& a)
   for(const std::string& warning : diagnosis.warnings(k, std::size_t(n)))
     run.result.warnings.push_back(warning);
   py::dict result = level_of(run.coarse, run.result.restriction, run.result.vertex_map);
+  result["kept"] = array_of(options.kept_vertices);
   result["report"] = py::module_::import("json").attr("loads")(
       run_json(run.result, options, a["preset"].cast<std::string>()).dump());
   result["eigenpairs"] = run.op ? py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)})
@@ -326,8 +335,7 @@ PYBIND11_MODULE(_core, m)
   define(m, "relocate", relocate);
   define(m, "clean", clean);
   define(m, "diagnose", diagnosis_of);
-  define(m, "kept",
-         [](const Arguments& a) { return array_of(a.indices("keep", std::size_t(a.integer("v", 0)), "V")); });
+  define(m, "kept", [](const Arguments& a) { return array_of(kept_indices(a)); });
   define(m, "arrays", [](const Arguments& a) {
     return py::make_tuple(a.array<double>("V", 3, "vertex"), a.array<std::int64_t>("F", 3, "triangle"));
   });

@@ -5,6 +5,7 @@
 #ifndef SPECTRAL_PYTHON_MATCH_H
 #define SPECTRAL_PYTHON_MATCH_H
 
+#include "../programs/io/orientation.h"
 #include "../programs/matching/matcher.h"
 #include "arguments.h"
 #include "arrays.h"
@@ -18,9 +19,17 @@
 // What the program shape_matching does.
 inline py::dict match(const Arguments& a)
 {
-  const SG::Mesh_matrices X = a.mesh("VX", "FX"), Y = a.mesh("VY", "FY");
+  SG::Mesh_matrices X = a.mesh("VX", "FX"), Y = a.mesh("VY", "FY");
   checked(X, "VX, FX");
   checked(Y, "VY, FY");
+  // The start tells a shape from its mirror image by the orientation.
+  for(SG::Mesh_matrices* const mesh : {&X, &Y})
+    if(const auto turned = inside_out(mesh->V, mesh->T); !turned.empty()) {
+      warn(std::string(mesh == &X ? "VX, FX" : "VY, FY") +
+           " is inside out, its volume is negative: its faces are turned round for the match.");
+      for(const Index t : turned)
+        std::swap(mesh->T(t, 1), mesh->T(t, 2));
+    }
   const Index n = a.integer("n", 4, (std::min)(X.V.rows(), Y.V.rows()), ", the vertices of the smaller mesh");
   SMS::Spectral_edge_collapse_options simplification;
   simplification.mass = a.mass();
@@ -43,11 +52,16 @@ inline py::dict match(const Arguments& a)
   if(a.has("landmarks")) {
     const auto rows = a.array<std::int64_t>("landmarks", 2, "pair of vertices");
     for(py::ssize_t i = 0; i < rows.shape(0); ++i) {
-      for(int side = 0; side < 2; ++side)
+      for(int side = 0; side < 2; ++side) {
+        for(py::ssize_t j = 0; j < i; ++j)
+          if(rows.at(i, side) == rows.at(j, side))
+            refuse("landmarks[" + to_string(i) + ", " + to_string(side) + "] names vertex " +
+                   to_string(rows.at(i, side)) + " again: write each once.");
         if(rows.at(i, side) < 0 || rows.at(i, side) >= (side == 0 ? X : Y).V.rows())
           refuse("landmarks[" + to_string(i) + ", " + to_string(side) + "] is " +
                  to_string(rows.at(i, side)) + ", but " + (side == 0 ? "VX" : "VY") + " has " +
                  to_string((side == 0 ? X : Y).V.rows()) + " vertices: they are counted from 0.");
+      }
       landmarks.emplace_back(rows.at(i, 0), rows.at(i, 1));
     }
   }

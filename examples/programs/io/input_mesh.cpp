@@ -172,6 +172,19 @@ Mended mended(const Polygon_soup& soup, const bool merge, const bool copies)
   return result;
 }
 
+// The repair closes cracks; what is left is where it has separated sheets that share an edge or a vertex.
+std::string still_cut(const Mesh_diagnosis& diagnosis, const std::vector<std::size_t>& origin)
+{
+  if(diagnosis.cracks.empty())
+    return "";
+  const std::size_t n = diagnosis.cracks.size();
+  return "The surface is still cut at " + std::to_string(n) +
+         (n == 1 ? " border vertex that lies" : " border vertices that lie") +
+         " on another, where --repair had to separate sheets, the first is vertex " +
+         std::to_string(origin[diagnosis.cracks.front().first]) +
+         " of INPUT (counted from 0): functions may jump there.";
+}
+
 std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
 {
   // Such a mesh is told to be scaled, and no repair does that.
@@ -231,48 +244,105 @@ Corner_texture texture_of(const Polygon_soup& soup)
   return texture;
 }
 
-// Gives the corners of the mesh what those of the file's polygons have: a face is a part of the polygon that has its vertices,
-// also where some of these have become one.
-void set_texture(Input_mesh& input, const Polygons& polygons, const Corner_texture& texture)
+// Which polygons of the file the faces of the mesh are parts of: those that have their vertices, also where some of these have
+// become one.
+class Origins_of_faces
 {
-  const Vertex_numbering& numbering = input.numbering;
-  const auto corner = [&](const std::size_t v) {
+public:
+  Origins_of_faces(const Input_mesh& input, const Polygons& polygons)
+    : m_input(input)
+    , m_polygons(polygons)
+    , m_polygons_at(input.numbering.number_of_file_vertices())
+  {
+    for(std::size_t p = 0; p < polygons.size(); ++p)
+      for(const std::size_t v : polygons[p])
+        if(vertex(v) != no_vertex)
+          m_polygons_at[vertex(v)].push_back(p);
+  }
+
+  // One that has all vertices of the face, or none.
+  std::size_t whole(const Mesh::Face_index f) const
+  {
+    const auto [polygon, shared] = best(f);
+    return shared == 3 ? polygon : no_vertex;
+  }
+
+  // One that has as many as any.
+  std::size_t nearest(const Mesh::Face_index f) const { return best(f).first; }
+
+  // The corner of a polygon that is this vertex of the mesh, or as many as it has.
+  std::size_t corner(const std::size_t polygon, const Mesh::Vertex_index v) const
+  {
+    const auto& corners = m_polygons[polygon];
+    const auto at = std::find_if(corners.begin(), corners.end(), [&](const std::size_t w) {
+      return vertex(w) == m_input.numbering.file_vertex(v);
+    });
+    return std::size_t(at - corners.begin());
+  }
+
+private:
+  // The vertex of the file that stands for v, or none.
+  std::size_t vertex(const std::size_t v) const
+  {
+    const Vertex_numbering& numbering = m_input.numbering;
     const std::size_t w = v < numbering.number_of_file_vertices() ? numbering.mesh_vertex(v) : no_vertex;
     return w == no_vertex ? w : numbering.file_vertex(w);
-  };
-  std::vector<std::vector<std::size_t>> polygons_at(numbering.number_of_file_vertices());
-  std::vector<std::size_t> begin; // of the corners of each
-  std::size_t corners = 0;
-  for(std::size_t p = 0; p < polygons.size(); ++p) {
-    begin.push_back(corners);
-    corners += polygons[p].size();
-    for(const std::size_t v : polygons[p])
-      if(corner(v) != no_vertex)
-        polygons_at[corner(v)].push_back(p);
   }
+
+  std::pair<std::size_t, std::size_t> best(const Mesh::Face_index f) const
+  {
+    const Mesh& mesh = m_input.mesh;
+    std::pair<std::size_t, std::size_t> result{no_vertex, 0};
+    for(const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      for(const std::size_t p : m_polygons_at[m_input.numbering.file_vertex(v)]) {
+        std::size_t shared = 0;
+        for(const auto w : mesh.vertices_around_face(mesh.halfedge(f)))
+          shared += corner(p, w) < m_polygons[p].size();
+        if(shared > result.second)
+          result = {p, shared};
+        if(shared == 3)
+          return result;
+      }
+    return result;
+  }
+
+  const Input_mesh& m_input;
+  const Polygons& m_polygons;
+  Polygons m_polygons_at; // by vertices of the file
+};
+
+// Gives the corners of the mesh what those of the file's polygons have.
+void set_texture(Input_mesh& input, const Polygons& polygons, const Corner_texture& texture)
+{
+  const Origins_of_faces origins(input, polygons);
+  std::vector<std::size_t> begin(1, 0); // of the corners of each
+  for(const auto& polygon : polygons)
+    begin.push_back(begin.back() + polygon.size());
   const Mesh& mesh = input.mesh;
   input.texture.resize(mesh.num_halfedges());
   for(const auto f : mesh.faces()) {
-    const auto h = mesh.halfedge(f);
-    const std::array<Mesh::Halfedge_index, 3> sides = {h, mesh.next(h), mesh.prev(h)};
-    const auto take = [&](const std::size_t p) {
-      for(const auto side : sides) {
-        const auto& polygon = polygons[p];
-        const auto at = std::find_if(polygon.begin(), polygon.end(), [&](const std::size_t v) {
-          return corner(v) == numbering.file_vertex(mesh.target(side));
-        });
-        if(at == polygon.end())
-          return false;
-        input.texture[side] = texture[begin[p] + std::size_t(at - polygon.begin())];
-      }
-      return true;
-    };
-    const auto& candidates = polygons_at[numbering.file_vertex(mesh.target(h))];
-    if(std::none_of(candidates.begin(), candidates.end(), take)) {
+    const std::size_t p = origins.whole(f);
+    if(p == no_vertex) {
       input.texture.clear();
       input.without_texture = "the repair has made faces that are no part of one of the file";
       return;
     }
+    for(const auto h : mesh.halfedges_around_face(mesh.halfedge(f)))
+      input.texture[h] = texture[begin[p] + origins.corner(p, mesh.target(h))];
+  }
+}
+
+// Gives the faces of the mesh what the polygons of the file have.
+void set_face_attributes(Input_mesh& input, const Polygons& polygons, const Attributes& attributes)
+{
+  const Origins_of_faces origins(input, polygons);
+  input.face_attributes = attributes;
+  for(Attribute& a : input.face_attributes.known)
+    a.values.clear();
+  for(const auto f : input.mesh.faces()) {
+    const std::size_t p = origins.nearest(f);
+    for(std::size_t k = 0; k < attributes.known.size(); ++k)
+      input.face_attributes.known[k].values.push_back(p == no_vertex ? 0. : attributes.known[k].values[p]);
   }
 }
 
@@ -296,12 +366,15 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
 {
   Input_mesh input;
   const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
-  const Polygons polygons = texture.empty() ? Polygons() : soup.polygons;
+  const Attributes face_attributes = with_attributes ? std::move(soup.face_attributes) : Attributes();
+  const Polygons polygons = texture.empty() && face_attributes.known.empty() ? Polygons() : soup.polygons;
   if(with_attributes) {
+    input.face_attributes.unknown = face_attributes.unknown;
+    input.material_libraries = std::move(soup.material_libraries);
     input.without_texture = std::move(soup.without_texture);
     input.attributes = std::move(soup.attributes);
   }
-  soup = {std::move(soup.points), std::move(soup.polygons)}; // no more is needed
+  soup = Polygon_soup{std::move(soup.points), std::move(soup.polygons)}; // no more is needed
   Repair_log log;
   std::vector<std::size_t> vertex(soup.points.size()), origin;
   std::iota(vertex.begin(), vertex.end(), std::size_t(0));
@@ -313,7 +386,8 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
       throw std::runtime_error(name + " cannot be repaired: CGAL's functions contradict themselves on it.");
     }
     input.diagnosis = diagnose(repaired);
-    input.diagnosis.cracks.clear(); // sheets that the repair has separated
+    input.still_cut = still_cut(input.diagnosis, origin);
+    input.diagnosis.cracks.clear(); // what helps there is no repair
     soup = std::move(repaired);
   } else {
     input.diagnosis = diagnose(soup);
@@ -359,5 +433,7 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
   build(input, name, mending, std::move(soup), vertex, origin);
   if(!texture.empty())
     set_texture(input, polygons, texture);
+  if(!face_attributes.known.empty())
+    set_face_attributes(input, polygons, face_attributes);
   return input;
 }

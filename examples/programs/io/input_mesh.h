@@ -22,10 +22,13 @@ struct Input_mesh
   Vertex_numbering numbering;
   CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
   std::vector<Repair> changes;
+  std::string still_cut; // what a full repair had to leave cut, a sentence, or nothing
   // Where they are asked for:
-  Vertex_attributes attributes; // of the vertices of the file
-  Corner_texture texture;       // by halfedges, at the target in the face; or empty
-  std::string without_texture;  // why it is empty, the end of a sentence
+  Attributes attributes;      // of the vertices of the file
+  Attributes face_attributes; // of the faces of the mesh
+  std::vector<std::string> material_libraries;
+  Corner_texture texture;      // by halfedges, at the target in the face; or empty
+  std::string without_texture; // why it is empty, the end of a sentence
 
   // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was changed.
   std::string changes_of(const std::string& path) const;

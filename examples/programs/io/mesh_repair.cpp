@@ -9,6 +9,7 @@
 
 #include "mesh_repair.h"
 
+#include "orientation.h"
 #include "silence.h"
 
 #include <CGAL/Spectral_geometry/mesh_diagnosis.h>
@@ -255,6 +256,127 @@ void close_cracks(Exact_soup& soup, Polygon_soup& input, Repair_log& log)
   clean(soup, log);
 }
 
+// A triangle, and what lies on its sides between corner i and the next, in this order.
+struct Split_triangle
+{
+  std::array<std::size_t, 3> corners;
+  std::array<std::vector<std::size_t>, 3> on_side;
+};
+
+// Cuts a triangle from its corners to the vertices on its sides.
+void add_parts(const Split_triangle& t, std::vector<std::vector<std::size_t>>& triangles)
+{
+  for(std::size_t i = 0; i < 3; ++i) {
+    if(t.on_side[i].empty())
+      continue;
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3, opposite = t.corners[k];
+    std::vector<std::size_t> side = {t.corners[i]};
+    side.insert(side.end(), t.on_side[i].begin(), t.on_side[i].end());
+    side.push_back(t.corners[j]);
+    for(std::size_t s = 0; s + 1 < side.size(); ++s)
+      add_parts(
+          {{side[s], side[s + 1], opposite},
+           {std::vector<std::size_t>(), s + 2 == side.size() ? t.on_side[j] : std::vector<std::size_t>(),
+            s == 0 ? t.on_side[k] : std::vector<std::size_t>()}},
+          triangles);
+    return;
+  }
+  triangles.push_back({t.corners[0], t.corners[1], t.corners[2]});
+}
+
+// The border vertices that lie on border edges, within the distance of cracks, in the order of each edge.
+std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
+vertices_on_edges(const Exact_soup& soup)
+{
+  using Vector = Exact_predicates::Vector_3;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
+      on_edge; // border edges, sorted ends
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> opposite;
+  for(const auto& t : soup.polygons)
+    for(std::size_t i = 0; i < 3; ++i)
+      opposite[std::minmax(t[i], t[(i + 1) % 3])].push_back(t[(i + 2) % 3]);
+  std::vector<std::size_t> border;
+  for(const auto& [edge, corners] : opposite)
+    if(corners.size() == 1) {
+      border.push_back(edge.first);
+      border.push_back(edge.second);
+    }
+  std::sort(border.begin(), border.end());
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  const auto before = [&](const std::size_t v, const double x) { return soup.points[v].x() < x; };
+  std::sort(border.begin(), border.end(),
+            [&](const std::size_t v, const std::size_t w) { return before(v, soup.points[w].x()); });
+  const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
+  const double largest =
+      1e-5 * std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
+  for(const auto& [edge, corners] : opposite) {
+    if(corners.size() != 1)
+      continue;
+    const auto &p = soup.points[edge.first], &q = soup.points[edge.second];
+    const Vector along = q - p;
+    const double squared = along.squared_length();
+    if(!(squared > 0))
+      continue;
+    const double reach = (std::min)(largest, 0.01 * std::sqrt(squared));
+    std::vector<std::pair<double, std::size_t>> found;
+    for(auto v = std::lower_bound(border.begin(), border.end(), (std::min)(p.x(), q.x()) - reach, before);
+        v != border.end() && soup.points[*v].x() <= (std::max)(p.x(), q.x()) + reach; ++v) {
+      const Vector there = soup.points[*v] - p;
+      const double t = there * along / squared;
+      if(*v != edge.first && *v != edge.second && *v != corners[0] && t > 0.02 && t < 0.98 &&
+         (there - t * along).squared_length() <= reach * reach)
+        found.emplace_back(t, *v);
+    }
+    std::sort(found.begin(), found.end());
+    for(const auto& [t, v] : found)
+      on_edge[edge].push_back(v);
+  }
+  return on_edge;
+}
+
+// Splits the edges of one sheet at the vertices of its neighbour that lie on them, where the neighbour is finer.
+void close_t_junctions(Exact_soup& soup, Repair_log& log)
+{
+  const auto on_edge = vertices_on_edges(soup);
+  if(on_edge.empty())
+    return;
+  std::vector<std::vector<std::size_t>> triangles;
+  for(const auto& t : soup.polygons) {
+    Split_triangle split{{t[0], t[1], t[2]}, {}};
+    for(std::size_t i = 0; i < 3; ++i) {
+      const std::size_t a = t[i], b = t[(i + 1) % 3];
+      const auto found = on_edge.find(std::minmax(a, b));
+      if(found == on_edge.end())
+        continue;
+      split.on_side[i] = found->second;
+      if(a > b)
+        std::reverse(split.on_side[i].begin(), split.on_side[i].end());
+    }
+    add_parts(split, triangles);
+  }
+  soup.polygons = std::move(triangles);
+  log.add("edge split at the vertices that lie on it", "edges split at the vertices that lie on them",
+          on_edge.size());
+  clean(soup, log);
+}
+
+// Turns closed surfaces round whose volume is negative.
+void turn_inside_out(Exact_soup& soup, Repair_log& log)
+{
+  Eigen::MatrixXd V(Eigen::Index(soup.points.size()), 3);
+  for(std::size_t v = 0; v < soup.points.size(); ++v)
+    V.row(Eigen::Index(v)) << soup.points[v].x(), soup.points[v].y(), soup.points[v].z();
+  Eigen::MatrixXi T(Eigen::Index(soup.polygons.size()), 3);
+  for(std::size_t t = 0; t < soup.polygons.size(); ++t)
+    for(int i = 0; i < 3; ++i)
+      T(Eigen::Index(t), i) = int(soup.polygons[t][std::size_t(i)]);
+  const std::vector<Eigen::Index> turned = inside_out(V, T);
+  for(const Eigen::Index t : turned)
+    std::swap(soup.polygons[std::size_t(t)][1], soup.polygons[std::size_t(t)][2]);
+  log.add("face of an inside-out body turned round", "faces of inside-out bodies turned round",
+          turned.size());
+}
+
 // Splitting gives new vertices old positions, so that the direction of a face shows in its positions.
 bool same_direction(const Exact_soup& before, const Exact_soup& after, const std::size_t f)
 {
@@ -420,7 +542,9 @@ Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log, std::vecto
   clean(soup, log);
   triangulate(soup, log);
   close_cracks(soup, input, log);
+  close_t_junctions(soup, log);
   orient(soup, log);
+  turn_inside_out(soup, log);
   Exact_mesh mesh = to_mesh(soup);
   log.add("pair of border edges stitched", "pairs of border edges stitched", PMP::stitch_borders(mesh));
   mesh.collect_garbage();

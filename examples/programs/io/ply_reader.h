@@ -37,16 +37,25 @@ public:
     reader.read_header();
     for(const Element& element : reader.m_elements)
       reader.read_element(element);
-    Vertex_attributes& attributes = reader.m_soup.attributes;
-    for(const Vertex_attribute& a : attributes.known)
-      if(a.values.size() != reader.m_soup.points.size()) { // of a second element of that name
-        attributes = {};
-        break;
-      }
-    find_colours(attributes);
-    if(reader.m_soup.polygons.empty())
-      reader.m_soup.polygons = std::move(reader.m_triangles);
-    return std::move(reader.m_soup);
+    Polygon_soup& soup = reader.m_soup;
+    const auto complete = [](Attributes& attributes, const std::size_t n) {
+      for(const Attribute& a : attributes.known)
+        if(a.values.size() != n) { // of a second element of that name
+          attributes.known.clear();
+          break;
+        }
+    };
+    complete(soup.attributes, soup.points.size());
+    complete(soup.face_attributes, soup.polygons.size());
+    find_colours(soup.attributes);
+    std::size_t corners = 0;
+    for(const auto& polygon : soup.polygons)
+      corners += polygon.size();
+    if(soup.texture.size() != corners)
+      soup.texture.clear();
+    if(soup.polygons.empty())
+      soup.polygons = std::move(reader.m_triangles);
+    return std::move(soup);
   }
 
 private:
@@ -55,8 +64,10 @@ private:
   {
     Type count_type = Type::none, type = Type::none; // no type of a count: a single value
     std::size_t coordinate = 3;                      // 0 to 2 for x to z
-    bool vertices = false;                           // of a face
-    std::size_t attribute = no_vertex;               // its number among those of the vertices
+    std::string name;
+    bool vertices = false;             // of a face
+    bool texture = false;              // at the corners of a face, two numbers each
+    std::size_t attribute = no_vertex; // its number among those of its element
   };
   struct Element
   {
@@ -112,8 +123,10 @@ private:
       std::istringstream words(line);
       word.clear();
       words >> word;
-      if(word == "end_header")
+      if(word == "end_header") {
+        check_properties();
         return;
+      }
       if(word == "format") {
         words >> word;
         m_text = word == "ascii";
@@ -147,49 +160,115 @@ private:
     }
     property.type = type_of(type);
     words >> name;
-    Vertex_attributes& attributes = m_soup.attributes;
-    if(name == "x" || name == "y" || name == "z")
+    property.name = name;
+    const bool vertex = element == "vertex", face = element == "face";
+    if(vertex && !list && (name == "x" || name == "y" || name == "z"))
       property.coordinate = std::size_t(name[0] - 'x');
-    else if(element == "vertex" && !list && attributes.find(name) == nullptr) {
+    property.vertices = face && list && (name == "vertex_indices" || name == "vertex_index");
+    property.texture = face && list && name == "texcoord";
+    Attributes& attributes = vertex ? m_soup.attributes : m_soup.face_attributes;
+    if(!vertex && !face)
+      return property;
+    if(!list && property.coordinate == 3 && attributes.find(name) == nullptr) {
       property.attribute = attributes.known.size();
       attributes.add(name, name_of(property.type), {});
-    }
-    property.vertices = name == "vertex_indices" || name == "vertex_index";
-    if((element == "face" && !property.vertices) || (element == "vertex" && list))
+    } else if(list && !property.vertices && !property.texture)
       attributes.unknown.push_back("property " + name + " of " + element);
     return property;
   }
 
+  // A coordinate that is not there is no 0. Some programs call them X, Y and Z.
+  void check_properties()
+  {
+    const auto element = [this](const char* name) {
+      const auto found = std::find_if(m_elements.begin(), m_elements.end(),
+                                      [&](const Element& e) { return e.name == name; });
+      return found == m_elements.end() ? nullptr : &*found;
+    };
+    Element* const vertices = element("vertex");
+    if(vertices == nullptr)
+      refuse("its header has no element vertex");
+    std::vector<std::string> capitals;
+    for(std::size_t c = 0; c < 3; ++c) {
+      Property* capital = nullptr;
+      std::size_t found = 0;
+      for(Property& property : vertices->properties) {
+        found += property.coordinate == c;
+        if(property.name == std::string(1, "XYZ"[c]) && property.count_type == Type::none)
+          capital = &property;
+      }
+      if(found > 1)
+        refuse(std::string("its vertices have two properties ") + "xyz"[c]);
+      if(found == 0 && capital == nullptr)
+        refuse(std::string("its vertices have no property ") + "xyz"[c]);
+      if(found == 0) {
+        capital->coordinate = c;
+        capital->attribute = no_vertex;
+        capitals.push_back(capital->name);
+      }
+    }
+    if(!capitals.empty()) {
+      m_soup.attributes.remove(capitals);
+      for(Property& property : vertices->properties)
+        for(std::size_t k = 0; k < m_soup.attributes.known.size(); ++k)
+          if(property.coordinate == 3 && m_soup.attributes.known[k].name == property.name)
+            property.attribute = k;
+    }
+    Element* const faces = element("face");
+    if(faces != nullptr && faces->count > 0 && element("tristrips") == nullptr &&
+       std::none_of(faces->properties.begin(), faces->properties.end(),
+                    [](const Property& property) { return property.vertices; }))
+      refuse("its faces have no property vertex_indices, which lists their vertices");
+  }
+
   void read_element(const Element& element)
   {
-    const bool vertices = element.name == "vertex", faces = element.name == "face",
-               strips = element.name == "tristrips";
+    const bool vertices = element.name == "vertex", strips = element.name == "tristrips";
     if(element.properties.empty())
       return;
     for(std::size_t i = 0; i < element.count; ++i) {
       std::array<double, 3> point = {0, 0, 0};
-      for(const Property& property : element.properties)
-        if(!(property.count_type == Type::none ? read_single(property, point) : read_list(property)))
-          refuse("it is damaged or cut off at " + quoted(element.name) + " " + std::to_string(i) + " of " +
-                 std::to_string(element.count) + " (counted from 0)");
-        else if(property.count_type != Type::none && faces && property.vertices)
-          m_soup.polygons.push_back(m_list);
+      Attributes& attributes = vertices ? m_soup.attributes : m_soup.face_attributes;
+      for(const Property& property : element.properties) {
+        m_refused.clear();
+        if(!(property.count_type == Type::none ? read_single(property, point, attributes)
+                                               : read_list(property)))
+          refuse((m_refused.empty() ? "it is damaged or cut off" : m_refused) + " at " +
+                 quoted(element.name) + " " + std::to_string(i) + " of " + std::to_string(element.count) +
+                 " (counted from 0)");
+        if(property.vertices) {
+          m_soup.polygons.emplace_back();
+          for(const double v : m_list)
+            m_soup.polygons.back().push_back(index(v));
+        } else if(property.texture)
+          for(std::size_t c = 1; c < m_list.size(); c += 2)
+            m_soup.texture.push_back({m_list[c - 1], m_list[c]});
         else if(property.count_type != Type::none && strips)
           add_strip();
+      }
       if(vertices)
         m_soup.points.emplace_back(point[0], point[1], point[2]);
     }
   }
 
-  bool read_single(const Property& property, std::array<double, 3>& point)
+  static std::size_t index(const double value)
+  {
+    return value >= 0 && value < 1e15 ? static_cast<std::size_t>(value) : no_vertex;
+  }
+
+  bool read_single(const Property& property, std::array<double, 3>& point, Attributes& attributes)
   {
     double value = 0;
-    if(!read_value(property.type, value) || (property.attribute != no_vertex && !holds(property.type, value)))
+    if(!read_value(property.type, value))
       return false;
+    if(property.attribute != no_vertex && !holds(property.type, value)) {
+      m_refused = "its property " + quoted(property.name) + " has a number that its type does not hold";
+      return false;
+    }
     if(property.coordinate < 3)
       point[property.coordinate] = value;
     if(property.attribute != no_vertex)
-      m_soup.attributes.known[property.attribute].values.push_back(value);
+      attributes.known[property.attribute].values.push_back(value);
     return true;
   }
 
@@ -202,7 +281,7 @@ private:
     for(double k = 0; k < count; ++k) {
       if(!read_value(property.type, value))
         return false;
-      m_list.push_back(value >= 0 && value < 1e15 ? static_cast<std::size_t>(value) : no_vertex);
+      m_list.push_back(value);
     }
     return true;
   }
@@ -212,12 +291,12 @@ private:
   {
     std::size_t begin = 0;
     for(std::size_t i = 0; i < m_list.size(); ++i) {
-      if(m_list[i] == no_vertex)
+      const std::size_t c = index(m_list[i]);
+      if(c == no_vertex)
         begin = i + 1;
       if(i < begin + 2)
         continue;
-      std::size_t a = m_list[i - 2], b = m_list[i - 1];
-      const std::size_t c = m_list[i];
+      std::size_t a = index(m_list[i - 2]), b = index(m_list[i - 1]);
       if((i - begin) % 2 != 0)
         std::swap(a, b);
       if(a != b && b != c && c != a) // strips turn by repeating a vertex
@@ -270,6 +349,15 @@ private:
     char* end = nullptr;
     value = std::strtod(m_at, &end);
     const bool good = end != m_at && (*end == '\0' || std::isspace(static_cast<unsigned char>(*end)));
+    if(!good) {
+      const char* begin = m_at;
+      while(begin != m_end && std::isspace(static_cast<unsigned char>(*begin)))
+        ++begin;
+      const char* const word =
+          std::find_if(begin, m_end, [](const unsigned char c) { return std::isspace(c) != 0; });
+      if(begin != m_end)
+        m_refused = "it has " + quoted(std::string(begin, word)) + " where a number is expected";
+    }
     m_at = end;
     return good;
   }
@@ -297,7 +385,8 @@ private:
   char m_line_end = '\n';
   bool m_text = false, m_big_endian = false;
   std::vector<Element> m_elements;
-  std::vector<std::size_t> m_list;
+  std::vector<double> m_list;
+  std::string m_refused;                             // why the last value was refused, where that is known
   std::vector<std::vector<std::size_t>> m_triangles; // of strips
   Polygon_soup m_soup;
 };

@@ -5,7 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
 #define SPECTRAL_EXAMPLES_IO_POLYGON_SOUP_H
 
-#include "vertex_attributes.h"
+#include "attributes.h"
 
 #include <CGAL/Simple_cartesian.h>
 
@@ -27,8 +27,10 @@ struct Polygon_soup
 {
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
-  Vertex_attributes attributes = {}; // of the points, as long as they are those of the file
-  Corner_texture texture = {};       // at the corners of one polygon after the other, or empty
+  Attributes attributes = {};                       // of the points, as long as they are those of the file
+  Attributes face_attributes = {};                  // of the polygons, likewise
+  std::vector<std::string> material_libraries = {}; // files, as an OBJ file names them
+  Corner_texture texture = {};                      // at the corners of one polygon after the other, or empty
   std::string without_texture = "it has no texture coordinates"; // why it is empty, the end of a sentence
 };
 

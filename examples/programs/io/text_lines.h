@@ -46,8 +46,8 @@ inline bool has_byte_order_mark(const std::string& text)
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0;
 }
 
-// The lines of a text and the words in them. Comments after # are left out, a line that ends in a backslash goes on in the
-// next, and any white space separates, a carriage return as well.
+// The lines of a text and the words in them. A # at the start of a word begins a comment: within a word it may belong to a
+// number, as in 1.#QNAN. A line that ends in a backslash goes on in the next, and any white space separates.
 class Text_lines
 {
 public:
@@ -98,8 +98,9 @@ public:
   // The next word as a number, which may be infinite or none: that is for the diagnosis to say.
   double number()
   {
+    const bool some = more();
     char* end = m_at;
-    const double value = more() ? std::strtod(m_at, &end) : 0;
+    const double value = some ? std::strtod(m_at, &end) : 0;
     take(end, "a number");
     return value;
   }
@@ -112,8 +113,9 @@ public:
   std::array<long long, n> integers(const char mark)
   {
     std::array<long long, n> values = {};
+    const bool some = more();
     char* end = m_at;
-    if(more())
+    if(some)
       values[0] = std::strtoll(m_at, &end, 10);
     for(std::size_t i = 1; i < n && end != m_at && *end == mark; ++i) {
       ++end;
@@ -124,21 +126,30 @@ public:
     return values;
   }
 
-  // The numbers that are left on the line, up to the first word that is none.
+  // The numbers that are left on the line.
   std::vector<double> numbers()
   {
     std::vector<double> values;
-    while(more()) {
-      char* end = m_at;
-      values.push_back(std::strtod(m_at, &end));
-      if(end == m_at || (*end != '\0' && !std::isspace(static_cast<unsigned char>(*end)))) {
-        values.pop_back();
-        break;
-      }
-      m_at = end;
-    }
+    while(more())
+      values.push_back(number());
     return values;
   }
+
+  // What is left of the line, without the white space around it.
+  std::string rest()
+  {
+    more();
+    const std::string text = m_at;
+    m_at += text.size();
+    return text.substr(0, text.find_last_not_of(" \t\r\v\f") + 1);
+  }
+
+  // A place on the line, to which it can return.
+  char* place() const { return m_at; }
+  void return_to(char* const place) { m_at = place; }
+
+  // The number of the line, from 1.
+  std::size_t line() const { return m_number; }
 
   [[noreturn]] void refuse(const std::string& what) const
   {
@@ -157,7 +168,10 @@ private:
         part.erase(0, 3);
       while(!part.empty() && std::isspace(static_cast<unsigned char>(part.back())))
         part.pop_back();
-      const std::size_t comment = part.find('#');
+      std::size_t comment = part.find('#');
+      while(comment != std::string::npos && comment > 0 &&
+            !std::isspace(static_cast<unsigned char>(part[comment - 1])))
+        comment = part.find('#', comment + 1);
       const bool goes_on = comment == std::string::npos && !part.empty() && part.back() == '\\';
       if(comment != std::string::npos || goes_on)
         part.erase(goes_on ? part.size() - 1 : comment);

@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -29,28 +31,33 @@ inline Kernel::Point_3 read_point(Text_lines& file)
   return {x, y, z};
 }
 
-// The vertex that an OBJ file means by `index`: from 1, or from the last one backwards.
-inline std::size_t obj_vertex(const Text_lines& file, const long long index, const std::size_t points)
+// What an OBJ file means by `index`: from 1, or from the last of `known` ones backwards.
+inline std::size_t obj_index(const long long index, const std::size_t known)
 {
-  if(index == 0)
-    file.refuse("has the index 0, but OBJ files count from 1");
   if(index > 0)
     return static_cast<std::size_t>(index - 1);
   const std::size_t back = 0 - static_cast<std::size_t>(index);
-  return back <= points ? points - back : no_vertex;
+  return back != 0 && back <= known ? known - back : no_vertex;
 }
 
 // What OFF files announce that vertices have beside their coordinates.
 struct Off_keyword
 {
   bool texture = false, colour = false, normal = false, homogeneous = false;
+  std::string number; // of vertices, where no space is before it
+
+  bool announces() const { return texture || colour || normal; }
 
   // False if the word is none.
   bool read(std::string word)
   {
-    if(word.size() < 3 || word.compare(word.size() - 3, 3, "OFF") != 0)
+    const std::size_t end = word.find("OFF");
+    if(end == std::string::npos)
       return false;
-    word.resize(word.size() - 3);
+    number = word.substr(end + 3);
+    if(number.find_first_not_of("0123456789") != std::string::npos || number.size() > 15)
+      return false;
+    word.resize(end);
     const auto take = [&word](const std::string& prefix) {
       const bool found = word.compare(0, prefix.size(), prefix) == 0;
       word.erase(0, found ? prefix.size() : 0);
@@ -64,7 +71,8 @@ struct Off_keyword
   }
 };
 
-// What OBJ files give to the corners of faces: of the vertices, where all corners of each have the same.
+// What OBJ files give to the corners of faces: to the vertices, where all corners of each have the same. Lines may come after the
+// faces that use them.
 class Corner_values
 {
 public:
@@ -78,32 +86,31 @@ public:
       m_columns[c].push_back(c < numbers.size() ? numbers[c] : 0.);
   }
 
-  // A corner of a face at one of n vertices; `index` as in the file, 0 for none.
-  void set_corner(const std::size_t vertex, const long long index, const std::size_t n)
+  // The next corner of a face; `index` as in the file, 0 for none.
+  void add_corner(const long long index) { m_corners.push_back(obj_index(index, m_columns.front().size())); }
+
+  // After all lines.
+  void find_vertices(const std::vector<std::vector<std::size_t>>& polygons, const std::size_t n)
   {
-    m_of.resize(n, no_vertex);
-    if(index == 0 || vertex >= n) {
-      ++m_missing;
-      return;
-    }
-    const long long size = static_cast<long long>(m_columns.front().size());
-    const std::size_t value = static_cast<std::size_t>(index > 0 ? index - 1 : size + index);
-    m_corners.push_back(value);
-    if(value >= m_columns.front().size())
-      ++m_missing;
-    else if(m_of[vertex] == no_vertex)
-      m_of[vertex] = value;
-    else if(!std::all_of(m_columns.begin(), m_columns.end(),
-                         [&](const auto& column) { return column[m_of[vertex]] == column[value]; }))
-      ++m_seams;
+    m_of.assign(n, no_vertex); // isolated ones have 0
+    std::size_t corner = 0;
+    for(const auto& polygon : polygons)
+      for(const std::size_t vertex : polygon) {
+        const std::size_t value = m_corners[corner++];
+        if(vertex >= n || value >= m_columns.front().size())
+          ++m_missing;
+        else if(m_of[vertex] == no_vertex)
+          m_of[vertex] = value;
+        else if(!std::all_of(m_columns.begin(), m_columns.end(),
+                             [&](const auto& column) { return column[m_of[vertex]] == column[value]; }))
+          ++m_seams;
+      }
   }
 
-  void add_to(Vertex_attributes& attributes, const std::size_t n, const std::string& what,
-              const std::vector<const char*>& names)
+  void add_to(Attributes& attributes, const std::string& what, const std::vector<const char*>& names)
   {
     if(m_columns.front().empty())
       return;
-    m_of.resize(n, no_vertex); // isolated ones have 0
     if(m_seams + m_missing > 0) {
       attributes.unknown.push_back(what + (m_missing > 0 ? " (some corners have none)"
                                                          : " (they differ between the corners of a vertex)"));
@@ -140,6 +147,51 @@ private:
   std::size_t m_seams = 0, m_missing = 0;
 };
 
+// What lines such as usemtl say of the faces after them: words, which are counted as they come.
+class Face_words
+{
+public:
+  void set(const std::string& word)
+  {
+    const auto known = m_numbers.emplace(word, m_words.size());
+    if(known.second)
+      m_words.push_back(word);
+    m_now = static_cast<double>(known.first->second);
+    m_used = true;
+  }
+
+  void add_face()
+  {
+    if(!m_used && m_values.empty()) // none yet
+      m_before++;
+    else
+      m_values.push_back(m_now);
+  }
+
+  // Faces before the first line have the word "default".
+  void add_to(Attributes& attributes, const std::string& name)
+  {
+    if(!m_used)
+      return;
+    if(m_before != 0 && !m_values.empty()) {
+      set("default");
+      m_values.insert(m_values.begin(), m_before, m_now);
+    }
+    if(m_values.empty())
+      return;
+    attributes.add(name, "int", std::move(m_values));
+    attributes.known.back().words = std::move(m_words);
+  }
+
+private:
+  std::map<std::string, std::size_t> m_numbers;
+  std::vector<std::string> m_words;
+  std::vector<double> m_values;
+  std::size_t m_before = 0;
+  double m_now = 0;
+  bool m_used = false;
+};
+
 } // namespace text_mesh_internal
 
 inline Polygon_soup read_obj(const std::string& path)
@@ -149,7 +201,7 @@ inline Polygon_soup read_obj(const std::string& path)
   Text_lines file(path);
   Corner_values texture(2), normals(3);
   std::vector<std::vector<double>> colours(3);
-  bool materials = false;
+  std::map<std::string, Face_words> words;
   while(file.next()) {
     const std::string keyword = file.word();
     if(keyword == "v") {
@@ -157,8 +209,10 @@ inline Polygon_soup read_obj(const std::string& path)
       const std::vector<double> more = file.numbers();
       for(std::size_t c = 0; more.size() >= 3 && c < 3; ++c)
         colours[c].push_back(more[c]);
-    } else if(keyword == "usemtl")
-      materials = true;
+    } else if(keyword == "mtllib")
+      soup.material_libraries.push_back(file.rest());
+    else if(keyword == "usemtl" || keyword == "g" || keyword == "o" || keyword == "s")
+      words[keyword].set(file.rest());
     else if(keyword == "vt")
       texture.add(file.numbers());
     else if(keyword == "vn")
@@ -167,21 +221,29 @@ inline Polygon_soup read_obj(const std::string& path)
       std::vector<std::size_t> polygon;
       while(file.more()) {
         const std::array<long long, 3> corner = file.integers<3>('/');
-        polygon.push_back(obj_vertex(file, corner[0], soup.points.size()));
-        texture.set_corner(polygon.back(), corner[1], soup.points.size());
-        normals.set_corner(polygon.back(), corner[2], soup.points.size());
+        if(corner[0] == 0)
+          file.refuse("has the index 0, but OBJ files count from 1");
+        polygon.push_back(obj_index(corner[0], soup.points.size()));
+        texture.add_corner(corner[1]);
+        normals.add_corner(corner[2]);
       }
       soup.polygons.push_back(std::move(polygon));
+      for(const char* name : {"usemtl", "g", "o", "s"})
+        words[name].add_face();
     }
   }
   if(colours[0].size() == soup.points.size())
     add_colours(soup.attributes, std::move(colours));
-  normals.add_to(soup.attributes, soup.points.size(), "normals", {"nx", "ny", "nz"});
-  if(materials)
-    soup.attributes.unknown.push_back("materials");
+  texture.find_vertices(soup.polygons, soup.points.size());
+  normals.find_vertices(soup.polygons, soup.points.size());
+  normals.add_to(soup.attributes, "normals", {"nx", "ny", "nz"});
+  words["usemtl"].add_to(soup.face_attributes, "material");
+  words["g"].add_to(soup.face_attributes, "group");
+  words["o"].add_to(soup.face_attributes, "object");
+  words["s"].add_to(soup.face_attributes, "smoothing_group");
   texture.add_to(soup);
   if(soup.texture.empty() || !texture.has_seams())
-    texture.add_to(soup.attributes, soup.points.size(), "texture coordinates", {"s", "t"});
+    texture.add_to(soup.attributes, "texture coordinates", {"s", "t"});
   return soup;
 }
 
@@ -189,7 +251,7 @@ namespace text_mesh_internal {
 
 // What follows the coordinates, in this order: a normal, a colour of three or four numbers, coordinates of a texture.
 inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vector<double>> columns,
-                               Vertex_attributes& attributes)
+                               Attributes& attributes)
 {
   const std::size_t normal = keyword.normal ? 3 : 0, texture = keyword.texture ? 2 : 0;
   const std::size_t colour = keyword.colour && columns.size() >= normal + 3 + texture
@@ -211,8 +273,14 @@ inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vect
       attributes.add(name, "float", std::move(*next++));
 }
 
-// A line for each vertex and face, of which the end means nothing but what the first word announces; or, `packed`, any number
-// of them on a line and nothing else.
+inline bool are_integers(const std::vector<double>& values)
+{
+  return std::all_of(values.begin(), values.end(),
+                     [](const double x) { return x == std::floor(x) && std::abs(x) < 2147483648.; });
+}
+
+// A line for each vertex, whose end means nothing but what the first word announces, and for each face, whose end is a colour or a
+// label; or, `packed`, any number of them on a line and nothing else.
 inline Polygon_soup read_off(const std::string& path, const bool packed)
 {
   Polygon_soup soup;
@@ -224,10 +292,11 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
     throw std::runtime_error("its first word is not OFF");
   if(!file.more_or_next())
     throw std::runtime_error("nothing follows its first word");
-  // Of binary OFF there are two kinds, which no header tells apart.
-  if(std::isalpha(static_cast<unsigned char>(file.peek())))
+  // Two kinds of binary OFF exist, which no header tells apart.
+  if(file.peek() == 'B')
     throw std::runtime_error("it is a binary one, convert it to .ply");
-  const long long points = file.integer(), polygons = file.integer();
+  const long long points = keyword.number.empty() ? file.integer() : std::stoll(keyword.number),
+                  polygons = file.integer();
   if(points < 0 || polygons < 0)
     file.refuse("holds a negative number");
 
@@ -246,14 +315,16 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
       p[i] = file.number();
     }
     soup.points.emplace_back(p[0] / p[3], p[1] / p[3], p[2] / p[3]);
-    if(packed)
+    if(packed || !keyword.announces())
       continue;
     const std::vector<double> more = file.numbers();
     columns.resize(v == 0 ? more.size() : (std::min)(columns.size(), more.size()));
     for(std::size_t c = 0; c < columns.size(); ++c)
       columns[c].push_back(more[c]);
   }
-  add_off_attributes(keyword, std::move(columns), soup.attributes);
+  if(keyword.announces() && !packed)
+    add_off_attributes(keyword, std::move(columns), soup.attributes);
+  columns.clear();
   for(long long f = 0; f < polygons; ++f) {
     go_on(f, polygons, " faces");
     std::vector<std::size_t> polygon;
@@ -264,7 +335,17 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
       polygon.push_back(vertex < 0 ? no_vertex : static_cast<std::size_t>(vertex));
     }
     soup.polygons.push_back(std::move(polygon));
+    if(packed)
+      continue;
+    const std::vector<double> more = file.numbers();
+    columns.resize(f == 0 ? more.size() : (std::min)(columns.size(), more.size()));
+    for(std::size_t c = 0; c < columns.size(); ++c)
+      columns[c].push_back(more[c]);
   }
+  if(columns.size() == 3 || columns.size() == 4)
+    add_colours(soup.face_attributes, std::move(columns));
+  else if(!columns.empty() && are_integers(columns[0]))
+    soup.face_attributes.add("label", "int", std::move(columns[0]));
   if(packed && file.more_or_next())
     file.refuse("goes on after the last face");
   return soup;

@@ -223,36 +223,4 @@ inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X
   return N;
 }
 
-// Reads lines of one vertex for each of `sizes`, which say how many vertices there are, or of -1 where `none` is allowed.
-// Throws at the first line that is wrong.
-inline std::vector<std::vector<Eigen::Index>>
-read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes, const bool none)
-{
-  std::ifstream stream(path);
-  if(!stream)
-    throw std::runtime_error("cannot read '" + path + "': there is no such file, or it may not be read.");
-  std::vector<std::vector<Eigen::Index>> lines;
-  std::size_t number = 0;
-  for(std::string line; std::getline(stream, line);) {
-    ++number;
-    if(line.find_first_not_of(" \t\r") == std::string::npos)
-      continue;
-    std::istringstream numbers(line);
-    std::vector<Eigen::Index> row(sizes.size());
-    bool good = true;
-    for(std::size_t c = 0; c < sizes.size(); ++c)
-      good = good && numbers >> row[c] && row[c] >= (none ? -1 : 0) &&
-             row[c] < static_cast<Eigen::Index>(sizes[c]);
-    std::string rest;
-    if(!good || numbers >> rest)
-      throw std::runtime_error("'" + path + "' has " + quoted(line) + " in line " + std::to_string(number) +
-                               ", where it must have " + (sizes.size() == 1 ? "one vertex" : "two vertices") +
-                               ", counted from 0 and below the number of vertices of the mesh.");
-    lines.push_back(row);
-  }
-  if(lines.empty())
-    throw std::runtime_error("'" + path + "' names no vertex.");
-  return lines;
-}
-
 #endif // SPECTRAL_EXAMPLES_MATCHING_MATCHING_ARGUMENTS_H

@@ -6,6 +6,7 @@
 
 #include "../compare/collapse.h"
 #include "../compare/heaviest_vertices.h"
+#include "../compare/lies_on.h"
 #include "../simplification.h"
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
@@ -80,12 +81,8 @@ Simplification of_closest_points(const Mesh& coarse, const Shape& fine)
   Simplification result;
   result.matrices = SG::mesh_matrices(coarse);
   result.restriction = SG::closest_point_interpolation(result.matrices.V, fine.matrices);
-  const double distance = (result.restriction * fine.matrices.V - result.matrices.V).rowwise().norm().mean() /
-                          std::sqrt(fine.area);
-  // A twentieth of the shape. Simplifications to 300 vertices lie within a hundredth.
-  if(!(distance < 0.05))
-    throw std::runtime_error("does not lie on it: simplify that mesh, and leave it where it is and in its "
-                             "unit of length.");
+  if(const std::string reason = not_on(result.matrices, fine.matrices); !reason.empty())
+    throw std::runtime_error(reason + ".");
   for(const Eigen::Index v :
       heaviest_vertices(SG::closest_point_interpolation(fine.matrices.V, result.matrices)))
     result.vertex_map.push_back(static_cast<std::size_t>(v));

@@ -45,8 +45,9 @@ struct Mesh_component
   std::size_t faces = 0;    ///< how many it has
   bool closed = true;       ///< no edge of it has one face only
   std::size_t first = 0;    ///< its first vertex
-  /// what no collapse goes below: 4 vertices if closed, 3 otherwise
-  std::size_t least_vertices() const { return closed ? 4 : 3; }
+  /// what no collapse of a triangle mesh goes below: 3 vertices, and if closed as many as its handles need, 4 without any
+  /// (Heawood's bound, by Euler's formula)
+  CGAL_SPECTRAL_GEOMETRY_INLINE std::size_t least_vertices() const;
 };
 
 /// \brief what `diagnose_polygon_soup()` and `diagnose_mesh()` found, counted, with the first offender of each kind.
@@ -106,8 +107,11 @@ struct Mesh_diagnosis
   /// for which less is preserved than was asked for, or something else than was meant.
   std::vector<std::string> warnings(std::size_t K, std::size_t N) const;
 
-  /// \brief a lower bound of the number of vertices that collapses lead to: 4 for each closed component, 3 for each
-  /// open one. Handles and borders need more.
+  /// \brief why a target of `N` vertices would leave nothing of the shape, and what to do: a clause; or nothing. That is so below
+  /// `least_vertices()`, and where there are several components there, too: the largest one would end as a tetrahedron.
+  CGAL_SPECTRAL_GEOMETRY_INLINE std::string too_small(std::size_t N) const;
+
+  /// \brief a lower bound of the number of vertices that collapses lead to, summed over the components
   std::size_t least_vertices() const
   {
     std::size_t sum = 0;

@@ -69,8 +69,9 @@ def _arguments() -> argparse.ArgumentParser:
     add("--signals", metavar="F.npy", help="preserve these functions instead of eigenvectors")
     add(
         "--keep",
-        metavar="FILE",
-        help="vertices that stay where they are, one index per line, from 0",
+        metavar="LIST",
+        help="vertices that stay where they are, separated by commas: border, sharp:ANGLE, "
+        "or a file of one index per line, from 0",
     )
     add("--binary", action="store_true", help="a restriction of ones and zeros")
     add("--preserve-border", action="store_true")
@@ -105,6 +106,15 @@ def _number(word: str, n: int) -> int:
         raise ValueError(
             f"--vertices is {word}, it must be a number such as 600 or a percentage such as 3%."
         ) from None
+
+
+def _kept(words: str | None) -> list | None:
+    if words is None:
+        return None
+    return [
+        word if word in ("border", "sharp") or word.startswith("sharp:") else _numbers(word, int)
+        for word in words.split(",")
+    ]
 
 
 def _numbers(path: str, kind: type) -> numpy.ndarray:
@@ -155,7 +165,7 @@ def _run(a: argparse.Namespace) -> None:
     }
     options.update(
         k=a.eigenvectors,
-        keep=None if a.keep is None else _numbers(a.keep, int),
+        keep=_kept(a.keep),
         signals=None if a.signals is None else _numbers(a.signals, float),
     )
     if a.mask is not None:

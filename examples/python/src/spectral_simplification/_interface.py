@@ -18,6 +18,17 @@ from ._meshes import used_part
 from ._results import Eigenpairs, Evaluation, Fitted_operators, Match, Progress, Simplification
 
 
+def _features(keep) -> tuple[list[str], list | None]:
+    """The words of keep, and what else it holds."""
+    if isinstance(keep, str):
+        return keep.split(","), None
+    if isinstance(keep, (list, tuple)) and any(isinstance(part, str) for part in keep):
+        words = [word for part in keep if isinstance(part, str) for word in part.split(",")]
+        others = [numpy.atleast_1d(part) for part in keep if not isinstance(part, str)]
+        return words, others or None
+    return [], None if keep is None else [keep]
+
+
 def simplify(
     V: numpy.ndarray,
     F: numpy.ndarray,
@@ -31,7 +42,7 @@ def simplify(
     self_intersections: str | None = None,
     relocate: str | None = None,
     flips: str = 'none',
-    keep: Sequence[int] | Sequence[bool] | None = None,
+    keep: str | Sequence | numpy.ndarray | None = None,
     mask: numpy.ndarray | None = None,
     binary: bool = False,
     preserve_border: bool = False,
@@ -81,9 +92,10 @@ def simplify(
         afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
     flips : str
         'none', 'spectral' or 'delaunay': which edges are flipped before that
-    keep : sequence of int or bool, optional
-        vertices of V that stay where they are, by indices or by True for each; vertex_map says
-        where they went
+    keep : str, sequence of int or bool, or list of both, optional
+        vertices of V that stay where they are, vertex_map says where they went: indices, each
+        once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both
+        faces are ANGLE degrees apart, and corners of the border
     mask : array of bool, optional
         (v,), True for the vertices of V that take part, such as a cortex without its medial wall:
         faces stay where all their corners do. The result is numbered as V, columns of P are empty
@@ -179,7 +191,7 @@ def simplify(
         if eigenpairs is not None
         else core["eigenpairs"] and Eigenpairs(core["eigenpairs"])
     )
-    kept = [] if values["keep"] is None else core["vertex_map"][values["keep"]]
+    kept = core["vertex_map"][core["kept"]]
     asked = dict(
         boundary=boundary,
         intrinsic_delaunay=intrinsic_delaunay,

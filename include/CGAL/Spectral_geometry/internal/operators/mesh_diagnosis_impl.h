@@ -439,6 +439,37 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::remarks()
   return result;
 }
 
+CGAL_SPECTRAL_GEOMETRY_INLINE std::size_t Mesh_component::least_vertices() const
+{
+  if(!closed)
+    return 3;
+  const double characteristic = double(vertices) - double(faces) / 2;
+  return std::size_t(std::ceil((7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2 - 1e-9));
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE std::string Mesh_diagnosis::too_small(const std::size_t N) const
+{
+  const std::size_t least = least_vertices();
+  if(N > least || (N == least && components.size() < 2))
+    return "";
+  std::string result = internal::counted(components.size(), "component needs", "components need") +
+                       " at least " + std::to_string(least) + " vertices, with which nothing of " +
+                       (components.size() == 1 ? "its shape" : "their shapes") +
+                       " is left: ask for many more";
+  std::size_t most = 0, small = 0, largest_small = 0;
+  for(const Mesh_component& c : components)
+    most = (std::max)(most, c.vertices);
+  for(const Mesh_component& c : components)
+    if(10 * c.vertices < most) {
+      ++small;
+      largest_small = (std::max)(largest_small, c.vertices);
+    }
+  if(small != 0)
+    result += ", or take away the " + internal::counted(small, "component", "components") + " of " +
+              std::to_string(largest_small) + " vertices or fewer";
+  return result;
+}
+
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(const std::size_t K,
                                                                                 const std::size_t N) const
 {
