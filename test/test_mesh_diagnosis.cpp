@@ -84,7 +84,7 @@ TEST_CASE("Nothing is found in sound meshes but their components")
     CHECK(d.components[0].vertices == std::size_t(mesh.V.rows()));
     CHECK(d.components[0].faces == std::size_t(mesh.T.rows()));
   }
-  CHECK(soup_of(shapes::torus_matrices(8, 6)).diagnosis().least_vertices() == 4);
+  CHECK(soup_of(shapes::torus_matrices(8, 6)).diagnosis().least_vertices() == 7);
   CHECK(grid().diagnosis().least_vertices() == 3);
   CHECK_FALSE(Soup{Eigen::MatrixXd(0, 3), {}}.diagnosis().usable());
 }

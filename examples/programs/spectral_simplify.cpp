@@ -35,6 +35,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -480,6 +481,11 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
   timer.start();
   report.evaluation = evaluate(meshes, report.options, report.result, bar);
   report.seconds_evaluation = timer.time();
+  if(const double error = report.evaluation->errors.mean; error > 0.5)
+    report.result.warnings.push_back(
+        "Eigenvalues are off by " + arguments_internal::shown(std::round(100 * error)) +
+        " % on average, so that the result says little about the input: ask for more "
+        "vertices, or for fewer eigenvectors.");
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
   if(area < 0.25 && !has_coefficients(a))

@@ -20,7 +20,10 @@
 #include <CGAL/Spectral_geometry/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -222,6 +225,18 @@ inline py::dict evaluate(const Arguments& a)
   const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
+  // P is what it is, but the positions that it carries show whether its rows belong to Vc.
+  double area = 0;
+  for(Index t = 0; t < fine.T.rows(); ++t) {
+    const Eigen::RowVector3d p = fine.V.row(fine.T(t, 0));
+    area += (fine.V.row(fine.T(t, 1)) - p).cross(fine.V.row(fine.T(t, 2)) - p).norm() / 2;
+  }
+  const double off = (P * fine.V - coarse.V).rowwise().norm().mean() / std::sqrt(area);
+  if(!(off < (std::max)(0.05, 0.5 / std::sqrt(double(N)))))
+    warn("P @ V lies " + to_string(int(std::round(100 * off))) +
+         " % of the square root of the area away from Vc, on average: do the rows of P belong to Vc, and is "
+         "Vc where "
+         "V is and in its unit?");
   const SMS::Spectral_options of = operator_options(a, n);
   SMS::Spectral_options of_coarse = of;
   if(a.has("coarse_coefficients") && !a.has("coefficients"))

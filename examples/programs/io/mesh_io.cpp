@@ -37,7 +37,10 @@ std::string mesh_format(const std::string& path)
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if(extension != ".off" && extension != ".obj" && extension != ".ply" && extension != ".stl")
     throw std::runtime_error("the format of '" + path +
-                             "' is unknown: its name must end in .off, .obj, .ply or .stl.");
+                             "' is unknown: its name must end in .off, .obj, .ply or .stl" +
+                             (extension == ".vtk" || extension == ".vtp" || extension == ".gii"
+                                  ? "; the Python package takes what meshio and nibabel read of such files."
+                                  : "."));
   return extension;
 }
 

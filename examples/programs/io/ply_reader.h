@@ -135,8 +135,12 @@ private:
           refuse("its format is " + quoted(word));
       } else if(word == "element") {
         m_elements.emplace_back();
-        if(!(words >> m_elements.back().name >> m_elements.back().count))
-          refuse("its header has an element without a name or a number");
+        std::string count;
+        words >> m_elements.back().name >> count;
+        if(count.empty() || count.size() > 15 || count.find_first_not_of("0123456789") != std::string::npos)
+          refuse("its header has the element " + quoted(m_elements.back().name) + " with " + quoted(count) +
+                 " where a number is expected");
+        m_elements.back().count = static_cast<std::size_t>(std::stoull(count));
         const std::string& name = m_elements.back().name;
         if(name != "vertex" && name != "face" && name != "tristrips")
           m_soup.attributes.unknown.push_back("element " + name);

@@ -162,8 +162,12 @@ def simplify(
     used = None
     fine_V, fine_F = _core.arrays(dict(V=V, F=F))
     part = used_part(fine_V, fine_F, mask)
+    values["features"], keep = _features(keep)
     if keep is not None:
-        values["keep"] = keep = _core.kept(dict(keep=keep, v=len(fine_V)))
+        named = [_core.kept(dict(keep=part, v=len(fine_V))) for part in keep]
+        values["keep"] = keep = numpy.unique(numpy.concatenate(named))
+    else:
+        values["keep"] = None
     if part is not None:
         used, fine_F, values["F"] = part
         values["V"] = fine_V[used]

@@ -561,6 +561,12 @@ class Level(_Result):
             raise ValueError(
                 f"values has the shape {values.shape}, for unit=True it must be ({v}, c)."
             )
+        wide = values.dtype.kind in "iu" and values.dtype.itemsize == 8 and values.size > 0
+        if wide and (values.max() > 2**53 or values.min() < -(2**53)):
+            raise ValueError(
+                "values has integers beyond 2^53, which double precision does not hold: "
+                "transfer_labels() carries them as labels."
+            )
         flat = values.reshape(v, -1).astype(float)
         missing = numpy.isnan(flat)
         if nan == "omit" and missing.any():
