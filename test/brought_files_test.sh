@@ -383,6 +383,7 @@ for kept in border sharp:40 'border,sharp:40'; do
 done
 for j in 0 7 20; do has o2.off 10 $j 0 || fail "--keep sharp: no vertex at 10 $j 0"; done
 [ "$(awk 'NF == 3 && NR > 2 && ($1 == 0 || $1 == 20 || $2 == 0 || $2 == 20)' o2.off | wc -l)" = 80 ] || fail "--keep border: not all of the border"
+warns "--keep what is not there" "has no vertex at what --keep names" torus.off o2.off $few --keep border
 echo 115 >one.txt
 runs "--keep with a file" square.off o2.off --vertices 100 --eigenvectors 10 --no-evaluation --keep sharp:170,one.txt
 has o2.off 5 10 0 || fail "--keep sharp:170,one.txt: vertex 115 has moved"

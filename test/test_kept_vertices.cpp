@@ -4,6 +4,7 @@
 
 // Vertices that survive in place.
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Feature_vertices_map.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include "catch.h"
@@ -190,6 +191,43 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
   const Result result = SMS::spectral_edge_collapse(mesh, 2, options);
   CHECK(result.pre_simplified_vertices == 4);
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
+}
+
+TEST_CASE("Borders, sharp edges and corners of a bent sheet are features, and stay")
+{
+  shapes::Matrices input = shapes::grid_matrices(13, 13, 12, 12); // bent by 45 degrees at x = 6
+  for(Eigen::Index v = 0; v < input.V.rows(); ++v)
+    input.V(v, 2) = (std::max)(0., input.V(v, 0) - 6);
+  Mesh mesh = make_mesh(input);
+  const auto count = [&](const SMS::Feature_vertices_map<Mesh>& map) {
+    const auto range = vertices(mesh);
+    return std::count_if(range.begin(), range.end(), [&](const auto v) { return get(map, v); });
+  };
+  using Map = SMS::Feature_vertices_map<Mesh>;
+  CHECK(count(Map(mesh, false)) == 0);
+  CHECK(count(Map(mesh, true)) == 48);
+  CHECK(count(Map(mesh, false, 44.)) == 13 + 4);
+  CHECK(count(Map(mesh, false, 46.)) == 4);
+  CHECK(count(Map(mesh, true, 44.)) == 48 + 11);
+  CHECK(count(Map(mesh, false, 91.)) == 0);
+  CHECK_THROWS_AS(Map(mesh, true, 0.), std::invalid_argument);
+  CHECK_THROWS_AS(Map(mesh, true, 181.), std::invalid_argument);
+
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 10;
+  const Map features(mesh, true, 44.);
+  std::vector<Kernel::Point_3> points;
+  for(const auto v : vertices(mesh))
+    if(get(features, v))
+      points.push_back(mesh.point(v));
+  const Result result =
+      SMS::spectral_edge_collapse(mesh, 70, options, CGAL::parameters::vertex_is_constrained_map(features));
+  CHECK(result.output_vertices == 70);
+  std::set<Kernel::Point_3> left;
+  for(const auto v : vertices(mesh))
+    left.insert(mesh.point(v));
+  for(const Kernel::Point_3& p : points)
+    CHECK(left.count(p) == 1);
 }
 
 } // namespace test_kept_vertices

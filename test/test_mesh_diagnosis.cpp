@@ -283,6 +283,11 @@ TEST_CASE("K and N are judged by the components")
   REQUIRE(d.warnings(42, 100).size() == 1);
   CHECK_THAT(d.warnings(42, 100)[0], ContainsSubstring("has 42 vertices"));
   CHECK(soup_of(shapes::bumpy_icosphere_matrices(1)).diagnosis().warnings(1, 20).empty());
+  CHECK_THAT(d.too_small(12), ContainsSubstring("3 components need at least 12 vertices"));
+  CHECK(d.too_small(13) == "");
+  const SG::Mesh_diagnosis torus = soup_of(shapes::torus_matrices(8, 6)).diagnosis();
+  CHECK_THAT(torus.too_small(6), ContainsSubstring("1 component needs at least 7 vertices"));
+  CHECK(torus.too_small(7) == "");
 }
 
 TEST_CASE("A mesh is examined in the order of its vertices and faces, through its point map")

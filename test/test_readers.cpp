@@ -177,6 +177,11 @@ TEST_CASE("Indices are read one per line, and a bad line is named")
   CHECK_THROWS_WITH(indices("3\n100\n"), ContainsSubstring("line 2 ") && ContainsSubstring("0 to 99"));
   CHECK_THROWS_WITH(indices("99999999999999999999999\n"), ContainsSubstring("100 vertices"));
   CHECK_THROWS_WITH(indices("\n\n"), ContainsSubstring("names no vertex"));
+  CHECK(indices("\xEF\xBB\xBF# kept\r\n3 # one\r\n0\r\n") == std::vector<std::size_t>({3, 0}));
+  CHECK_THROWS_WITH(indices("3\n4\n\n3\n"),
+                    ContainsSubstring("line 4 ") && ContainsSubstring("names vertex 3 again"));
+  CHECK_THROWS_WITH(indices("0\n1\n0\n"),
+                    ContainsSubstring("line 3 ") && ContainsSubstring("a mask of 0 and 1"));
   CHECK_THROWS_WITH(read_indices("/no/such/list.txt", 5), ContainsSubstring("No such file"));
 }
 

@@ -149,8 +149,7 @@ TEST_CASE("PLY files have any property, and what cannot be carried is named")
   CHECK(a.find("label")->kind == Kind::label);
   CHECK(a.find("heat")->kind == Kind::function);
   CHECK(a.find("nz")->kind == Kind::normal);
-  CHECK(a.unknown ==
-        std::vector<std::string>{"property friends of vertex", "property quality of face", "element edge"});
+  CHECK(a.unknown == std::vector<std::string>{"property friends of vertex", "element edge"});
 }
 
 TEST_CASE("OBJ files have colours behind the coordinates, and normals and texture coordinates at corners")
@@ -169,8 +168,10 @@ TEST_CASE("OBJ files have colours behind the coordinates, and normals and textur
   const File seam(".obj", points + texture + "usemtl wood\nf 1/1 2/2 3/3\nf 1/4 3/3 4/4\n");
   const Polygon_soup soup = read_polygon_soup(seam.path);
   CHECK(soup.attributes.find("s") == nullptr);
-  CHECK(soup.attributes.unknown == std::vector<std::string>{"normals (some corners have none)", "materials"});
+  CHECK(soup.attributes.unknown == std::vector<std::string>{"normals (some corners have none)"});
   CHECK(soup.texture == Corner_texture{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {1, 1}, {0, 1}});
+  REQUIRE(soup.face_attributes.known.size() == 1);
+  CHECK(soup.face_attributes.known[0].words == std::vector<std::string>{"wood"});
   for(const std::string corner : {"f 1 2/2 3/3\n", "f 1/9 2/2 3/3\n", "f 1/-9 2/2 3/3\n"})
     CHECK(attributes_of(".obj", points + "vt 0 0\nvt 1 0\nvt 1 1\n" + corner).unknown ==
           std::vector<std::string>{"texture coordinates (some corners have none)"});
@@ -194,8 +195,7 @@ TEST_CASE("OFF files have what their first word announces")
   CHECK(values(small, "red") == Values{255, 0, 0});
   CHECK(values(small, "blue") == Values{128, 0, 255});
   CHECK(attributes_of(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + end).known.empty());
-  const Attributes less =
-      attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
+  const Attributes less = attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
   CHECK(less.known.empty());
   CHECK(less.unknown.size() == 1);
 }
@@ -218,7 +218,7 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   CHECK(type(input.attributes, "blue") == "uchar");
   for(const std::string extension : {".ply", ".off", ".obj"}) {
     const File copy(extension);
-    write_mesh(copy.path, input.mesh, copy.path, input.attributes);
+    write_mesh(copy.path, input.mesh, copy.path, {input.attributes, {}});
     const Attributes again = read_polygon_soup(copy.path).attributes;
     for(const std::string name : {"red", "green", "blue"})
       CHECK(values(again, name) == values(input.attributes, name));
@@ -228,11 +228,12 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   CHECK(opacity.find("red")->kind == Kind::colour);
   CHECK(opacity.find("alpha")->kind == Kind::function);
   for(const std::string number : {"1.5", "-0.1", "nan"}) {
-    const Attributes bright = attributes_of(
-        ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float red\n"
-                "property float green\nproperty float blue\nelement face 1\n"
-                "property list uchar int vertex_indices\nend_header\n0 0 1 " +
-                    number + "\n3 0 0 0\n");
+    const Attributes bright =
+        attributes_of(".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                              "y\nproperty float z\nproperty float red\n"
+                              "property float green\nproperty float blue\nelement face 1\n"
+                              "property list uchar int vertex_indices\nend_header\n0 0 0 0 1 " +
+                                  number + "\n3 0 0 0\n");
     CHECK(bright.find("red")->kind == Kind::function);
     CHECK(values(bright, "green") == Values{1});
     CHECK(writable(bright, "a.ply").known.size() == 3);
@@ -246,11 +247,13 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
 TEST_CASE("Numbers that their integer type does not hold are refused")
 {
   const auto read = [](const std::string& property_type, const std::string& number) {
-    return attributes_of(
-        ".ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty " + property_type +
-                    " part\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                    "0 1\n0 " +
-                    number + "\n3 0 1 1\n");
+    return attributes_of(".ply",
+                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
+                         "y\nproperty float z\nproperty " +
+                             property_type +
+                             " part\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0 0 0 1\n0 0 0 " +
+                             number + "\n3 0 1 1\n");
   };
   const std::vector<std::array<std::string, 3>> limits = {{"char", "-128", "127"},
                                                           {"uchar", "0", "255"},
@@ -264,8 +267,9 @@ TEST_CASE("Numbers that their integer type does not hold are refused")
     for(const std::string& number :
         {std::to_string(std::stoll(least) - 1), std::to_string(std::stoll(most) + 1), std::string("nan"),
          std::string("inf"), std::string("5e9"), std::string("0.5")})
-      CHECK_THROWS_WITH(read(name, number),
-                        ContainsSubstring("it is damaged or cut off at 'vertex' 1 of 2 (counted from 0)"));
+      CHECK_THROWS_WITH(
+          read(name, number),
+          ContainsSubstring("property 'part' has a number that its type does not hold at 'vertex' 1 of 2"));
   }
   CHECK(values(read("float", "5e9"), "part") == Values{1, 5e9});
 }
@@ -277,14 +281,14 @@ TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1,
   P.insert(0, 0) = 0.3;
   P.insert(0, 1) = 0.4;
   P.insert(0, 2) = 0.3;
-  P.insert(1, 3) = 1.2; // beyond what a colour can be
+  P.insert(1, 3) = 1.2; // beyond the colours that it is made of
   P.insert(1, 2) = -0.2;
   P.insert(2, 2) = 0.5;
   P.insert(2, 3) = 0.5;
   const Attributes coarse = restricted(fine, P);
   CHECK(coarse.names() == fine.names());
   CHECK(coarse.unknown == fine.unknown);
-  CHECK(values(coarse, "red") == Values{11, 255, 131});
+  CHECK(values(coarse, "red") == Values{11, 250, 131});
   CHECK(values(coarse, "green") == Values{21, 0, 11});
   CHECK(values(coarse, "label") == Values{7, 9, 7}); // 0.6 of 7 against 0.4; a tie goes to the smaller
   CHECK(std::abs(values(coarse, "heat")[0] - 1.5) < 1e-12);
@@ -301,7 +305,7 @@ TEST_CASE("What is written is read again, as far as the format holds it")
   }
   const std::string extension = GENERATE(".ply", ".obj", ".off", ".stl");
   const File file(extension);
-  write_mesh(file.path, input.mesh, file.path, input.attributes);
+  write_mesh(file.path, input.mesh, file.path, {input.attributes, {}});
   const Polygon_soup soup = read_polygon_soup(file.path);
   CHECK(soup.polygons.size() == 2);
   for(const Attribute& a : input.attributes.known) {
@@ -426,7 +430,7 @@ TEST_CASE("Seams stay, and both sides keep their coordinates")
   CHECK(largest_error(coarse, texture) < 0.01); // of a side that is taken for the other: 1
 
   const File file(".obj");
-  write_mesh(file.path, coarse, file.path, {}, texture);
+  write_mesh(file.path, coarse, file.path, {{}, {}, texture});
   const Input_mesh again = read_input_mesh(file.path, Mending::none, true);
   CHECK(largest_error(again.mesh, again.texture) == largest_error(coarse, texture));
   CHECK(Texture_seams(again.mesh, again.texture).number_of_edges() == seams.number_of_edges());

@@ -654,6 +654,10 @@ int run(Arguments a)
   report.seconds_reading = timer.time();
   set_labels(a, input);
   std::vector<std::size_t> kept = kept_vertices(a, input, seams);
+  const std::string nothing_kept =
+      a.kept.has_features() && feature_vertices(input.mesh, a.kept).empty()
+          ? "'" + a.input + "' has no vertex at what --keep names: no border, no sharp edge of that angle."
+          : "";
   const std::size_t target = resolve_sizes(a, input.diagnosis, num_vertices(input.mesh), kept.size(),
                                            vertices_for_faces(a, input.mesh));
   SMS::Spectral_edge_collapse_options options =
@@ -697,7 +701,7 @@ int run(Arguments a)
     report.attributes.push_back(name);
   rounded.push_back(rounding(mesh, a.output));
   for(const std::string& loss :
-      {lost_attributes(input, a.output), lost_edges, rounded[0], rounded[1], input.still_cut})
+      {lost_attributes(input, a.output), lost_edges, rounded[0], rounded[1], input.still_cut, nothing_kept})
     if(!loss.empty())
       report.result.warnings.push_back(loss);
   if(seams)
