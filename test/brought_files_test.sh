@@ -385,8 +385,8 @@ for j in 0 7 20; do has o2.off 10 $j 0 || fail "--keep sharp: no vertex at 10 $j
 [ "$(awk 'NF == 3 && NR > 2 && ($1 == 0 || $1 == 20 || $2 == 0 || $2 == 20)' o2.off | wc -l)" = 80 ] || fail "--keep border: not all of the border"
 warns "--keep what is not there" "has no vertex at what --keep names" torus.off o2.off $few --keep border
 echo 115 >one.txt
-runs "--keep with a file" square.off o2.off --vertices 100 --eigenvectors 10 --no-evaluation --keep sharp:170,one.txt
-has o2.off 5 10 0 || fail "--keep sharp:170,one.txt: vertex 115 has moved"
+runs "--keep with a file" square.off o2.off --vertices 100 --eigenvectors 10 --no-evaluation --keep sharp:89,one.txt
+has o2.off 5 10 0 || fail "--keep sharp:89,one.txt: vertex 115 has moved"
 refuses "more is kept than is asked for" "60 vertices, but --keep keeps 80" square.off o.off $few --keep border
 for word in sharp sharp: sharp:0 sharp:x sharp:200 sharp:nan border,, sharp:20,sharp:30; do
   refuses "--keep $word" "--keep has\|--keep names" square.off o.off $few --keep $word
@@ -420,8 +420,6 @@ for n in 100 166 167; do
   refuses "dust takes all of $n vertices" "41 components need at least 167 vertices, .*: ask for many more, or take away the 40 components of 4 vertices or fewer" \
     dust.off o.off --vertices $n --eigenvectors 50
 done
-"$program" dust.off o2.off --vertices 168 --eigenvectors 50 >said 2>complained || fail "dust leaves little: $(cat complained)"
-grep -q "Eigenvalues are off by [0-9.e+]* % on average" complained || fail "dust leaves little: $(cat complained)"
 warns "dust leaves something" "components" dust.off o2.off --vertices 400 --eigenvectors 50
 refuses "a torus of six vertices" "1 component needs at least 7 vertices" torus.off o.off --vertices 6 --eigenvectors 4
 

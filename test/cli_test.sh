@@ -127,7 +127,7 @@ refuses "seams in PLY" "only OBJ files have: choose .obj for 'out.ply'" torus.ob
 refuses "seams and no attributes" "leave one of them out" torus.obj new.obj --vertices 300 --keep seams --no-attributes
 refuses "seams and flips" "leave out --flips or --keep seams" torus.obj new.obj --vertices 300 --keep seams --flips spectral
 refuses "fewer vertices than seams have" "88 vertices, but --keep keeps 89" torus.obj new.obj --vertices 88 --eigenvectors 20 --keep seams
-refuses "seams of nothing" "no seams to keep in 'shape.off', it has no texture.*leave it out of --keep" shape.off new.obj --vertices 300 --keep seams
+refuses "seams of nothing" "no seams to keep in 'shape.off', it has no texture coordinates: leave out the word seams of --keep" shape.off new.obj --vertices 300 --keep seams
 
 runs "fitted operators" shape.off a.off --vertices 250 --eigenvectors 25 --fit-operators fitted --json fit.json
 for file in L.mtx mass.mtx; do
@@ -340,7 +340,7 @@ printf '7\nseven\n' >bad.txt
 refuses "a landmark that is no index" "line 2 of 'bad.txt'" shape.off out.off --vertices 100 --keep bad.txt
 printf '7\n\n99999\n' >bad.txt
 refuses "a landmark that is not there" "line 3 of 'bad.txt'" shape.off out.off --vertices 100 --keep bad.txt
-refuses "no landmarks" "No such file" shape.off out.off --vertices 100 --keep nothing.txt
+refuses "no landmarks" "names 'nothing.txt', which is no file" shape.off out.off --vertices 100 --keep nothing.txt
 refuses "signals that are none" "not an .npy file" shape.off out.off --vertices 100 --signals shape.off
 refuses "signals of another mesh" "250 rows, but the mesh has" shape.off out.off --vertices 100 \
   --signals pairs/coarse_eigenvectors.npy
@@ -421,7 +421,7 @@ printf '\037\213\010' | bad packed.off "compressed, unpack it first"
 printf '\377\376O\0F\0F\0' | bad wide.off "is in UTF-16, save it as UTF-8"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n' | bad zero.obj "line 4 has the index 0"
 printf 'v 0 0 0\nv 1 0 0\nv 0,5 1 0\nf 1 2 3\n' | bad comma.obj "line 3 holds '0,5'"
-printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nelement face 1\n%s\nend_header\n0\n2000000000 0 1 2\n' \
+printf 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n%s\nend_header\n0 0 0\n2000000000 0 1 2\n' \
   'property list int int vertex_indices' | bad billion.ply "cut off at .face. 0 of 1"
 printf 'OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n' | bad points.off "no faces"
 refuses "strips that end early" "no faces\|not a valid ply file" cut-strips.ply out.off --vertices 3 --eigenvectors 2

@@ -128,7 +128,8 @@ private:
       std::cout << printable(input.changes_of(path)) << "\n" << std::flush;
   }
 
-  // The start of a match tells a shape from its mirror image by the orientation: of closed surfaces it must be that of their volume.
+  // The start of a match tells a shape from its mirror image by the orientation: of closed surfaces
+  // it must be that of their volume.
   Input_mesh read(const std::string& path) const
   {
     Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));

@@ -427,8 +427,8 @@ std::vector<std::string> libraries_from(const std::string& output, const std::st
   return libraries;
 }
 
-// Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells what each is called. The mesh of
-// `input` is as it was read.
+// Writes a mesh, P and the map, whose vertices of the fine mesh become those of INPUT; `name` tells
+// what each is called. The mesh of `input` is as it was read.
 template <class Name>
 void write_mesh_and_maps(const Output_files& files, const Arguments& a, const Input_mesh& input,
                          const std::optional<Texture_seams>& seams, const Mesh& mesh,
@@ -594,8 +594,8 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   return failure.empty() ? 130 : evaluation_failed;
 }
 
-// How many vertices a mesh has when it has so many faces. A closed mesh has two for each vertex, less what its handles take; a
-// border is taken to lose vertices as its mesh does.
+// How many vertices a mesh has when it has so many faces. A closed mesh has two for each vertex,
+// less what its handles take; a border is taken to lose vertices as its mesh does.
 std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
 {
   if(!a.faces)
@@ -615,8 +615,8 @@ std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
   return std::size_t((std::max)((std::min)(std::floor(vertices), V), 1.));
 }
 
-// The number of faces follows from that of the vertices where no border loses edges. Else the run is done again from a copy, with as
-// many vertices more or less as the faces ask for.
+// The number of faces follows from that of the vertices where no border loses edges. Else the run
+// is done again from a copy, with as many vertices more or less as the faces ask for.
 SMS::Spectral_edge_collapse_result simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
                                                      const SMS::Spectral_edge_collapse_options& options)
 {

@@ -309,8 +309,9 @@ inline Arguments parse_arguments(int argc, char* argv[])
   return a;
 }
 
-// Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of which `kept` stay; throws when
-// one of these or K does not suit it. `for_faces`: the number of vertices that --faces means.
+// Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of
+// which `kept` stay; throws when one of these or K does not suit it. `for_faces`: the number of
+// vertices that --faces means.
 inline std::size_t resolve_sizes(Arguments& a, const CGAL::Spectral_geometry::Mesh_diagnosis& diagnosis,
                                  const std::size_t n, const std::size_t kept, const std::size_t for_faces)
 {

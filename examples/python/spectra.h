@@ -228,8 +228,9 @@ inline py::dict evaluate(const Arguments& a)
   // P is what it is, but the positions that it carries show whether its rows belong to Vc.
   double area = 0;
   for(Index t = 0; t < fine.T.rows(); ++t) {
-    const Eigen::RowVector3d p = fine.V.row(fine.T(t, 0));
-    area += (fine.V.row(fine.T(t, 1)) - p).cross(fine.V.row(fine.T(t, 2)) - p).norm() / 2;
+    const Eigen::RowVector3d p = fine.V.row(fine.T(t, 0)), q = fine.V.row(fine.T(t, 1)),
+                             r = fine.V.row(fine.T(t, 2));
+    area += (q - p).cross(r - p).norm() / 2;
   }
   const double off = (P * fine.V - coarse.V).rowwise().norm().mean() / std::sqrt(area);
   if(!(off < (std::max)(0.05, 0.5 / std::sqrt(double(N)))))

@@ -13,9 +13,10 @@
 #include <cstdio>
 #include <string>
 
-// Why a coarse mesh, whoever made it, cannot stand for a fine one: the end of a sentence, or nothing. What counts is how far the vertices
-// of each lie from the surface of the other, on average. Simplifications to 300 vertices are off by a hundredth of the shape, and by a sixth
-// of their edges; a shape that is turned by a right angle is off by half an edge, however round it is.
+// Why a coarse mesh, whoever made it, cannot stand for a fine one: the end of a sentence, or
+// nothing. What counts is how far the vertices of each lie from the surface of the other, on
+// average. Simplifications to 300 vertices are off by a hundredth of the shape, and by a sixth of
+// their edges; a shape that is turned by a right angle is off by half an edge, however round it is.
 inline std::string not_on(const CGAL::Spectral_geometry::Mesh_matrices& coarse,
                           const CGAL::Spectral_geometry::Mesh_matrices& fine)
 {

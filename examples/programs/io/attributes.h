@@ -19,12 +19,13 @@
 #include <utility>
 #include <vector>
 
-// A number that a mesh file has at each vertex, or at each face, beside the geometry: a channel of a colour, a coordinate of a
-// normal or of a texture, a label, any other. Names are those of PLY.
+// A number that a mesh file has at each vertex, or at each face, beside the geometry: a channel of
+// a colour, a coordinate of a normal or of a texture, a label, any other. Names are those of PLY.
 struct Attribute
 {
-  // How it is carried to a coarse mesh. A function by P; a colour as well, rounded; a normal likewise, and then it is given its
-  // length 1; a label is the one of most weight. `find_kinds()` decides.
+  // How it is carried to a coarse mesh. A function by P; a colour as well, rounded; a normal
+  // likewise, and then it is given its length 1; a label is the one of most weight. `find_kinds()`
+  // decides.
   enum class Kind { function, colour, normal, label };
 
   std::string name;
@@ -36,7 +37,8 @@ struct Attribute
   bool is_integer() const { return type != "float" && type != "double"; }
 };
 
-// All that a file has at its vertices or faces, and what the programs cannot carry ("element edge").
+// All that a file has at its vertices or faces, and what the programs cannot carry ("element
+// edge").
 struct Attributes
 {
   std::vector<Attribute> known;
@@ -49,7 +51,7 @@ struct Attributes
     return found == known.end() ? nullptr : &*found;
   }
 
-  // Those of `names`, or nothing where one of them is missing.
+  // The attributes of these names, or nothing where one of them is missing.
   template <std::size_t n>
   std::array<const Attribute*, n> find(const std::array<const char*, n>& names) const
   {
@@ -84,8 +86,8 @@ struct Attributes
   }
 };
 
-// The channel of a colour that a name means, 0 to 3 for red, green, blue and alpha, and what is left of the name: "diffuse_red",
-// "Red", "r", "colorG". No channel: 4.
+// The channel of a colour that a name means, 0 to 3 for red, green, blue and alpha, and what is
+// left of the name: "diffuse_red", "Red", "r", "colorG". No channel: 4.
 inline std::pair<std::size_t, std::string> colour_channel_of(const std::string& name)
 {
   std::string low = name;
@@ -114,8 +116,8 @@ inline std::pair<std::size_t, std::string> colour_channel_of(const std::string& 
   return {letter, low.substr(0, n - 1) + '.'};
 }
 
-// The channels of the colour of a mesh: of red, green and blue where it has these, else of the first with all three channels.
-// Pointers to nothing where there is none.
+// The channels of the colour of a mesh: of red, green and blue where it has these, else of the
+// first with all three channels. Pointers to nothing where there is none.
 inline std::array<const Attribute*, 3> colour_of(const Attributes& attributes)
 {
   std::map<std::string, std::array<const Attribute*, 3>> colours;
@@ -168,7 +170,8 @@ inline void add_colours(Attributes& attributes, std::vector<std::vector<double>>
   }
 }
 
-// Makes colours of the channels red, green, blue with floating numbers from 0 to 1. Others stay functions.
+// Makes colours of the channels red, green, blue with floating numbers from 0 to 1. Others stay
+// functions.
 inline void find_colours(Attributes& attributes)
 {
   const auto is_colour = [&](const std::string& name) {
@@ -188,7 +191,8 @@ inline void find_colours(Attributes& attributes)
   add_colours(attributes, std::move(channels));
 }
 
-// Decides how each attribute of vertices is carried: integers are channels of a colour where their names say so, else labels.
+// Decides how each attribute of vertices is carried: integers are channels of a colour where their
+// names say so, else labels.
 inline void find_kinds(Attributes& attributes)
 {
   std::map<std::string, std::set<std::size_t>> channels; // by colours
@@ -226,7 +230,8 @@ inline double elected(std::vector<std::pair<double, double>>& votes)
   return value;
 }
 
-// Carries attributes by P, coarse vertices x vertices of the file. Values that are not finite have no weight beside others.
+// Carries attributes by P, coarse vertices x vertices of the file. Values that are not finite have
+// no weight beside others.
 inline Attributes restricted(const Attributes& fine, const Eigen::SparseMatrix<double>& P)
 {
   const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = P;

@@ -55,7 +55,7 @@ void for_each_part(const Eigen::Matrix3d& t, const int n, const Function& functi
     }
 }
 
-// Of some faces, the one whose closest point is closest.
+// The face whose closest point is closest.
 template <class Faces>
 Face closest(const Eigen::Vector3d& query, const std::vector<Eigen::Matrix3d>& triangles, const Faces& faces)
 {

@@ -26,8 +26,9 @@ inline void require_readable(const std::string& path)
     throw std::runtime_error("cannot read '" + path + "': " + std::strerror(errno) + ".");
 }
 
-// Lines of one vertex for each of `sizes`, which say how many vertices the meshes have, counted from 0. Throws at the first line
-// that is anything else, or that names a vertex of one mesh again. With `or_none`, lines may hold -1, and vertices may repeat.
+// Lines of one vertex for each of `sizes`, which say how many vertices the meshes have, counted
+// from 0. Throws at the first line that is anything else, or that names a vertex of one mesh again.
+// With `or_none`, lines may hold -1, and vertices may repeat.
 inline std::vector<std::vector<std::size_t>>
 read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes, const bool or_none = false)
 {

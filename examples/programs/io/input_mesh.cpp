@@ -172,7 +172,8 @@ Mended mended(const Polygon_soup& soup, const bool merge, const bool copies)
   return result;
 }
 
-// The repair closes cracks; what is left is where it has separated sheets that share an edge or a vertex.
+// The repair closes cracks; what is left is where it has separated sheets that share an edge or a
+// vertex.
 std::string still_cut(const Mesh_diagnosis& diagnosis, const std::vector<std::size_t>& origin)
 {
   if(diagnosis.cracks.empty())
@@ -244,8 +245,8 @@ Corner_texture texture_of(const Polygon_soup& soup)
   return texture;
 }
 
-// Which polygons of the file the faces of the mesh are parts of: those that have their vertices, also where some of these have
-// become one.
+// Which polygons of the file the faces of the mesh are parts of: those that have their vertices,
+// also where some of these have become one.
 class Origins_of_faces
 {
 public:

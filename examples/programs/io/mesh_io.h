@@ -29,7 +29,8 @@ CGAL::Spectral_geometry::Mesh_diagnosis diagnose(const Polygon_soup& soup);
 // The attributes of vertices that a file of this name can hold: PLY holds all.
 Attributes writable(const Attributes& attributes, const std::string& name);
 
-// The attributes of faces that it can hold: PLY all, OBJ materials and the like, OFF and STL a colour or a label.
+// The attributes of faces that it can hold: PLY all, OBJ materials and the like, OFF and STL a
+// colour or a label.
 Attributes writable_at_faces(const Attributes& attributes, const std::string& name);
 
 // What a file has beside positions and faces.
@@ -45,9 +46,10 @@ struct Decoration
 void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name,
                 const Decoration& decoration = {});
 
-// Positions of STL files are rounded to single precision. Returns what that does to a mesh, a sentence, where it is more than a
-// thousandth of the median edge, or nothing. Throws where faces would collapse: other programs could not use the file. Before a mesh is
-// simplified to so many vertices, throws where half of an edge that it will have is lost.
+// Positions of STL files are rounded to single precision. Returns what that does to a mesh, a
+// sentence, where it is more than a thousandth of the median edge, or nothing. Throws where faces
+// would collapse: other programs could not use the file. Before a mesh is simplified to so many
+// vertices, throws where half of an edge that it will have is lost.
 std::string rounding(const Mesh& mesh, const std::string& name, std::size_t simplified_to = 0);
 
 #endif // SPECTRAL_EXAMPLES_IO_MESH_IO_H

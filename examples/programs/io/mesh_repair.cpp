@@ -284,7 +284,8 @@ void add_parts(const Split_triangle& t, std::vector<std::vector<std::size_t>>& t
   triangles.push_back({t.corners[0], t.corners[1], t.corners[2]});
 }
 
-// The border vertices that lie on border edges, within the distance of cracks, in the order of each edge.
+// The border vertices that lie on border edges, within the distance of cracks, in the order of each
+// edge.
 std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
 vertices_on_edges(const Exact_soup& soup)
 {
@@ -334,7 +335,8 @@ vertices_on_edges(const Exact_soup& soup)
   return on_edge;
 }
 
-// Splits the edges of one sheet at the vertices of its neighbour that lie on them, where the neighbour is finer.
+// Splits the edges of one sheet at the vertices of its neighbour that lie on them, where the
+// neighbour is finer.
 void close_t_junctions(Exact_soup& soup, Repair_log& log)
 {
   const auto on_edge = vertices_on_edges(soup);

@@ -53,7 +53,8 @@ std::vector<Component> components_of(const Eigen::MatrixXd& V, const Eigen::Matr
   return result;
 }
 
-// How often a closed surface winds round a point: the sum of solid angles (van Oosterom and Strackee, 1983).
+// How often a closed surface winds round a point: the sum of solid angles (van Oosterom and
+// Strackee, 1983).
 double winding_number(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Component& surface,
                       const Eigen::RowVector3d& point)
 {
@@ -78,7 +79,7 @@ std::vector<Index> inside_out(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T
   };
   std::vector<Index> result;
   for(const Component& outer : components) {
-    // Of a surface that goes through itself the sign may mean nothing; a sphere has 0.094 here.
+    // The sign may mean nothing where a surface goes through itself; a sphere has 0.094 here.
     if(!outer.closed || !(outer.volume < -1e-4 * std::pow(outer.area, 1.5)) ||
        std::any_of(components.begin(), components.end(),
                    [&](const Component& other) { return lies_in(outer, other); }))

@@ -23,12 +23,14 @@
 #include <utility>
 #include <vector>
 
-// STL files, binary or text in any spelling, and the colours that binary ones have at faces. CGAL's reader takes a text for
-// binary where its first word is not "solid" in lower case, and what it has misread stays beside the faces.
+// STL files, binary or text in any spelling, and the colours that binary ones have at faces. CGAL's
+// reader takes a text for binary where its first word is not "solid" in lower case, and what it has
+// misread stays beside the faces.
 class Stl_reader
 {
 public:
-  // Throws the end of a sentence that says what is wrong. Vertices stand in the order of first appearance.
+  // Throws the end of a sentence that says what is wrong. Vertices stand in the order of first
+  // appearance.
   static Polygon_soup read(const std::string& path)
   {
     Stl_reader reader;
@@ -61,7 +63,8 @@ private:
     return value;
   }
 
-  // Headers of binary files hold zeros and other bytes that are no text, at the latest in the number of faces.
+  // Headers of binary files hold zeros and other bytes that are no text, at the latest in the
+  // number of faces.
   static bool is_text(const std::string& start)
   {
     if(start.compare(0, 2, "\xFF\xFE") == 0 || start.compare(0, 2, "\xFE\xFF") == 0)
@@ -86,7 +89,7 @@ private:
   {
     Text_lines file(path);
     std::vector<std::size_t> polygon;
-    bool in_solid = false;
+    bool in_solid = false, in_name = false; // which may go on in the next lines
     const auto next_word = [&file] { return file.more_or_next() ? lower(file.word()) : std::string(); };
     const auto close_face = [&] {
       if(polygon.empty())
@@ -100,7 +103,7 @@ private:
       if(word == "end")
         word += next_word();
       if(word == "solid" || word == "endsolid") {
-        in_solid = true;
+        in_solid = in_name = true;
         close_face();
         pass_over_name(file);
       } else if(word == "vertex") {
@@ -111,6 +114,7 @@ private:
       } else if(word == "facet" || word == "endloop" || word == "endfacet") {
         close_face();
         in_solid = true;
+        in_name = false;
         if(word == "facet" && file.more() && std::tolower(static_cast<unsigned char>(file.peek())) == 'n') {
           next_word();
           for(int i = 0; i < 3 && file.more_or_next(); ++i)
@@ -118,6 +122,8 @@ private:
         }
       } else if(word == "outer" || word == "loop")
         continue;
+      else if(in_name)
+        file.rest();
       else if(!in_solid)
         throw std::runtime_error("its first word is neither solid nor facet");
       else
@@ -171,7 +177,8 @@ private:
     }
     if(std::all_of(marks.begin(), marks.end(), [](const double mark) { return mark == 0; }))
       return;
-    // Five bits a channel, and one that says that they are a colour; Materialise counts the other way round.
+    // Five bits a channel, and one that says that they are a colour; Materialise counts the other
+    // way round.
     const auto is_coloured = [&](const double mark) { return (mark >= 32768) != in_order_of_materialise; };
     if(std::none_of(marks.begin(), marks.end(), is_coloured)) {
       m_soup.face_attributes.add("label", "ushort", std::move(marks));

@@ -46,8 +46,9 @@ inline bool has_byte_order_mark(const std::string& text)
   return text.compare(0, 3, "\xEF\xBB\xBF") == 0;
 }
 
-// The lines of a text and the words in them. A # at the start of a word begins a comment: within a word it may belong to a
-// number, as in 1.#QNAN. A line that ends in a backslash goes on in the next, and any white space separates.
+// The lines of a text and the words in them. A # at the start of a word begins a comment: within a
+// word it may belong to a number, as in 1.#QNAN. A line that ends in a backslash goes on in the
+// next, and any white space separates.
 class Text_lines
 {
 public:

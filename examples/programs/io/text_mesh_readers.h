@@ -71,8 +71,8 @@ struct Off_keyword
   }
 };
 
-// What OBJ files give to the corners of faces: to the vertices, where all corners of each have the same. Lines may come after the
-// faces that use them.
+// What OBJ files give to the corners of faces: to the vertices, where all corners of each have the
+// same. Lines may come after the faces that use them.
 class Corner_values
 {
 public:
@@ -279,8 +279,9 @@ inline bool are_integers(const std::vector<double>& values)
                      [](const double x) { return x == std::floor(x) && std::abs(x) < 2147483648.; });
 }
 
-// A line for each vertex, whose end means nothing but what the first word announces, and for each face, whose end is a colour or a
-// label; or, `packed`, any number of them on a line and nothing else.
+// A line for each vertex, whose end means nothing but what the first word announces, and for each
+// face, whose end is a colour or a label; or, `packed`, any number of them on a line and nothing
+// else.
 inline Polygon_soup read_off(const std::string& path, const bool packed)
 {
   Polygon_soup soup;
