@@ -15,7 +15,7 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// The number of signals that lie side by side, and of mixtures by default: 16 doubles fill four vector registers.
+/// The number of signals that lie side by side: 16 doubles fill four vector registers.
 constexpr int spectral_width = 16;
 
 /// What one vertex w has of 16 signals: the rows f_w, z_w and R_w = (B Z)_w - (L F)_w.
