@@ -41,7 +41,7 @@ refuses "a reduction without a way back" "needs --fine-iterations" X.off Y.off -
   --fine-iterations 0
 echo "1 2 3" >three.txt
 echo "1" >one.txt
-refuses "landmarks of three vertices" "'1 2 3' in line 1" X.off Y.off --output map.txt --landmarks three.txt
+refuses "landmarks of three vertices" "line 1 of 'three.txt' has '3'" X.off Y.off --output map.txt --landmarks three.txt
 : >nothing.txt
 refuses "no landmarks in the file" "names no vertex" X.off Y.off --output map.txt --landmarks nothing.txt
 refuses "an input as output" "read as an input" X.off Y.off --output ./X.off
