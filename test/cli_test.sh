@@ -51,11 +51,6 @@ for variant in "" "--preset paper" "--preset paper --mass averaged" "--placement
   grep -q '|C|_L' said || fail "no table with '$variant'"
 done
 
-runs "edge flips" shape.off coarse.off --vertices 250 --eigenvectors 25 --mass averaged --flips spectral $all
-"$check" . shape.off coarse.off || fail "outputs of --flips"
-grep -q 'flipped edges .* [1-9].*(spectral)' said || fail "no flips in the table"
-grep -q '"flips": "spectral"' out.json || fail "no flips in the JSON file"
-
 norm_of() { awk -F'[:,]' '/"norm_L":/ { print $2 }' out.json; }
 runs "relocation by both signals" shape.off coarse.off --vertices 250 --eigenvectors 25 --relocate carried_and_sampled $all
 "$check" . shape.off coarse.off || fail "outputs of --relocate carried_and_sampled"
@@ -125,7 +120,6 @@ for file in seams.obj seams-400.obj; do
 done
 refuses "seams in PLY" "only OBJ files have: choose .obj for 'out.ply'" torus.obj out.ply --vertices 300 --keep seams
 refuses "seams and no attributes" "leave one of them out" torus.obj new.obj --vertices 300 --keep seams --no-attributes
-refuses "seams and flips" "leave out --flips or --keep seams" torus.obj new.obj --vertices 300 --keep seams --flips spectral
 refuses "fewer vertices than seams have" "88 vertices, but --keep keeps 89" torus.obj new.obj --vertices 88 --eigenvectors 20 --keep seams
 refuses "seams of nothing" "no seams to keep in 'shape.off', it has no texture coordinates: leave out the word seams of --keep" shape.off new.obj --vertices 300 --keep seams
 
@@ -357,7 +351,6 @@ refuses "a binary P that relocation would replace" "--relocate none" shape.off o
 refuses "an unknown preset" "--preset is 'worst'" shape.off out.off --vertices 100 --preset worst
 refuses "a negative shape term" "--shape is -1" shape.off out.off --vertices 100 --shape -1
 refuses "an unknown relocation" "--relocate is 'much'" shape.off out.off --vertices 100 --relocate much
-refuses "unknown flips" "--flips is 'up'" shape.off out.off --vertices 100 --flips up
 refuses "unknown mass" "--mass is 'heavy'" shape.off out.off --vertices 100 --mass heavy
 refuses "no threads" "--threads is 0" shape.off out.off --vertices 100 --threads 0
 refuses "a fit without evaluation" "--no-evaluation" shape.off out.off --vertices 200 --no-evaluation --fit-operators d

@@ -8,7 +8,6 @@
 #include "core_helpers.h"
 #include "relocation_helpers.h"
 
-#include <CGAL/Spectral_geometry/edge_flips.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
@@ -315,7 +314,6 @@ TEST_CASE(
   options.mass = mass;
   options.boundary = dirichlet;
   options.number_of_eigenvectors = 11;
-  options.flips = SG::Edge_flips::spectral;
   Mesh mesh = make_mesh(input);
   const auto result = SMS::spectral_edge_collapse(mesh, 150, options);
   const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
@@ -336,7 +334,6 @@ TEST_CASE(
   CHECK_THROWS_WITH(SG::fit_operators(coarse_op, result.restriction, op, pairs),
                     ContainsSubstring("Dirichlet"));
 
-  options.flips = SG::Edge_flips::none;
   options.pre_simplify = 800; // the first stage keeps the border apart as well
   Mesh twice = make_mesh(input);
   const Eigen::SparseMatrix<double> P = SMS::spectral_edge_collapse(twice, 150, options).restriction;
@@ -421,7 +418,6 @@ TEST_CASE("A run with an operator reports its E and carries its coefficients, wh
   const SG::Mass mass = kind == Kind_of_operator::voronoi ? SG::Mass::voronoi : SG::Mass::averaged;
   const SG::Local_operator local = operator_on(input.V, kind, mass);
   SMS::Spectral_edge_collapse_options options = options_of(local, mass, 20);
-  options.flips = SG::Edge_flips::spectral;
   options.fit_operators = true;
   options.pre_simplify = pre_simplify ? 1000 : 0;
   Mesh mesh = make_mesh(input);
@@ -471,10 +467,8 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
     options.coefficients.rightCols<6>() *= unit;
     options.coefficients.col(0) *= std::sqrt(unit);
     options.fit_operators = true;
-    options.flips = SG::Edge_flips::spectral;
     Mesh mesh = make_mesh(input);
     const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
-    CHECK(result.flips.flips.size() > 1);
     errors.push_back(result.relative_error);
     fitted.push_back(SG::eigenpairs(result.fitted->op, 15).values(14) / std::sqrt(unit));
   }
@@ -484,7 +478,7 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
       CHECK(relative_difference(x[i], x[0]) < 5e-2);
 }
 
-TEST_CASE("Energies of relocation and flips with an operator are those of its matrices, gradients those of "
+TEST_CASE("Energies of relocation with an operator are those of its matrices, gradients those of "
           "differences")
 {
   const auto kind =
@@ -527,12 +521,6 @@ TEST_CASE("Energies of relocation and flips with an operator are those of its ma
     CHECK(std::abs(slope - gradient.cwiseProduct(direction).sum()) <
           1e-5 * gradient.cwiseProduct(direction).norm());
   }
-
-  Eigen::MatrixXi T = s->coarse.T;
-  const SG::Edge_flip_result flips = SG::flip_edges(s->coarse.V, T, P, s->F(), s->Z(), local);
-  CHECK(relative_difference(flips.E_before, slow) < 1e-9);
-  CHECK(relative_difference(flips.E_after, SG::restriction_energy(SG::laplace_operator(s->coarse.V, T, local),
-                                                                  P, s->F(), s->Z())) < 1e-9);
 }
 
 TEST_CASE("Coefficients of faces become those of vertices by area")

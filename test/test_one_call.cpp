@@ -468,7 +468,7 @@ TEST_CASE(
   CHECK_THAT(result.warnings.back(), ContainsSubstring("not relocated") && ContainsSubstring("has no area"));
 }
 
-TEST_CASE("Rough eigenpairs have one E, in the collapses and after edge flips")
+TEST_CASE("Rough eigenpairs have one E, in the collapses and for matrices")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
@@ -478,10 +478,8 @@ TEST_CASE("Rough eigenpairs have one E, in the collapses and after edge flips")
   REQUIRE(SMS::internal::pairs_are_rough(options.eigenpairs->residuals));
   Basis basis = basis_of_pairs(op, *options.eigenpairs);
   basis.Z = signal_basis(input, 0, basis.F).Z;
-  options.flips = GENERATE(SG::Edge_flips::none, SG::Edge_flips::delaunay);
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
-  CHECK(result.flips.flips.empty() == (options.flips == SG::Edge_flips::none));
   CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) < 1e-8);
 }
 
@@ -515,12 +513,6 @@ TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplif
   {
     options.eigenpairs_options.tolerance = 2;
     word = "tolerance";
-  }
-  SECTION("what a flip may not do")
-  {
-    options.flips = SG::Edge_flips::delaunay;
-    options.flipping.size_tolerance = -1;
-    word = "size_tolerance";
   }
   SECTION("how vertices are moved")
   {

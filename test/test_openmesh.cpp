@@ -18,7 +18,6 @@
 #include <CGAL/boost/graph/graph_traits_TriMesh_ArrayKernelT.h>
 
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 
 #include "collapse_helpers.h"
 
@@ -38,17 +37,6 @@ TEST_CASE("OpenMesh is simplified as other meshes are, with points in single pre
   const Input fine = eigen_input(input, SG::Mass::lumped, *policies.eigenpairs());
   CHECK(fault_of_run(mesh, policies, fine, Check{false, false, 1e-8}) == "");
   CHECK(position_error(policies.restriction(), input.V, positions(mesh)) < 3e-6);
-
-  SG::Edge_flip_options options;
-  options.criterion = SG::Edge_flips::delaunay;
-  const SG::Eigenpairs& pairs = *policies.eigenpairs();
-  const auto flips = SMS::spectral_edge_flips(mesh, policies.restriction(), pairs, SG::Mass::lumped, options);
-  CHECK(!flips.flips.empty());
-  CHECK(CGAL::is_valid_polygon_mesh(mesh));
-  const SG::Laplace_operator flipped = SG::cotangent_laplacian(mesh);
-  CHECK(relative_difference(SG::restriction_energy(flipped, policies.restriction(), pairs.vectors,
-                                                   pairs.vectors * pairs.values.asDiagonal()),
-                            flips.E_after) < 1e-9);
 }
 
 #else

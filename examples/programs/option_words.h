@@ -32,11 +32,6 @@ inline constexpr Word<CGAL::Spectral_geometry::Relocation_options::Signals> relo
     {CGAL::Spectral_geometry::Relocation_options::Signals::carried, "carried"},
     {CGAL::Spectral_geometry::Relocation_options::Signals::carried_and_sampled, "carried_and_sampled"}};
 
-inline constexpr Word<CGAL::Spectral_geometry::Edge_flips> flip_words[] = {
-    {CGAL::Spectral_geometry::Edge_flips::none, "none"},
-    {CGAL::Spectral_geometry::Edge_flips::spectral, "spectral"},
-    {CGAL::Spectral_geometry::Edge_flips::delaunay, "delaunay"}};
-
 inline constexpr Word<CGAL::Spectral_geometry::Boundary_condition> boundary_words[] = {
     {CGAL::Spectral_geometry::Boundary_condition::neumann, "neumann"},
     {CGAL::Spectral_geometry::Boundary_condition::dirichlet, "dirichlet"}};
@@ -46,7 +41,6 @@ inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_phase> phase_w
     {CGAL::Surface_mesh_simplification::Spectral_phase::eigenpairs, "eigenpairs"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::first_costs, "first_costs"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::collapses, "collapses"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::flips, "flips"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::relocation, "relocation"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::operator_fit, "operator_fit"}};
 
@@ -96,7 +90,6 @@ struct Option_words
   std::string relocate;           // none, sampled, carried, carried_and_sampled
   std::optional<double> shape;
   std::optional<double> quadrics_above;
-  std::string flips; // none, spectral, delaunay
 };
 
 // Whether these options have no use for quadrics_above, which was given; `said` says what to do about it.
@@ -138,7 +131,6 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options
     if(options.relocate)
       options.relocation.signals = value_of(relocation_words, words.relocate);
   }
-  options.flips = words.flips.empty() ? SG::Edge_flips::none : value_of(flip_words, words.flips);
   return options;
 }
 

@@ -37,7 +37,7 @@ struct Arguments
   long eigenvectors = 100;
   std::optional<double> quadrics_above;
   std::optional<long> pre_simplify; // as the preset has it; 0: never
-  std::string preset = "best", flips = "none";
+  std::string preset = "best";
   std::string boundary = "neumann";
   std::string operator_word = "cotangent";
   Operator_word operator_;                                   // what it says
@@ -179,9 +179,6 @@ inline Command_line described(Arguments& a)
             "colours as labels, of "
             "which the one of most weight is taken; what faces have by the area that each face of OUTPUT "
             "takes over");
-  line.choice("flips", a.flips, words_of(flip_words),
-              "afterwards flip edges, before --relocate: where that lowers the error, or where the opposite "
-              "angles are more than 180 degrees together; --levels are written without");
 
   line.advanced_group("Dirty meshes (advanced)");
   line.option("repaired", a.repaired, "FILE",
@@ -263,8 +260,6 @@ inline void check(const Arguments& a)
     refuse("--report shows what the evaluation computes: leave out --no-evaluation.");
   if(a.kept.seams && a.no_attributes)
     refuse("--keep seams writes a texture, --no-attributes leaves it behind: leave one of them out.");
-  if(a.kept.seams && a.flips != "none")
-    refuse("--flips may turn an edge of a seam: leave out --flips or --keep seams.");
   if(!a.labels.empty() && a.no_attributes)
     refuse("--labels names attributes, --no-attributes leaves them behind: leave one of them out.");
   if(!a.repaired.empty() && !a.repair)

@@ -147,7 +147,6 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
     words.quadrics_above = a.number("quadrics_above", 1, true, HUGE_VAL, false);
   words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
   words.relocate = a.word("relocate", words_of(relocation_words, {"none"}), true);
-  words.flips = a.word("flips", words_of(flip_words));
   SMS::Spectral_edge_collapse_options options = options_of(words);
   options.binary = a.flag("binary");
   if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)

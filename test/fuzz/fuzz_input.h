@@ -281,7 +281,7 @@ struct One_call
   {
     return options.pre_simplify != 0 && options.pre_simplify < std::size_t(fine.V.rows());
   }
-  bool post_processed() const { return options.relocate || options.flips != SG::Edge_flips::none; }
+  bool post_processed() const { return options.relocate; }
   bool has_zero_lengths() const { return diagnosis.zero_length_edges.count != 0; }
 };
 
@@ -343,8 +343,6 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
 {
   SMS::Spectral_edge_collapse_options& o = call.options;
   const int n = int(call.fine.V.rows());
-  const SG::Edge_flips flips[] = {SG::Edge_flips::none, SG::Edge_flips::spectral, SG::Edge_flips::delaunay};
-  o.flips = flips[bytes.below(3)];
   o.relocate = bytes.one_in(3);
   using Signals = SG::Relocation_options::Signals;
   const Signals signals[] = {Signals::carried, Signals::carried_and_sampled, Signals::sampled};

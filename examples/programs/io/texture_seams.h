@@ -13,7 +13,7 @@
 // The texture of a mesh and its seams: edges whose two faces have other coordinates at one of its ends, and border edges in the
 // place of another, where a file has copies of vertices.
 //
-// A simplification that keeps the vertices of seams keeps their edges, as long as none is flipped: a collapse takes no edge away that
+// A simplification that keeps the vertices of seams keeps their edges: a collapse takes no edge away that
 // joins two vertices which stay.
 class Texture_seams
 {

@@ -64,8 +64,6 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"max_error", number_json(options.maximum_error)},
           {"kept_vertices", options.kept_vertices.size()},
           {"signals", options.signals.cols()},
-          {"flips", word_of(flip_words, options.flips)},
-          {"flipped_edges", result.flips.flips.size()},
           {"relocation", relocation_json(result, options)},
           {"relative_error", number_json(result.relative_error)},
           {"stop_reason", result.stop_reason_name()},
@@ -80,7 +78,6 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"seconds_pre_simplification", result.seconds_pre_simplification},
           {"seconds_eigenpairs", result.seconds_eigenpairs},
           {"seconds_collapse", result.seconds_collapse},
-          {"seconds_flips", result.seconds_flips},
           {"seconds_relocation", result.seconds_relocation},
           {"seconds_operator_fit", result.seconds_operator_fit},
           {"seconds_total", result.seconds_total}};

@@ -89,6 +89,7 @@ struct Relocation_result
   enum class Stop_reason {
     converged,  ///< ten steps lowered the objective by less than `Relocation_options::relative_decrease`
     no_descent, ///< no step that the guards allow lowers it
+    no_gain,    ///< the norm after it was no better than before: everything is as it was
     steps,      ///< `Relocation_options::maximum_steps`
     seconds     ///< `Relocation_options::maximum_seconds`
   };
@@ -108,10 +109,12 @@ struct Relocation_result
   /// E (Eq. 2) with the carried signals before and after, in the scale of the meshes. It may
   /// rise while the norms fall: the norms do not see most of it.
   double E_before = 0;
-  double E_after = 0;                                ///< see `E_before`
-  double objective_before = 0;                       ///< what was minimised, at the start
-  double objective_after = 0;                        ///< and at the end
-  int steps = 0;                                     ///< of the descent
+  double E_after = 0;          ///< see `E_before`
+  double objective_before = 0; ///< what was minimised, at the start
+  double objective_after = 0;  ///< and at the end
+  double norm_before = 0; ///< |C|_L (Eq. 3), for signals of any kind, with the restriction that was passed
+  double norm_after = 0;  ///< and with that of the result, never more
+  int steps = 0;          ///< of the descent
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
   Held held;                                         ///< by which guard
   std::size_t moved_vertices = 0;                    ///< vertices that are elsewhere now
@@ -127,6 +130,7 @@ struct Relocation_result
   {
     return stop_reason == Stop_reason::converged    ? "converged"
            : stop_reason == Stop_reason::no_descent ? "no step descends"
+           : stop_reason == Stop_reason::no_gain    ? "no gain"
            : stop_reason == Stop_reason::steps      ? "number of steps"
                                                     : "time";
   }
@@ -145,7 +149,10 @@ inline void check_relocation_options(const Relocation_options& o)
   require(
       o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
       "relocation: trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
-  require_shape_limits("relocation: ", o);
+  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
+          "relocation: smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio, ".");
+  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
+          "relocation: largest_turn must lie in ]0, pi/2], but is ", o.largest_turn, ".");
   require(o.threads >= 1, "relocation: threads must be a number from 1, but is ", o.threads, ".");
 }
 

@@ -15,7 +15,6 @@ of `CGAL::Spectral_geometry` that depends on no mesh type. Without that macro no
 #include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>
 #include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
 #include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>
-#include <CGAL/Spectral_geometry/internal/flips/edge_flips_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
 #include <CGAL/Spectral_geometry/internal/eigenpairs/filtered_signals_impl.h>
 #include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>

@@ -48,7 +48,7 @@ enum class Boundary_condition { neumann, dirichlet };
 
 /*!
 \brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners alone, which is what the
-metric of the collapses, flips and relocation need to follow an operator.
+metric of the collapses and relocation need to follow an operator.
 
 In a triangle with corners i, j, k, area A and the mean of its corners' coefficients, \f$\rho\f$ and D,
 \f[ L_{ij} = \frac{(n \times e_i) \cdot D (n \times e_j)}{4A} , \qquad

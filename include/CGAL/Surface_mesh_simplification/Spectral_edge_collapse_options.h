@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
-#include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
@@ -64,7 +63,7 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
   /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
   /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number. It is a bound of the collapses:
-  /// where flips or relocation raise the error above it, a warning says so. With it `largest_loss` is infinite.
+  /// where relocation raises the error above it, a warning says so. With it `largest_loss` is infinite.
   double maximum_error = std::numeric_limits<double>::infinity();
 
   /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M. Garland and P. Heckbert,
@@ -82,14 +81,6 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// `preserve_border`, the Dirichlet condition or `maximum_error`, with a filter or a visitor. Levels of
   /// `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
   double quadrics_above = 15;
-
-  /// Flips edges of the mesh that is left, before `relocate`, where that lowers E or
-  /// makes them Delaunay, see `Spectral_geometry::flip_edges()`. Constrained edges stay. The log, and the levels that are
-  /// replayed from it, end before. Off by default: it changes little (section 6 of the paper).
-  Spectral_geometry::Edge_flips flips = Spectral_geometry::Edge_flips::none;
-
-  /// What a flip may not do; its criterion and its progress callback are replaced by those here.
-  Spectral_geometry::Edge_flip_options flipping;
 
   /// Moves the vertices that are left so that the spectrum is kept still better, see
   /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges stay. Made for the averaged
@@ -135,8 +126,6 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
       "only estimates the error; set source to eigenpairs.");
   require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
           options.maximum_error, ", use a number from 0.");
-  if(options.flips != Spectral_geometry::Edge_flips::none)
-    Spectral_geometry::internal::check_edge_flip_options(options.flipping);
   if(options.fit_operators) {
     Spectral_geometry::internal::check_operator_fit_options(options.operator_fit);
     require(options.signals.size() == 0, "Spectral_edge_collapse_options: fit_operators fits to "

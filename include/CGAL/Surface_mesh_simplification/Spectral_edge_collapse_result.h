@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 
-#include <CGAL/Spectral_geometry/Edge_flip_options.h>
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/fitted_operators.h>
@@ -52,7 +51,6 @@ struct Spectral_edge_collapse_result
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
-  double seconds_flips = 0;              ///< wall seconds of `Spectral_edge_collapse_options::flips`
   double seconds_relocation = 0;         ///< wall seconds of `Spectral_edge_collapse_options::relocate`
   double seconds_operator_fit = 0;       ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
   double seconds_total = 0;              ///< the whole call
@@ -62,8 +60,6 @@ struct Spectral_edge_collapse_result
   double E = 0; ///< Eq. 2 of all signals, with their weights, for the input scaled to unit area
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
-  /// what `Spectral_edge_collapse_options::flips` did: vertices by their rows of P, E in the scale of the input
-  Spectral_geometry::Edge_flip_result flips;
   /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
   Spectral_geometry::Relocation_result relocation;
   /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P; empty where it was not asked

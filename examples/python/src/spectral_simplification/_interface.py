@@ -41,7 +41,6 @@ def simplify(
     shape: float | None = None,
     self_intersections: str | None = None,
     relocate: str | None = None,
-    flips: str = 'none',
     keep: str | Sequence | numpy.ndarray | None = None,
     mask: numpy.ndarray | None = None,
     binary: bool = False,
@@ -90,8 +89,6 @@ def simplify(
     relocate : str, optional
         'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
         afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
-    flips : str
-        'none', 'spectral' or 'delaunay': which edges are flipped before that
     keep : str, sequence of int or bool, or list of both, optional
         vertices of V that stay where they are, vertex_map says where they went: indices, each
         once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both

@@ -74,16 +74,6 @@ inline void check_dimension(const char* const what, const std::ptrdiff_t found, 
           " is needed, pass matrices that belong together.");
 }
 
-/// What flips and relocation must not do to the shape of a mesh.
-template <class Options>
-void require_shape_limits(const char* const who, const Options& o)
-{
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1, who,
-          "smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio, ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2, who,
-          "largest_turn must lie in ]0, pi/2], but is ", o.largest_turn, ".");
-}
-
 } // namespace CGAL::Spectral_geometry::internal
 
 namespace CGAL::Surface_mesh_simplification::internal {

@@ -36,7 +36,7 @@ CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, 
 }
 
 /*!
- * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings of the collapses, flips and
+ * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings of the collapses and
  * relocation. The cotangent at corner k is dot[k] / twice_area; the edge opposite to it gets half of that in L, each corner a third of the
  * area in M.
  */

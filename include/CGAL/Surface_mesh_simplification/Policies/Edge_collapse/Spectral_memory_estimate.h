@@ -55,7 +55,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
  *
  * @param number_of_vertices n of the input
  * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs are given
- * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`, `flips`, `fit_operators`,
+ * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`, `fit_operators`,
  *        `pre_simplify`, `coefficients` and `eigenpairs_options` matter, placement and so on do not
  */
 inline double

@@ -64,7 +64,6 @@ enum class Spectral_phase {
   eigenpairs,  ///< solving for the basis
   first_costs, ///< evaluating every edge once
   collapses,   ///< inside the collapse loop
-  flips,       ///< flipping edges of the mesh that is left, see `Spectral_edge_collapse_options::flips`
   relocation,  ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
   operator_fit ///< choosing a Laplacian and a mass for them, see `Spectral_edge_collapse_options::fit_operators`
 };

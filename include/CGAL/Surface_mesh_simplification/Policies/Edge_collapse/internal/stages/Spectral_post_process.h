@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
-#include <CGAL/Surface_mesh_simplification/spectral_edge_flips.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
@@ -37,11 +36,11 @@ namespace CGAL::Surface_mesh_simplification::internal {
 /// Whether anything follows the collapses.
 inline bool has_post_process(const Spectral_edge_collapse_options& options)
 {
-  return options.relocate || options.flips != Spectral_geometry::Edge_flips::none || options.fit_operators;
+  return options.relocate || options.fit_operators;
 }
 
-/// What follows the collapses: `flips`, `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this order. The log,
-/// and what is replayed from it, stay as they are: they end before.
+/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this
+/// order. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -66,11 +65,10 @@ public:
     if(!has_post_process(m_options) || m_result.stop_reason == Result::Stop_reason::cancelled)
       return;
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
-    if(m_options.relocate || m_options.flips != Spectral_geometry::Edge_flips::none)
-      change();
+    if(m_options.relocate && allows("The vertices were not relocated: ", true))
+      relocate();
     if(m_options.fit_operators && m_result.stop_reason != Result::Stop_reason::cancelled)
       fit(relocation.resampled ? relocation.restriction : m_P);
-    m_result.seconds_flips = m_result.flips.seconds;
     m_result.seconds_relocation = relocation.seconds;
     if(m_result.relative_error > m_options.maximum_error &&
        m_result.stop_reason != Result::Stop_reason::cancelled)
@@ -86,24 +84,6 @@ public:
   }
 
 private:
-  // Flips and relocation.
-  void change()
-  {
-    using namespace Spectral_geometry;
-    const auto [F, Z] = signals_for_relocation();
-    const char* where = "as the collapses left them";
-    try {
-      if(m_options.flips != Edge_flips::none && allows("No edge was flipped: ", false)) {
-        flip(F, Z);
-        where = "as collapses and flips left them";
-      }
-      if(m_options.relocate && allows("The vertices were not relocated: ", true))
-        relocate(F, Z);
-    } catch(const Cancelled&) {
-      set_cancelled(m_result, std::string(", which are ") + where);
-    }
-  }
-
   // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
   void fit(const SpMat& P)
   {
@@ -174,17 +154,9 @@ private:
     return true;
   }
 
-  void flip(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
+  void relocate()
   {
-    Spectral_geometry::Edge_flip_options flipping = m_options.flipping;
-    flipping.criterion = m_options.flips;
-    flipping.progress = reporting(Spectral_phase::flips);
-    m_result.flips = spectral_edge_flips(m_mesh, m_P, F, Z, local_operator(), flipping, m_np);
-    set_error(m_P);
-  }
-
-  void relocate(const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
-  {
+    const auto [F, Z] = signals_for_relocation();
     if(m_options.mass != Spectral_geometry::Mass::averaged)
       m_result.warnings.push_back(
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
@@ -198,8 +170,13 @@ private:
     if(!m_state.core().fields().kept.empty())
       for(const Eigen::Index slot : m_state.current_slots())
         stays.push_back(m_state.core().fields().is_kept(Spectral_slot(slot)));
-    m_result.relocation =
-        relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(), relocation, stays, m_np);
+    try {
+      m_result.relocation =
+          relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(), relocation, stays, m_np);
+    } catch(const Spectral_geometry::Cancelled&) {
+      set_cancelled(m_result, ", which are as the collapses left them");
+      return;
+    }
     SpMat& own = m_result.relocation.restriction;
     if(m_result.relocation.resampled && !stays.empty()) // where the input has several points in one place
       keep_rows(own, stays);
