@@ -67,7 +67,8 @@ try {
   const SG::Mesh_matrices fine_matrices = SG::mesh_matrices(fine), coarse_matrices = SG::mesh_matrices(mesh);
   const Eigen::VectorXd height = fine_matrices.V.col(2); // a function on the fine mesh
   const Eigen::VectorXd coarse_height = result.restriction * height;
-  const Eigen::SparseMatrix<double> Q = SG::closest_point_interpolation(fine_matrices.V, coarse_matrices);
+  const Eigen::SparseMatrix<double> Q =
+      SG::closest_point_prolongation(fine_matrices, coarse_matrices, result.restriction);
   const Eigen::VectorXd height_again = Q * coarse_height;
   //! [transfer]
   const Eigen::ArrayXd difference = (height_again - height).array();

@@ -121,10 +121,10 @@ inline Matrices bumpy_icosphere_matrices(int subdivisions)
 }
 
 // A closed surface of revolution, bent: rings of `around` vertices along a body that ends in a thin limb, folded back beside
-// itself at a tenth of its length. Little of the spectrum lives on the limb.
-inline Matrices folded_limb_matrices(int along, int around)
+// itself at a tenth of its length, or at twice `bend`: its radius is 0.055. Little of the spectrum lives on the limb.
+inline Matrices folded_limb_matrices(int along, int around, double bend = 0.14)
 {
-  constexpr double pi = 3.14159265358979323846, bend = 0.14, leg = 1.2, body = 0.9;
+  constexpr double pi = 3.14159265358979323846, leg = 1.2, body = 0.9;
   const double length = body + leg + pi * bend + 0.85 * leg;
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;

@@ -150,4 +150,83 @@ TEST_CASE("interpolation rejects what has no closest point")
   CHECK_THROWS_WITH(SG::closest_point_interpolation(points, surface), ContainsSubstring("no face"));
 }
 
+// How far along the limb of folded_limb_matrices() each vertex is, in parts of all rings.
+VectorXd rings_of_folded_limb(int along, int around)
+{
+  VectorXd result(along * around + 2);
+  for(Index v = 0; v < Index(along) * around; ++v)
+    result(v) = (double(v / around) + 0.5) / along;
+  result.tail(2) << 0, 1;
+  return result;
+}
+
+// Rows that take values from vertices of other parts.
+std::vector<Index> strayed(const Sparse& W, const VectorXd& own, const VectorXd& of_surface)
+{
+  std::vector<Index> result;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows = W;
+  for(Index i = 0; i < rows.rows(); ++i)
+    for(Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it)
+      if(std::abs(own(i) - of_surface(it.col())) > 0.25) {
+        result.push_back(i);
+        break;
+      }
+  return result;
+}
+
+TEST_CASE("closest points are followed on the surface where a limb lies beside another")
+{
+  const shapes::Matrices fine = shapes::folded_limb_matrices(200, 16, 0.07);
+  shapes::Matrices coarse = shapes::folded_limb_matrices(60, 8, 0.07);
+  const VectorXd rings = rings_of_folded_limb(200, 16), coarse_rings = rings_of_folded_limb(60, 8);
+  for(Index v = 0; v < coarse.V.rows(); ++v)
+    if(coarse_rings(v) > 0.71) // behind the bend: pushed towards what it lies beside
+      coarse.V(v, 0) -= 0.03;
+  const Sparse plain = SG::closest_point_interpolation(coarse.V, fine);
+  const std::vector<Index> wrong = strayed(plain, coarse_rings, rings);
+  REQUIRE(wrong.size() > 20);
+  const std::vector<Index> off = SG::rows_off_their_part(coarse, fine, plain);
+  CHECK(std::includes(off.begin(), off.end(), wrong.begin(), wrong.end()));
+  for(const Index v : off) // no others than those nearer to the bend
+    CHECK(coarse_rings(v) > 0.7);
+
+  const Sparse P = SG::closest_point_restriction(coarse, fine);
+  check_interpolation(P);
+  CHECK(strayed(P, coarse_rings, rings).empty());
+  CHECK(SG::rows_off_their_part(coarse, fine, P).empty());
+
+  for(Index v = 0; v < coarse.V.rows(); ++v)
+    if(coarse_rings(v) > 0.71) // far behind, so that the other is nearer to what it stands for
+      coarse.V(v, 0) += 0.09;
+  CHECK(strayed(SG::closest_point_interpolation(fine.V, coarse), rings, coarse_rings).size() > 100);
+  const Sparse Q = SG::closest_point_prolongation(fine, coarse, P);
+  check_interpolation(Q);
+  CHECK(strayed(Q, rings, coarse_rings).empty());
+}
+
+TEST_CASE("meshes without a row that strays keep their closest points")
+{
+  const shapes::Matrices fine = shapes::bumpy_icosphere_matrices(4),
+                         coarse = shapes::bumpy_icosphere_matrices(2);
+  const Sparse plain = SG::closest_point_interpolation(coarse.V, fine);
+  CHECK((SG::closest_point_restriction(coarse, fine) - plain).norm() == 0);
+  CHECK(
+      (SG::closest_point_prolongation(fine, coarse, plain) - SG::closest_point_interpolation(fine.V, coarse))
+          .norm() < 1e-12);
+  CHECK_THROWS_WITH(SG::closest_point_prolongation(coarse, fine, plain), ContainsSubstring("coarse x fine"));
+}
+
+TEST_CASE("a fine surface in unwelded patches tears no edge of the coarse mesh")
+{
+  const shapes::Matrices coarse = shapes::bumpy_icosphere_matrices(2),
+                         welded = shapes::bumpy_icosphere_matrices(3);
+  shapes::Matrices soup{MatrixXd(3 * welded.T.rows(), 3), Eigen::MatrixXi(welded.T.rows(), 3)};
+  for(Index f = 0; f < welded.T.rows(); ++f)
+    for(int k = 0; k < 3; ++k) {
+      soup.V.row(3 * f + k) = welded.V.row(welded.T(f, k));
+      soup.T(f, k) = int(3 * f + k);
+    }
+  CHECK(SG::rows_off_their_part(coarse, soup, SG::closest_point_interpolation(coarse.V, soup)).empty());
+}
+
 } // namespace test_closest_points

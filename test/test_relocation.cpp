@@ -287,29 +287,36 @@ TEST_CASE("two sheets that nearly touch do not pass through each other")
   Eigen::MatrixXi T(2 * m, 3);
   T << s.coarse.T, (inner.T.array() + int(n)).matrix();
   REQUIRE(SG::internal::self_intersecting_faces(V, T).empty());
+  shapes::Matrices fine = s.fine;
+  const Eigen::Index fine_n = fine.V.rows(), fine_m = fine.T.rows();
+  fine.V.conservativeResize(2 * fine_n, 3);
+  fine.V.bottomRows(fine_n) = 0.9998 * s.fine.V;
+  fine.T.conservativeResize(2 * fine_m, 3);
+  fine.T.bottomRows(fine_m) = s.fine.T.array() + int(fine_n);
+  const Eigen::MatrixXd F = s.F().replicate(2, 1), Z = s.Z().replicate(2, 1);
   // fixed below, moving above: what is found in between has to be taken back
   std::vector<bool> fixed(std::size_t(2 * n), false);
   std::fill(fixed.begin() + n, fixed.end(), true);
-  Eigen::SparseMatrix<double> P(2 * n, s.P.cols());
+  Eigen::SparseMatrix<double> P(2 * n, 2 * fine_n);
   std::vector<Eigen::Triplet<double>> entries;
   for(Eigen::Index j = 0; j < s.P.outerSize(); ++j)
     for(Eigen::SparseMatrix<double>::InnerIterator it(s.P, j); it; ++it)
-      for(const Eigen::Index offset : {Eigen::Index(0), n})
-        entries.emplace_back(int(it.row() + offset), int(j), it.value());
+      for(const int sheet : {0, 1})
+        entries.emplace_back(int(it.row() + sheet * n), int(j + sheet * fine_n), it.value());
   P.setFromTriplets(entries.begin(), entries.end());
   SG::Relocation_options options;
   options.signals = Signals::carried;
   options.size_tolerance = 0.5; // there is hardly any volume between the sheets
   Eigen::MatrixXd free = V, guarded = V;
   options.keep_free_of_self_intersections = false;
-  SG::relocate_positions(free, T, P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
+  SG::relocate_positions(free, T, P, fine, F, Z, 0.5, fixed, options);
   REQUIRE(!SG::internal::self_intersecting_faces(free, T).empty());
   options.keep_free_of_self_intersections = true;
-  const SG::Relocation_result result =
-      SG::relocate_positions(guarded, T, P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
+  const SG::Relocation_result result = SG::relocate_positions(guarded, T, P, fine, F, Z, 0.5, fixed, options);
   CHECK(SG::internal::self_intersecting_faces(guarded, T).empty());
   CHECK(result.reverted_vertices > 0);
-  CHECK(result.moved_vertices > 0);
+  const bool gains = result.stop_reason != SG::Relocation_result::Stop_reason::no_gain;
+  CHECK((result.moved_vertices > 0) == gains);
 }
 
 TEST_CASE("a cancelled relocation leaves the positions, a spent budget ends it")
@@ -453,6 +460,59 @@ TEST_CASE("closest points are those of the same component, whichever lies in the
   }
   CHECK(mixed == 0);
   CHECK(of_small > 0);
+}
+
+TEST_CASE("no row of P comes from the limb beside that of its vertex, and relocation leaves no worse norm")
+{
+  const shapes::Matrices input = shapes::folded_limb_matrices(200, 16, 0.062);
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 30;
+  Mesh mesh = make_mesh(input);
+  const auto result = SMS::spectral_edge_collapse(mesh, 120, options);
+  const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
+  CHECK(result.relocation.resampled);
+  CHECK(result.relocation.norm_after <= result.relocation.norm_before);
+  CHECK(SG::rows_off_their_part(coarse, input, result.restriction).empty());
+  // There is something to tell apart.
+  CHECK_FALSE(
+      SG::rows_off_their_part(coarse, input, SG::closest_point_interpolation(coarse.V, input)).empty());
+  const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, SG::Mass::averaged),
+                             op = SG::laplace_operator(coarse.V, coarse.T, SG::Mass::averaged);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(fine_op, *result.eigenpairs, op, SG::eigenpairs(op, 30), result.restriction, 30);
+  CHECK(relative_difference(e.norm_L, result.relocation.norm_after) < 0.02);
+}
+
+TEST_CASE("a mesh whose norm relocation would raise is returned as it was")
+{
+  // Signals that P carries exactly, and that are rough wherever a vertex could go.
+  const shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3);
+  shapes::Matrices coarse = shapes::bumpy_icosphere_matrices(2);
+  Eigen::SparseMatrix<double> P = SG::closest_point_interpolation(coarse.V, fine);
+  REQUIRE(P.nonZeros() == P.rows());
+  coarse.V = (coarse.V * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix()).eval();
+  const SG::Eigenpairs pairs =
+      SG::eigenpairs(SG::laplace_operator(coarse.V, coarse.T, SG::Mass::averaged), 20);
+  Eigen::MatrixXd F(fine.V.rows(), 20);
+  for(Eigen::Index i = 0; i < F.size(); ++i)
+    F.data()[i] = std::sin(17. * double(i));
+  Eigen::MatrixXd Z = 30 * F;
+  const double scale = pairs.vectors.col(1).cwiseAbs().maxCoeff();
+  const double ratio =
+      SG::laplace_operator(coarse.V, coarse.T).mass.sum() / SG::laplace_operator(fine.V, fine.T).mass.sum();
+  for(Eigen::Index j = 0; j < P.cols(); ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it) {
+      F.row(j) = pairs.vectors.row(it.row()) / scale;
+      Z.row(j) = ratio * F.row(j) * pairs.values.asDiagonal();
+    }
+  Eigen::MatrixXd V = coarse.V;
+  const SG::Relocation_result result = SG::relocate_positions(V, coarse.T, P, fine, F, Z, SG::Mass::averaged);
+  CHECK(result.stop_reason == SG::Relocation_result::Stop_reason::no_gain);
+  CHECK(V == coarse.V);
+  CHECK(result.moved_vertices == 0);
+  CHECK_FALSE(result.resampled);
+  CHECK((result.restriction - P).norm() == 0);
+  CHECK(result.norm_after == result.norm_before);
 }
 
 TEST_CASE("a vertex of the border stays on that of its own component, whichever is nearer")

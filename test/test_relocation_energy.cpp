@@ -10,6 +10,7 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 
 #include <Eigen/Dense>
@@ -205,8 +206,6 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);
   const Rows F = rough_signals(fine, 4), Z = 2 * F;
   const SG::internal::Closest_point_query closest(fine);
-  const std::vector<Eigen::Index> parts(32, 0);
-  SG::internal::Surface_signals signals(closest, parts, fine.T, F, Z, GENERATE(1, 3));
   Positions V(32, 3); // inside of faces, and off the surface
   for(Eigen::Index i = 0; i < V.rows(); ++i) {
     Eigen::Matrix3d corners;
@@ -215,6 +214,9 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
     V.row(i) = (Eigen::RowVector3d(0.3, 0.45, 0.25) * corners) +
                0.003 * normal(fine.V, fine.T, 5 * i + 3).transpose();
   }
+  const SG::Mesh_matrices coarse{V, Eigen::MatrixXi(0, 3)};
+  const SG::internal::Surface_regions regions(coarse, fine, SG::closest_point_interpolation(V, fine));
+  SG::internal::Surface_signals signals(closest, regions, fine.T, F, Z, GENERATE(1, 3));
   const auto value = [&](const Positions& at) {
     Rows f, z;
     signals.evaluate(at, f, z);

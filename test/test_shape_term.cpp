@@ -547,8 +547,11 @@ TEST_CASE("A step that leaps to another sheet is told from one along the surface
   sheets.V.bottomRows(half) = sheets.V.topRows(half);
   sheets.V.bottomRows(half).col(2).setConstant(0.1);
   const SG::internal::Closest_point_query closest(sheets);
-  const std::vector<Eigen::Index> parts(2, 0);
-  SG::internal::Sheet_guard leaps(closest, parts);
+  // A coarse triangle whose corners are on both sheets, so that each may go to either.
+  const SG::Mesh_matrices coarse = shapes::matrices({{0, 0, 0}, {0, 0, 0.1}, {1, 0, 0}}, {{0, 1, 2}});
+  const SG::internal::Surface_regions regions(coarse, sheets,
+                                              SG::closest_point_interpolation(coarse.V, sheets));
+  SG::internal::Sheet_guard leaps(closest, regions, 2);
   const Eigen::Vector3d low(0.5, 0.5, 0.04), high(0.5, 0.5, 0.06);
   CHECK(leaps(0, low, high));
   CHECK_FALSE(leaps(0, low, {0.6, 0.52, 0.045}));

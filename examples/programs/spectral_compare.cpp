@@ -274,15 +274,21 @@ private:
   }
 
   // What is judged of a mesh; the row gets what no mass is in.
-  Coarse_candidate candidate_of(const Coarse_mesh& coarse, const SG::Mesh_matrices& matrices,
-                                Simplified& row) const
+  Coarse_candidate candidate_of(const Coarse_mesh& coarse, const SG::Mesh_matrices& matrices, Simplified& row)
   {
     row.vertices = coarse.mesh.number_of_vertices();
     row.faces = coarse.mesh.number_of_faces();
     row.shape = shape_measures(m_fine, coarse.mesh);
     Coarse_candidate candidate;
     candidate.carried = coarse.carried;
-    candidate.closest = SG::closest_point_interpolation(matrices.V, m_matrices);
+    candidate.closest = SG::closest_point_restriction(matrices, m_matrices);
+    const std::size_t off = SG::rows_off_their_part(matrices, m_matrices, candidate.restriction()).size();
+    row.shape.rows_off_their_part = double(off);
+    if(off != 0)
+      m_comparison.notes.push_back(row.name() + ", N = " + std::to_string(row.vertices) + ": " +
+                                   std::to_string(off) +
+                                   " rows of P read functions off another part of the shape than their "
+                                   "neighbours.");
     return candidate;
   }
 

@@ -177,7 +177,7 @@ Pair simplify(const Distance_arguments& a)
             result.seconds_total - result.seconds_operator_fit,
             result.seconds_operator_fit,
             options.mass};
-  pair.Q = SG::closest_point_interpolation(pair.fine.matrices.V, pair.coarse.matrices);
+  pair.Q = SG::closest_point_prolongation(pair.fine.matrices, pair.coarse.matrices, pair.P);
   pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
   return pair;
 }

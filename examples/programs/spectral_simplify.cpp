@@ -200,9 +200,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
                                                    const Vertex_numbering& numbering,
                                                    std::vector<std::size_t> kept, Progress_bar& bar)
 {
-  SMS::Spectral_edge_collapse_options options =
-      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape,
-                  a.quadrics_above, a.flips});
+  SMS::Spectral_edge_collapse_options options = options_of(
+      {a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.quadrics_above});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
@@ -352,8 +351,6 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
     run.simplifier += ", " + a.boundary;
   if(a.binary)
     run.simplifier += ", binary";
-  if(a.flips != "none")
-    run.simplifier += ", " + a.flips + " flips";
   run.relocation = relocation_word(report.options);
   run.placement = word_of(placement_words, report.options.placement);
   run.metric_mass = SG::mass_name(report.options.mass);
@@ -480,12 +477,19 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
   CGAL::Real_timer timer;
   timer.start();
   report.evaluation = evaluate(meshes, report.options, report.result, bar);
+  report.rows_off_their_part =
+      SG::rows_off_their_part(meshes.coarse, meshes.fine, report.result.restriction).size();
   report.seconds_evaluation = timer.time();
   if(const double error = report.evaluation->errors.mean; error > 0.5)
     report.result.warnings.push_back(
         "Eigenvalues are off by " + arguments_internal::shown(std::round(100 * error)) +
         " % on average, so that the result says little about the input: ask for more "
         "vertices, or for fewer eigenvectors.");
+  if(report.rows_off_their_part != 0)
+    report.result.warnings.push_back(std::to_string(report.rows_off_their_part) +
+                                     " rows of the restriction read functions off another part of the shape "
+                                     "than their neighbours: ask for "
+                                     "more vertices.");
   // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
   if(area < 0.25 && !has_coefficients(a))
@@ -539,10 +543,10 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
   if(!a.levels.empty())
     report.levels = write_levels(files, a, input, seams, copy, report.result.log, written);
   if(!a.prolongation.empty()) {
-    write_matrix_market(
-        files.temporary(a.prolongation),
-        input.numbering.rows_of_file(SG::closest_point_interpolation(meshes.fine.V, meshes.coarse)),
-        a.prolongation);
+    write_matrix_market(files.temporary(a.prolongation),
+                        input.numbering.rows_of_file(SG::closest_point_prolongation(
+                            meshes.fine, meshes.coarse, report.result.restriction)),
+                        a.prolongation);
     written.push_back(a.prolongation);
   }
   written.push_back(a.repaired); // from before the run

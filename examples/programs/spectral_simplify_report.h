@@ -40,6 +40,7 @@ struct Simplification_report
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result result;
   std::optional<CGAL::Spectral_geometry::Spectral_evaluation> evaluation;
   std::optional<Fitted_operators> fitted;
+  std::size_t rows_off_their_part = 0; // of the restriction, once it was evaluated
   double seconds_reading = 0, seconds_writing = 0, seconds_evaluation = 0;
 
   std::string input, output, preset, operator_word;
@@ -92,6 +93,7 @@ inline void print_table(const Simplification_report& r)
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
     print_norm("|C|_D", e.norm_D, e.floor_norm_D);
     print_errors(e);
+    std::printf("  rows off their part       %8zu\n", r.rows_off_their_part);
     std::printf("  %s of output / input    %8.4f\n\n", r.options.coefficients.rows() == 0 ? "area" : "mass",
                 e.area_ratio);
   }
@@ -106,10 +108,6 @@ inline void print_table(const Simplification_report& r)
   }
   std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
               r.result.relative_error);
-  using CGAL::Spectral_geometry::Edge_flips;
-  if(r.options.flips != Edge_flips::none)
-    std::printf("  flipped edges             %8zu   (%s)\n\n", r.result.flips.flips.size(),
-                word_of(flip_words, r.options.flips));
   if(r.options.relocate)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
                 r.result.relocation.moved_vertices, r.result.relocation.steps,
@@ -123,8 +121,6 @@ inline void print_table(const Simplification_report& r)
     std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
   std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
-  if(r.options.flips != Edge_flips::none)
-    std::printf("  edge flips                %8.2f s\n", r.result.seconds_flips);
   if(r.options.relocate)
     std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
   if(r.options.fit_operators)
@@ -169,6 +165,7 @@ inline nlohmann::json to_json(const Simplification_report& r)
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count
   json.update(evaluation_json(r.evaluation ? &*r.evaluation : nullptr));
+  json["rows_off_their_part"] = r.evaluation ? nlohmann::json(r.rows_off_their_part) : nlohmann::json();
   json["seconds_evaluation"] = r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
   if(r.fitted) {
     json["fitted"] = evaluation_json(&r.fitted->evaluation);

@@ -110,27 +110,18 @@ py::dict level(const Arguments& a)
   return level_of(result.mesh, result.P, result.map);
 }
 
-// Q, or any interpolation at the points of (Vc, Fc) that are closest to V.
 py::object prolongation(const Arguments& a)
 {
-  const auto points = a.array<double>("V", 3, "vertex").cast<Eigen::MatrixXd>();
-  const SG::Mesh_matrices coarse = a.mesh("Vc", "Fc");
-  using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-  return csr(interruptible([&] {
-    constexpr Index step = 50000; // points between two questions for signals
-    std::vector<Eigen::Triplet<double>> entries;
-    for(Index first = 0; first < points.rows(); first += step) {
-      const Rows part = SG::closest_point_interpolation(
-          points.middleRows(first, (std::min)(step, points.rows() - first)), coarse);
-      for(Index i = 0; i < part.rows(); ++i)
-        for(Rows::InnerIterator it(part, i); it; ++it)
-          entries.emplace_back(int(first + i), int(it.col()), it.value());
-      check_signals();
-    }
-    Eigen::SparseMatrix<double> result(points.rows(), coarse.V.rows());
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
-  }));
+  const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
+  const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.V.rows());
+  return csr(interruptible([&] { return SG::closest_point_prolongation(fine, coarse, P); }));
+}
+
+py::array rows_off_their_part(const Arguments& a)
+{
+  const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
+  const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.V.rows());
+  return array_of(interruptible([&] { return SG::rows_off_their_part(coarse, fine, P); }));
 }
 
 SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index target)
@@ -327,6 +318,7 @@ PYBIND11_MODULE(_core, m)
   define(m, "simplify", simplify);
   define(m, "level", level);
   define(m, "prolongation", prolongation);
+  define(m, "rows_off_their_part", rows_off_their_part);
   define(m, "pairs_of_arrays", pairs_of_arrays);
   define(m, "eigsh", eigsh);
   define(m, "lift_functional_map", lift_functional_map);

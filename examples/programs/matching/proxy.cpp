@@ -80,11 +80,11 @@ Simplification of_closest_points(const Mesh& coarse, const Shape& fine)
 {
   Simplification result;
   result.matrices = SG::mesh_matrices(coarse);
-  result.restriction = SG::closest_point_interpolation(result.matrices.V, fine.matrices);
+  result.restriction = SG::closest_point_restriction(result.matrices, fine.matrices);
   if(const std::string reason = not_on(result.matrices, fine.matrices); !reason.empty())
     throw std::runtime_error(reason + ".");
   for(const Eigen::Index v :
-      heaviest_vertices(SG::closest_point_interpolation(fine.matrices.V, result.matrices)))
+      heaviest_vertices(SG::closest_point_prolongation(fine.matrices, result.matrices, result.restriction)))
     result.vertex_map.push_back(static_cast<std::size_t>(v));
   return result;
 }

@@ -59,10 +59,11 @@ struct Shape_measures
 {
   double smallest_angle = not_computed; // degrees
   double largest_aspect_ratio = not_computed;
-  double self_intersections = not_computed; // pairs of faces
-  double hausdorff = not_computed;          // symmetric, relative to the diagonal of the fine mesh's box
-  double volume_ratio = not_computed;       // coarse over fine; closed meshes only
-  double area_ratio = not_computed;         // coarse over fine
+  double self_intersections = not_computed;  // pairs of faces
+  double rows_off_their_part = not_computed; // of the P that is judged first
+  double hausdorff = not_computed;           // symmetric, relative to the diagonal of the fine mesh's box
+  double volume_ratio = not_computed;        // coarse over fine; closed meshes only
+  double area_ratio = not_computed;          // coarse over fine
   double bytes_per_vertex =
       not_computed; // coordinates as doubles and indices of 4 bytes; an operator: its nonzeros
 };

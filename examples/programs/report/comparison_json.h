@@ -76,6 +76,7 @@ inline nlohmann::json row(const Simplified& s, const Judgement& j)
           {"smallest_angle_degrees", number_json(m.smallest_angle)},
           {"largest_aspect_ratio", number_json(m.largest_aspect_ratio)},
           {"self_intersections", number_json(m.self_intersections)},
+          {"rows_off_their_part", number_json(m.rows_off_their_part)},
           {"hausdorff_over_diagonal", number_json(m.hausdorff)},
           {"volume_ratio", number_json(m.volume_ratio)},
           {"area_ratio", number_json(m.area_ratio)},

@@ -225,7 +225,7 @@ the coarse mesh.
 One eigensolve per mesh serves every scale, see `unit_area_functional_map()`. What the figures mean:
 \f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly (theorem 1
 of Lescoat et al. 2020). They depend on the mass, so compare within one theta, and they depend on `P`: a
-simplifier that made its own `P` is also judged with `closest_point_interpolation()`.
+simplifier that made its own `P` is also judged with `closest_point_restriction()`.
 
 @param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to judge the
   modes beyond; tight ones, the residual of a rough basis counts as an error of the simplification

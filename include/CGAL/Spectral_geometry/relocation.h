@@ -27,7 +27,7 @@ It lowers the part of the residual of the metric (Eq. 2 of Lescoat et al. 2020) 
 see `Relocation_energy`, over all positions by L-BFGS, with guards that are on by default: no triangle
 is inverted or degenerates, no new self-intersection, total area and volume and the eigenvalues beyond K are kept, no
 vertex leaves the place its signals were taken from, boundary vertices stay on the boundary. The mesh may come from anywhere: from an edge
-collapse with the restriction it carried, or from a remesher with `closest_point_interpolation()`.
+collapse with the restriction it carried, or from a remesher with `closest_point_restriction()`.
 
 Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes meet signals of lower eigenvalues only,
 and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls when \f$ \widetilde\lambda_i \f$ does, although

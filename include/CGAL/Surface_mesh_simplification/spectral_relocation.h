@@ -68,7 +68,7 @@ Spectral_geometry::Relocation_result relocate_mesh(TriangleMesh& mesh, const Eig
  * the mesh form of `Spectral_geometry::relocate_positions()`, which says what is minimised and what is guarded.
  *
  * The coarse mesh may come from anywhere. For one that `spectral_edge_collapse()` made, pass the restriction of its
- * result; for a remeshed one `Spectral_geometry::closest_point_interpolation()` with its vertices as points.
+ * result; for a remeshed one `Spectral_geometry::closest_point_restriction()`.
  *
  * @param mesh  the coarse mesh; its connectivity stays
  * @param P     coarse x fine, rows in the order of `vertices(mesh)`

@@ -374,6 +374,38 @@ def evaluate(
     return Evaluation._from_state(_core.evaluate(locals()))
 
 
+def rows_off_their_part(
+    V: numpy.ndarray,
+    F: numpy.ndarray,
+    Vc: numpy.ndarray,
+    Fc: numpy.ndarray,
+    P: scipy.sparse.csr_matrix,
+) -> numpy.ndarray:
+    """Rows of P that read functions off another part of the shape than those of their neighbours,
+    an arm off the flank that it lies beside. None in a good P.
+
+    Parameters
+    ----------
+    V, F : array
+        the fine mesh
+    Vc, Fc : array
+        the coarse mesh
+    P : csr_matrix
+        (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1
+
+    Returns
+    -------
+    (r,) int64 array
+        Indices of rows, ascending.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
+    """
+    return _core.rows_off_their_part(locals())
+
+
 def fit_operators(
     Vc: numpy.ndarray,
     Fc: numpy.ndarray,

@@ -70,6 +70,57 @@ inline std::vector<char> border_vertices(const Eigen::MatrixXi& T, const Eigen::
   return result;
 }
 
+/// For each of n vertices what lies around it, sorted and each once: other vertices, or faces.
+class Vertex_rings
+{
+public:
+  static Vertex_rings of_vertices(const Eigen::MatrixXi& T, const Eigen::Index n)
+  {
+    return Vertex_rings(T, n, 2, [&](const Eigen::Index f, const int k, int* at) {
+      at[0] = T(f, (k + 1) % 3);
+      at[1] = T(f, (k + 2) % 3);
+    });
+  }
+
+  static Vertex_rings of_faces(const Eigen::MatrixXi& T, const Eigen::Index n)
+  {
+    return Vertex_rings(T, n, 1, [](const Eigen::Index f, int, int* at) { *at = int(f); });
+  }
+
+  const int* begin(const int v) const { return m_items.data() + m_begin[std::size_t(v)]; }
+  const int* end(const int v) const { return begin(v) + m_size[std::size_t(v)]; }
+  std::size_t size(const int v) const { return m_size[std::size_t(v)]; }
+  bool has(const int v, const int item) const { return std::binary_search(begin(v), end(v), item); }
+
+private:
+  template <class Put>
+  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const std::size_t each, const Put& put)
+    : m_begin(std::size_t(n) + 1, 0)
+    , m_size(std::size_t(n), 0)
+  {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k)
+        m_begin[std::size_t(T(f, k)) + 1] += each;
+    for(std::size_t v = 0; v < m_size.size(); ++v)
+      m_begin[v + 1] += m_begin[v];
+    m_items.resize(m_begin.back());
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k) {
+        const std::size_t v = std::size_t(T(f, k));
+        put(f, k, m_items.data() + m_begin[v] + m_size[v]);
+        m_size[v] += each;
+      }
+    for(std::size_t v = 0; v < m_size.size(); ++v) {
+      int* const first = m_items.data() + m_begin[v];
+      std::sort(first, first + m_size[v]);
+      m_size[v] = std::size_t(std::unique(first, first + m_size[v]) - first);
+    }
+  }
+
+  std::vector<std::size_t> m_begin, m_size;
+  std::vector<int> m_items;
+};
+
 } // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_OPERATORS_CONNECTIVITY_H

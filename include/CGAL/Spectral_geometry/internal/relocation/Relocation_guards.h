@@ -8,7 +8,7 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -256,21 +256,23 @@ private:
 class Sheet_guard
 {
 public:
-  Sheet_guard(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts)
+  /// For so many coarse vertices. The others are kept by reference.
+  Sheet_guard(const Closest_point_query& closest, const Surface_regions& regions, const std::size_t vertices)
     : m_closest(closest)
-    , m_parts(parts)
-    , m_starts(parts.size())
+    , m_regions(regions)
+    , m_starts(vertices)
   {}
 
   bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
   {
     Start& start = m_starts[std::size_t(v)];
     if(!start.closest || start.position != from) {
-      start.closest =
-          start.closest ? m_closest(from, *start.closest) : m_closest(from, m_parts[std::size_t(v)]);
+      start.closest = start.closest ? m_regions.of_coarse_vertex(m_closest, v, from, start.closest->face)
+                                    : m_regions.of_coarse_vertex(m_closest, v, from);
       start.position = from;
     }
-    return (m_closest(to, *start.closest).point - start.closest->point).norm() > 3 * (to - from).norm();
+    const Closest_point_query::Answer now = m_regions.of_coarse_vertex(m_closest, v, to, start.closest->face);
+    return (now.point - start.closest->point).norm() > 3 * (to - from).norm();
   }
 
 private:
@@ -281,7 +283,7 @@ private:
   };
 
   const Closest_point_query& m_closest;
-  const std::vector<Eigen::Index>& m_parts;
+  const Surface_regions& m_regions;
   std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 

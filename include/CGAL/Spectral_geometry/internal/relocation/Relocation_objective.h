@@ -33,6 +33,7 @@ public:
   {
     const auto [area, volume] = measure(m_T, V);
     const auto [fine_area, fine_volume] = measure(fine.T, fine.V);
+    m_fine_area = fine_area;
     m_area = range(area, fine_area);
     m_volume = range(volume, fine_volume);
     // A mesh without volume to speak of (two sheets, say) cannot keep a part of it.
@@ -41,6 +42,9 @@ public:
 
   /// Of the coarse mesh.
   double area() const { return m_area.from; }
+
+  /// Of the coarse mesh with these positions, and of the fine one.
+  std::pair<double, double> areas(const Positions& V) const { return {measure(m_T, V).first, m_fine_area}; }
 
   bool within(const Positions& V) const
   {
@@ -118,7 +122,7 @@ private:
   }
 
   Eigen::MatrixXi m_T;
-  double m_tolerance;
+  double m_tolerance, m_fine_area = 0;
   bool m_closed;
   Range m_area, m_volume;
 };

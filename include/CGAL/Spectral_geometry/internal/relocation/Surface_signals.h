@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
 
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
 #include <Eigen/Core>
@@ -22,11 +22,11 @@ namespace CGAL::Spectral_geometry::internal {
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K. `parts`: where the closest point of each coarse vertex is looked for. The first three are kept by reference.
-  Surface_signals(const Closest_point_query& closest, const std::vector<Eigen::Index>& parts,
+  /// F and Z: fine x K, T the fine faces. The first three are kept by reference.
+  Surface_signals(const Closest_point_query& closest, const Surface_regions& regions,
                   const Eigen::MatrixXi& T, Rows F, Rows Z, const int threads)
     : m_closest(closest)
-    , m_parts(parts)
+    , m_regions(regions)
     , m_T(T)
     , m_F(std::move(F))
     , m_Z(std::move(Z))
@@ -41,7 +41,8 @@ public:
     m_answers.resize(std::size_t(V.rows()));
     const auto read_off = [&](const Eigen::Index w) {
       Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      a = first ? m_closest(V.row(w), m_parts[std::size_t(w)]) : m_closest(V.row(w), a);
+      a = first ? m_regions.of_coarse_vertex(m_closest, w, V.row(w))
+                : m_regions.of_coarse_vertex(m_closest, w, V.row(w), a.face);
       const Eigen::RowVector3i t = m_T.row(a.face);
       F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
       Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
@@ -83,7 +84,7 @@ public:
 
 private:
   const Closest_point_query& m_closest;
-  const std::vector<Eigen::Index>& m_parts;
+  const Surface_regions& m_regions;
   const Eigen::MatrixXi& m_T;
   Rows m_F, m_Z;
   int m_threads;

@@ -6,6 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_IMPL_H
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
@@ -13,6 +14,7 @@
 #include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
 #include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
 #include <CGAL/Spectral_geometry/relocation.h>
@@ -41,23 +43,24 @@ public:
     , m_start(V)
     , m_T(T)
     , m_fine(fine)
+    , m_P(P)
+    , m_F(F)
+    , m_Z(Z)
+    , m_op(op)
     , m_guards(m_start, T, Positions(P * fine.V), m_options)
     , m_size(T, m_start, fine, options.size_tolerance)
+    , m_coarse{m_start, T}
+    , m_regions(m_coarse, fine, P)
   {
     m_timer.start();
-    set_parts(P);
+    if(options.signals != Relocation_options::Signals::carried || std::isfinite(options.largest_distance))
+      m_closest = std::make_unique<Closest_point_query>(fine);
     set_guards(fixed);
-    set_objective(P, F, Z, op);
+    set_objective();
     if(m_options.keep_free_of_self_intersections)
       m_crossing = self_intersecting_faces(m_start, m_T);
     if(m_options.keep_hausdorff_distance)
       measure_fine();
-  }
-
-  /// P at the closest points; where signals are sampled.
-  Eigen::SparseMatrix<double> sampled_restriction(const Eigen::MatrixXd& V) const
-  {
-    return interpolation(*m_closest, m_fine, V, m_parts);
   }
 
   Positions run(Relocation_result& result)
@@ -101,6 +104,17 @@ public:
     }
     result.objective_after = descent.value();
     V = repaired(descent.positions());
+    result.resampled = m_options.signals == Relocation_options::Signals::sampled;
+    result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
+    result.norm_before = norm(m_start, m_P);
+    result.norm_after = norm(V, result.restriction);
+    if(result.norm_after > result.norm_before) {
+      V = m_start;
+      result.stop_reason = Reason::no_gain;
+      result.norm_after = result.norm_before;
+      result.resampled = false;
+      result.restriction = m_P;
+    }
     result.held = m_guards.held();
     result.reverted_vertices = m_reverted;
     result.held.fixed -= m_reverted;
@@ -112,61 +126,63 @@ public:
   }
 
 private:
+  // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || / || C ||, where C and D are
+  // Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass leaves no modes.
+  double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
+  {
+    const Laplace_operator op = laplace_operator(V, m_T, m_op);
+    const Eigen::Index modes = (std::min)(m_F.cols(), V.rows() - op.vanishing);
+    if(modes < 1 || !(op.mass.minCoeff() > 0))
+      return 0;
+    Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
+    options.verify = false;
+    options.threads = m_options.threads;
+    const Eigenpairs pairs = eigenpairs(op, modes, options);
+    const Eigen::MatrixXd BPhi = op.B * pairs.vectors;
+    const Eigen::MatrixXd C = BPhi.transpose() * (P * m_F), D = BPhi.transpose() * (P * m_Z);
+    const auto [area, fine_area] = m_size.areas(V);
+    return (fine_area * D - area * (pairs.values.asDiagonal() * C)).norm() /
+           (std::max)(C.norm(), (std::numeric_limits<double>::min)());
+  }
+
   void set_guards(const std::vector<bool>& fixed)
   {
     for(std::size_t v = 0; v < fixed.size(); ++v)
       if(fixed[v])
         m_guards.fix(Eigen::Index(v));
-    std::vector<std::vector<Boundary_segment>> boundary(m_fine_parts.size()); // of each component
-    for(const auto& [i, j] : boundary_edges(m_fine.T))
-      boundary[std::size_t(m_fine_parts[std::size_t(i)])].push_back({m_fine.V.row(i), m_fine.V.row(j)});
+    const std::vector<std::pair<int, int>> boundary = boundary_edges(m_fine.T);
     const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
     for(std::size_t v = 0; v < on_boundary.size(); ++v)
       if(on_boundary[v] && m_options.fix_boundary)
         m_guards.fix(Eigen::Index(v));
-      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v)))
-        m_guards.keep_on(Eigen::Index(v), boundary[std::size_t(m_parts[v])]);
+      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v))) {
+        std::vector<Boundary_segment> own;
+        for(const auto& [i, j] : boundary)
+          if(m_regions.are_near(int(v), i) || m_regions.are_near(int(v), j))
+            own.push_back({m_fine.V.row(i), m_fine.V.row(j)});
+        m_guards.keep_on(Eigen::Index(v), own);
+      }
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_guards.set_leaps(Sheet_guard(*m_closest, m_parts));
+      m_guards.set_leaps(Sheet_guard(*m_closest, m_regions, on_boundary.size()));
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
-        return ((*m_closest)(p, m_parts[std::size_t(v)]).point - p).norm() <= m_options.largest_distance;
+        return (m_regions.of_coarse_vertex(*m_closest, v, p).point - p).norm() <= m_options.largest_distance;
       });
   }
 
-  // The closest points of a vertex, on the surface or on its boundary, are those of the component that its row of P is about.
-  void set_parts(const Eigen::SparseMatrix<double>& P)
-  {
-    m_fine_parts = connected_components(m_fine.V.rows(), m_fine.T);
-    std::vector<char> has_faces(m_fine_parts.size(), 0);
-    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
-      has_faces[std::size_t(m_fine.T(f, 0))] = has_faces[std::size_t(m_fine.T(f, 1))] =
-          has_faces[std::size_t(m_fine.T(f, 2))] = 1;
-    m_parts.assign(std::size_t(P.rows()), m_fine_parts[std::size_t(m_fine.T(0, 0))]);
-    Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
-    for(Eigen::Index j = 0; j < P.cols(); ++j)
-      for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
-        if(has_faces[std::size_t(j)] && it.value() > most(it.row())) {
-          most(it.row()) = it.value();
-          m_parts[std::size_t(it.row())] = m_fine_parts[std::size_t(j)];
-        }
-    if(m_options.signals != Relocation_options::Signals::carried || std::isfinite(m_options.largest_distance))
-      m_closest = std::make_unique<Closest_point_query>(m_fine, m_fine_parts);
-  }
-
-  void set_objective(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-                     const Local_operator& op)
+  void set_objective()
   {
     const double largest =
-        std::sqrt((Z.colwise().squaredNorm().array() /
-                   F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
+        std::sqrt((m_Z.colwise().squaredNorm().array() /
+                   m_F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_parts, m_fine.T, F, Z, m_options.threads);
-    m_objective =
-        std::make_unique<Relocation_objective>(m_T, P * F, P * Z, op, m_size, m_start, m_sampled.get(),
-                                               m_options.signals != Relocation_options::Signals::sampled,
-                                               largest > 0 ? m_options.smoothing / largest : 0., m_options);
+      m_sampled =
+          std::make_unique<Surface_signals>(*m_closest, m_regions, m_fine.T, m_F, m_Z, m_options.threads);
+    m_objective = std::make_unique<Relocation_objective>(
+        m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
+        m_options.signals != Relocation_options::Signals::sampled,
+        largest > 0 ? m_options.smoothing / largest : 0., m_options);
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
@@ -256,12 +272,15 @@ private:
   Positions m_start;
   Eigen::MatrixXi m_T;
   const Mesh_matrices& m_fine;
+  const Eigen::SparseMatrix<double>& m_P;
+  const Eigen::MatrixXd &m_F, &m_Z;
+  Local_operator m_op;
   Real_timer m_timer;
   Relocation_guards m_guards;
   Size_bounds m_size;
+  Mesh_matrices m_coarse; // at the start
+  Surface_regions m_regions;
   std::unique_ptr<Closest_point_query> m_closest;
-  std::vector<Eigen::Index> m_fine_parts; // the component of each vertex of the fine mesh
-  std::vector<Eigen::Index> m_parts;      // that in which each vertex is looked for
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
   Face_pairs m_crossing;          // at the start
@@ -292,8 +311,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   Relocation_result result;
   internal::Relocation relocation(V, T, P, fine, F, Z, op, fixed, options);
   V = relocation.run(result);
-  result.resampled = options.signals == Relocation_options::Signals::sampled;
-  result.restriction = result.resampled ? relocation.sampled_restriction(V) : P;
   return result;
 }
 

@@ -139,12 +139,14 @@ public:
   Collapse_log log() const { return state().log(); }
 
   /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric coordinates of the
-  /// closest point of the current mesh. Rows sum to 1.
+  /// closest point of the current mesh on the same part of the body. Rows sum to 1.
   Eigen::SparseMatrix<double> prolongation() const
   {
-    return Spectral_geometry::closest_point_interpolation(
-        state().fine().V, Spectral_geometry::mesh_matrices(
-                              state().mesh(), parameters::vertex_point_map(state().vertex_point_map())));
+    return Spectral_geometry::closest_point_prolongation(
+        state().fine(),
+        Spectral_geometry::mesh_matrices(state().mesh(),
+                                         parameters::vertex_point_map(state().vertex_point_map())),
+        restriction());
   }
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
