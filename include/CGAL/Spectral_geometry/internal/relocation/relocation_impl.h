@@ -131,7 +131,8 @@ private:
   double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
   {
     const Laplace_operator op = laplace_operator(V, m_T, m_op);
-    const Eigen::Index modes = (std::min)(m_F.cols(), V.rows() - op.vanishing);
+    const Eigen::Index modes =
+        (std::min)(m_options.modes > 0 ? m_options.modes : m_F.cols(), V.rows() - op.vanishing);
     if(modes < 1 || !(op.mass.minCoeff() > 0))
       return 0;
     Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
@@ -283,10 +284,10 @@ private:
   std::unique_ptr<Closest_point_query> m_closest;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
-  Face_pairs m_crossing;          // at the start
+  Face_pairs m_crossing;               // at the start
   std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
   double m_furthest = 0;               // the largest distance then
-  std::size_t m_reverted = 0; // vertices that went back, and stay
+  std::size_t m_reverted = 0;          // vertices that went back, and stay
 };
 
 } // namespace internal
