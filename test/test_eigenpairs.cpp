@@ -387,7 +387,7 @@ TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too man
   const auto shift = [&](const Laplace_operator& op, Eigen::Index K) {
     const SG::internal::Eigen_problem problem(op);
     const SG::Eigenpairs_options options;
-    SG::internal::Block_lanczos lanczos(problem, K, true, options);
+    SG::internal::Block_lanczos lanczos(problem, K, options);
     const Eigenpairs pairs = lanczos.compute();
     const Eigen::VectorXd& values = pairs.values;
     CHECK(pairs.complete);

@@ -51,7 +51,7 @@ struct Laplace_operator
   bool voronoi = false;
   /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of before
   Boundary_condition boundary = Boundary_condition::neumann;
-  Eigen::Index vanishing = 0;    ///< number of these vertices
+  std::vector<int> vanishing;    ///< these vertices, in order
   bool has_coefficients = false; ///< whether it is that of other coefficients than 1
 };
 

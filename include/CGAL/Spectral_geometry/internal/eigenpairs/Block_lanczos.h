@@ -18,7 +18,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,12 +60,11 @@ inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& 
 class Block_lanczos
 {
 public:
-  // `few_copies`: 0 is known to have few.
-  Block_lanczos(const Eigen_problem& problem, Index K, bool few_copies, const Eigenpairs_options& options)
+  Block_lanczos(const Eigen_problem& problem, Index K, const Eigenpairs_options& options)
     : m_problem(problem)
     , m_K(K)
     , m_options(options)
-    , m_inside(few_copies && K >= 2 * panel_width && options.maximum_vectors == 0)
+    , m_inside(K >= 2 * panel_width && options.maximum_vectors == 0)
     , m_sigma((m_inside ? place_of_shift * K : -1.) * problem.shift())
     , m_factor(problem.shifted(m_sigma), options.threads, Supernodal_factor::Pivots::of_either_sign)
     , m_space(problem.shift() * permuted(problem.B(), m_factor.order()), options.threads)
@@ -90,21 +88,24 @@ public:
         break;
       m_sigma += 0.4 * m_problem.shift(); // there is an eigenvalue next to it
     }
-    if(!found) {
-      shift_below();
-      find_pairs();
-    }
-    // Of an L that is not positive semidefinite a shift inside knows nothing.
-    if(m_inside && lambda().minCoeff() < -(1e-3 + 10. * m_options.tolerance) * m_problem.shift())
-      throw Not_positive_definite();
-    // Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
-    const bool complete =
-        m_options.verify && m_options.tolerance <= 1e-3 && (!may_be_incomplete(values()) || find_missing());
-    return pairs(complete);
+    if(found && !(is_to_be_counted() && missing() > 0))
+      return pairs();
+    shift_below();
+    find_pairs();
+    if(is_to_be_counted())
+      find_missing();
+    return pairs();
   }
 
   // The one that was used.
   double shift() const { return m_sigma; }
+
+  // With the shift below.
+  Supernodal_factor& factor_below()
+  {
+    shift_below();
+    return m_factor;
+  }
 
 private:
   static Index rounded_up(Index k) { return (k + panel_width - 1) / panel_width * panel_width; }
@@ -142,7 +143,7 @@ private:
     m_sigma = -m_problem.shift();
     factorise();
     if(m_factor.number_of_negative_pivots() != 0)
-      throw Not_positive_definite();
+      refuse_indefinite(m_problem, m_options.threads);
   }
 
   // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but two or three are to be there.
@@ -241,14 +242,14 @@ private:
   void orthonormalise()
   {
     m_link.setIdentity(panel_width, panel_width);
+    m_rank = panel_width;
     m_space.multiply_mass(m_W, m_BW);
     for(int pass = 0; pass < 2; ++pass) {
-      const Eigen::MatrixXd G = m_space.product(m_W, m_BW);
-      const Eigen::LLT<Eigen::MatrixXd> llt(G);
+      const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       const Eigen::MatrixXd R = llt.matrixU();
       if(llt.info() != Eigen::Success || !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
          !(R.diagonal().minCoeff() > 1e-12)) {
-        replace_dependent_vectors(G);
+        reveal_rank();
         return;
       }
       transform(inverse_of(llt));
@@ -256,36 +257,53 @@ private:
     }
   }
 
-  // The space is (nearly) invariant along some directions: those become random vectors without a link.
-  void replace_dependent_vectors(const Eigen::MatrixXd& G)
+  // Gram-Schmidt where the space is (nearly) invariant along some directions: the longest column first, each of its true length,
+  // which one Gram matrix does not show below 1e-8 of the longest. What is left of the others is rounding: random vectors
+  // without a link take their places.
+  void reveal_rank()
   {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
-    const Eigen::MatrixXd& Q = solver.eigenvectors();
-    Eigen::MatrixXd T = Eigen::MatrixXd::Zero(panel_width, panel_width), R = T;
-    std::vector<int> replaced;
-    for(int c = 0; c < panel_width; ++c) {
-      const double value = solver.eigenvalues()(c);
-      if(value > 1e-24 && value > 1e-14 * solver.eigenvalues()(panel_width - 1)) {
-        T.col(c) = Q.col(c) / std::sqrt(value);
-        R.row(c) = Q.col(c).transpose() * std::sqrt(value);
-      } else
-        replaced.push_back(c);
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(panel_width, panel_width);
+    for(m_rank = 0; m_rank < panel_width; ++m_rank) {
+      Eigen::MatrixXd G = gram(), exchange = identity, step = identity, back = identity;
+      const Index behind = panel_width - 1 - m_rank;
+      Index longest = 0;
+      const double length = std::sqrt((std::max)(0., G.diagonal().tail(behind + 1).maxCoeff(&longest)));
+      if(!(length > rounding * m_norm))
+        break;
+      exchange.col(m_rank).swap(exchange.col(m_rank + longest));
+      G = (exchange * G * exchange).eval();
+      step(m_rank, m_rank) = 1. / length;
+      step.row(m_rank).tail(behind) = -G.row(m_rank).tail(behind) / (length * length);
+      back(m_rank, m_rank) = length;
+      back.row(m_rank).tail(behind) = G.row(m_rank).tail(behind) / length;
+      transform(exchange * step);
+      m_link = (back * exchange * m_link).eval();
     }
-    m_space.transform(m_W, T);
+    m_link.bottomRows(panel_width - m_rank).setZero();
+    replace_columns();
+    m_loss = 1.; // let the next step reorthogonalise
+  }
+
+  // Those beyond the rank. The kept ones come first: were they changed by the others, their link would be another's.
+  void replace_columns()
+  {
     for(Index i = 0; i < m_space.size(); ++i)
-      for(const int c : replaced)
+      for(Index c = m_rank; c < panel_width; ++c)
         m_W.row(i)[c] = random_entry() / std::sqrt(m_problem.size());
-    const Eigen::MatrixXd link = R * m_link;
     for(int pass = 0; pass < 3; ++pass) {
       orthogonalise();
-      m_space.multiply_mass(m_W, m_BW);
-      const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
+      const Eigen::LLT<Eigen::MatrixXd> llt(gram());
       if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
-        throw std::runtime_error("Eigenpairs: the block Lanczos iteration broke down; check the mesh for "
-                                 "needles, or choose the method 'dense'.");
+        throw Not_converged("the vectors of a block depend on each other");
       transform(inverse_of(llt));
     }
-    m_link = link;
+  }
+
+  // W^T s B W
+  Eigen::MatrixXd gram()
+  {
+    m_space.multiply_mass(m_W, m_BW);
+    return m_space.product(m_W, m_BW);
   }
 
   // Of U, G = U^T U.
@@ -326,22 +344,35 @@ private:
     return false;
   }
 
+  // Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
+  bool is_to_be_counted()
+  {
+    m_complete = m_options.verify && m_options.tolerance <= 1e-3;
+    return m_complete && may_be_incomplete(values());
+  }
+
+  // How many eigenvalues below the last one have not been found, -1 where that cannot be told.
+  Index missing()
+  {
+    m_problem.report(0.85);
+    const Index count = count_missing(m_problem, values(), m_options.threads);
+    m_complete = count == 0;
+    return count;
+  }
+
   // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
   // eight more copies. T knows of no link to the Ritz vectors: they must have converged, which those beyond the first K
   // have not, and what the tolerance leaves of a link is taken off in each step.
-  bool find_missing()
+  void find_missing()
   {
     m_locked = true;
-    for(Index round = 0; round < 4 + m_K / panel_width; ++round) {
-      m_problem.report(0.85);
-      const Index missing = count_missing(m_problem, values(), m_options.threads);
-      if(missing <= 0)
-        return missing == 0;
+    for(Index round = 0; missing() > 0; ++round) {
+      if(round == 4 + m_K / panel_width)
+        throw Not_converged("copies of multiple eigenvalues are missing");
       compress(m_K / panel_width * panel_width);
       add_random_panel();
       iterate(m_maximum_panels * panel_width);
     }
-    return false;
   }
 
   // Extends the space until the K wanted Ritz values have converged. False where the shift is inside, and next to an eigenvalue, where one
@@ -355,8 +386,8 @@ private:
       if(m_norm > largest_norm)
         return false;
       m_problem.report(0.85 * (std::min)(1., double(dimension()) / ((m_inside ? 2.4 : 3.4) * m_K + 40.)));
-      const bool full = m_panels == m_maximum_panels;
-      if(full || dimension() >= next_check) {
+      const bool full = m_panels == m_maximum_panels, invariant = m_rank == 0 && dimension() >= m_K;
+      if(full || invariant || dimension() >= next_check) {
         worst = solve_projected();
         if(worst <= m_options.tolerance)
           return true;
@@ -364,16 +395,15 @@ private:
         last_worst = worst;
         last_dimension = dimension();
       }
+      if((full || invariant) && m_inside && worst > 1e-3)
+        return false;
       if(!full) {
         advance();
         continue;
       }
-      if(m_inside && !m_locked && worst > 1e-3)
-        return false;
       if(++restarts > m_options.maximum_iterations)
-        throw std::runtime_error(
-            "Eigenpairs: the block Lanczos iteration did not converge to the tolerance for " +
-            std::to_string(m_K) + " eigenpairs; raise the tolerance or the number of iterations.");
+        throw Not_converged("a residual of " + in_digits(worst) + " is left after " +
+                            std::to_string(restarts - 1) + " restarts");
       restart();
       next_check = last_dimension = 0;
     }
@@ -398,8 +428,10 @@ private:
     const Eigen::MatrixXd T = m_T.topLeftCorner(m, m);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(T);
     if(solver.info() != Eigen::Success)
-      throw std::runtime_error("Eigenpairs: the projected eigenproblem did not converge.");
+      throw Not_converged("the projected eigenproblem has no solution");
     const Eigen::VectorXd& theta = solver.eigenvalues(); // ascending
+    if(m_below > 0 && !(theta(m_below - 1) < 0.))
+      return 1.; // copies of eigenvalues below the shift are missing
     m_theta.resize(m);
     m_Y.resize(m, m);
     Index low = 0, high = m; // taken are those before and from here
@@ -418,12 +450,12 @@ private:
   }
 
   // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much more: those next to 0 are as good
-  // relative to themselves as the others.
+  // as the others where residuals are divided by lambda + scale.
   double weight_of_residual(double theta) const
   {
-    const double distance = 1. / std::abs(theta),
-                 shifted_lambda = m_sigma / m_problem.shift() + 1. / theta + 1.;
-    return distance * (std::max)(1., distance / (std::max)(1., shifted_lambda));
+    const double distance = 1. / std::abs(theta), lambda = m_sigma + m_problem.shift() / theta;
+    const double divisor = ((std::max)(0., lambda) + m_problem.scale()) / m_problem.shift();
+    return distance * (std::max)(1., distance / divisor);
   }
 
   // Replaces the basis by its first Ritz vectors.
@@ -455,12 +487,22 @@ private:
 
   Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
 
-  // Ritz vectors in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
-  Eigenpairs pairs(bool complete)
+  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost. Each becomes S X / theta = X + W link / theta
+  // (Ericsson and Ruhe 1980): L would enlarge what X has of the highest modes.
+  Eigenpairs pairs()
   {
+    const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
+    Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
+    make_orthonormal(C);
     compress(rounded_up(m_K));
     m_basis.erase(m_basis.begin() + m_panels, m_basis.end()); // before memory for the result is taken
-    Eigenpairs result{values(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", complete};
+    for(Index k = 0; k < m_K; k += panel_width) {
+      const Index columns = (std::min)(m_K - k, Index(panel_width));
+      Eigen::MatrixXd minus_C = Eigen::MatrixXd::Zero(panel_width, panel_width);
+      minus_C.leftCols(columns) = -C.middleCols(k, columns);
+      m_space.subtract(m_basis[k / panel_width], m_W, minus_C);
+    }
+    Eigenpairs result{lambda(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", m_complete};
     const double scale = std::sqrt(m_problem.shift());
     for_each_task(static_cast<int>(m_K), m_options.threads, [&](int k) {
       const Panel& panel = m_basis[k / panel_width];
@@ -470,7 +512,20 @@ private:
     return result;
   }
 
+  // Y and C times (I + C^T C)^-1/2 = I - C^T F C.
+  void make_orthonormal(Eigen::MatrixXd& C)
+  {
+    const Eigen::MatrixXd transposed = C.transpose(), product = C * transposed;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product);
+    const Eigen::VectorXd root = (1. + solver.eigenvalues().cwiseMax(0.).array()).sqrt();
+    const Eigen::VectorXd f = (root.array() * (1. + root.array())).inverse(); // (1 - 1 / root) / (root^2 - 1)
+    const Eigen::MatrixXd Q = solver.eigenvectors(), FC = Q * f.asDiagonal() * Q.transpose() * C;
+    m_Y.leftCols(m_K) -= m_Y.leftCols(m_K) * transposed * FC;
+    C -= product * FC;
+  }
+
   static constexpr double place_of_shift = 0.6; // among the wanted eigenvalues: with it the space is smallest
+  static constexpr double rounding = 1e-14;     // of S
   static constexpr double largest_norm = 1e4;   // of S, 1e-4 of a spacing between the shift and an eigenvalue
 
   const Eigen_problem& m_problem;
@@ -490,10 +545,12 @@ private:
   Eigen::MatrixXd m_link; // R of the next panel
   Eigen::MatrixXd m_T;    // projected operator
   Eigen::VectorXd m_theta;
-  Eigen::MatrixXd m_Y; // its eigenpairs, the wanted first
-  double m_norm = 1.;  // of S: 1 with the shift below, otherwise as far as T shows it
-  double m_loss = 1.;  // estimated loss of orthogonality
+  Eigen::MatrixXd m_Y;        // its eigenpairs, the wanted first
+  double m_norm = 1.;         // of S: 1 with the shift below, otherwise as far as T shows it
+  double m_loss = 1.;         // estimated loss of orthogonality
+  Index m_rank = panel_width; // columns of the next panel that have a link; 0 where the space is invariant
   bool m_after_restart = false;
+  bool m_complete = false;
   bool m_locked = false; // the basis begins with Ritz vectors whose link has been dropped
   std::mt19937_64 m_random;
 };

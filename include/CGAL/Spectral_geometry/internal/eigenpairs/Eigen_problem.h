@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/number_type_config.h>
@@ -18,6 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -46,19 +51,39 @@ inline double pencil_shift(const Laplace_operator& op)
   return 4. * CGAL_PI / op.mass.sum() * (unit > 1e-3 && unit < 1e3 ? 1. : unit);
 }
 
+inline std::string in_digits(const double number)
+{
+  std::ostringstream out;
+  out.precision(2);
+  out << number;
+  return out.str();
+}
+
+/// An iteration has ended without all pairs.
+struct Not_converged : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
 /// The pencil (L, B) of an operator with its shift: what every solver shares.
 class Eigen_problem
 {
 public:
   explicit Eigen_problem(const Laplace_operator& op, const std::function<bool(double)>& progress = {})
+    : Eigen_problem(op, pencil_shift(op), progress)
+  {}
+
+  /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole, whose shift is `scale`.
+  Eigen_problem(const Laplace_operator& op, const double scale, const std::function<bool(double)>& progress)
     : m_op(op)
     , m_progress(progress)
     , m_shift(pencil_shift(op))
+    , m_scale(scale)
   {}
 
   void check(const Eigen::Index K) const
   {
-    const Eigen::Index n = size(), coupled = n - m_op.vanishing;
+    const Eigen::Index n = size(), coupled = n - Eigen::Index(m_op.vanishing.size());
     require(L().cols() == n && B().rows() == n && B().cols() == n && m_op.mass.size() == n,
             "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
     require(n > 0 && m_op.mass.minCoeff() > 0. && std::isfinite(m_shift),
@@ -76,9 +101,11 @@ public:
   }
 
   Eigen::Index size() const { return L().rows(); }
+  const Laplace_operator& op() const { return m_op; }
   const Eigen::SparseMatrix<double>& L() const { return m_op.L; }
   const Eigen::SparseMatrix<double>& B() const { return m_op.B; }
   double shift() const { return m_shift; }
+  double scale() const { return m_scale; }
 
   // L - sigma B
   Eigen::SparseMatrix<double> shifted(double sigma) const
@@ -96,18 +123,20 @@ public:
       throw Cancelled();
   }
 
-  Eigen::VectorXd residuals(const Eigenpairs& pairs) const
+  Eigen::VectorXd residuals(const Eigenpairs& pairs) const { return residuals(pairs, 0, pairs.size()); }
+
+  // Of K pairs.
+  Eigen::VectorXd residuals(const Eigenpairs& pairs, const Eigen::Index first, const Eigen::Index K) const
   {
     // Eight columns by rows: faster than one by one, and no second n x K matrix.
     using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
-    const Eigen::Index K = pairs.size();
     Eigen::VectorXd result(K);
     for(Eigen::Index k = 0; k < K; k += 8) {
       const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
-      const Block phi = pairs.vectors.middleCols(k, columns);
+      const Block phi = pairs.vectors.middleCols(first + k, columns);
       Block r = L() * phi;
       const Block b = B() * phi;
-      r -= b * pairs.values.segment(k, columns).asDiagonal();
+      r -= b * pairs.values.segment(first + k, columns).asDiagonal();
       double squares[8] = {};
       for(Eigen::Index i = 0; i < size(); ++i)
         for(Eigen::Index c = 0; c < columns; ++c)
@@ -115,28 +144,40 @@ public:
       for(Eigen::Index c = 0; c < columns; ++c)
         result(k + c) = std::sqrt(squares[c]);
     }
-    return result.cwiseQuotient((pairs.values.array() + m_shift).matrix());
+    return result.cwiseQuotient((pairs.values.segment(first, K).array() + m_scale).matrix());
+  }
+
+  // What the residual of a pair can be by rounding alone, in its entries and in L and B.
+  double rounding(const Eigenpairs& pairs, const Eigen::Index k) const
+  {
+    const Eigen::VectorXd phi = pairs.vectors.col(k).cwiseAbs();
+    const Eigen::VectorXd terms = L().cwiseAbs() * phi + std::abs(pairs.values(k)) * (B().cwiseAbs() * phi);
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(terms.cwiseAbs2().cwiseQuotient(m_op.mass).sum()) / (pairs.values(k) + m_scale);
   }
 
 private:
   const Laplace_operator& m_op;
   std::function<bool(double)> m_progress;
-  double m_shift;
+  double m_shift, m_scale;
   mutable double m_fraction = 0.;
 };
 
-// A row without couplings, as of a vertex at which functions vanish, is an eigenvector of its own: of others it has exactly 0,
-// and a solver its tolerance.
-inline void clear_uncoupled_rows(const Eigen_problem& problem, Eigenpairs& pairs)
+// Says which matrix has the wrong sign, where one has.
+[[noreturn]] inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
 {
-  for(Eigen::Index v = 0; v < problem.size(); ++v) {
-    if(problem.L().col(v).nonZeros() > 1 || problem.B().col(v).nonZeros() > 1)
-      continue;
-    const double own = problem.L().coeff(v, v) / problem.B().coeff(v, v);
-    for(Eigen::Index k = 0; k < pairs.size(); ++k)
-      if(std::abs(pairs.values(k) - own) > 1e-3 * (own + problem.shift()))
-        pairs.vectors(v, k) = 0.;
-  }
+  const double s = problem.shift();
+  const auto negative = [&](Eigen::SparseMatrix<double> A) {
+    A.makeCompressed();
+    return number_of_negative_eigenvalues(A, threads);
+  };
+  require(negative(problem.B()) == 0, "Eigenpairs: B is not positive definite; pass a mass matrix.");
+  require(negative(s * problem.B() - problem.L()) != 0,
+          "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
+  const Eigen::Index count = negative(problem.shifted(-1e-8 * s));
+  require(count <= 0, "Eigenpairs: L is not positive semidefinite, ", count,
+          " of its eigenvalues are negative; add a multiple of B to it.");
+  throw Not_positive_definite();
 }
 
 // A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors

@@ -20,7 +20,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
       internal::connected_components(op.L.cols(), [&](const auto& join) {
         for(Eigen::Index v = 0; v < op.L.cols(); ++v)
           for(Entry entry(op.L, v); entry; ++entry)
-            if(entry.value() != 0.)
+            if(entry.row() < v && entry.value() != 0.)
               join(v, entry.row());
       });
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(op.L.cols()), sum = op.L * ones,
@@ -222,7 +222,9 @@ inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& 
     if(on_border(v))
       op.L.coeffRef(v, v) = beyond * op.B.coeff(v, v);
   op.boundary = Boundary_condition::dirichlet;
-  op.vanishing = Eigen::Index(std::count(border.begin(), border.end(), 1));
+  for(std::size_t v = 0; v < border.size(); ++v)
+    if(border[v])
+      op.vanishing.push_back(int(v));
 }
 
 } // namespace internal
