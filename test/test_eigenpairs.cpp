@@ -11,9 +11,13 @@
 #include "catch.h"
 #include "shapes.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -427,14 +431,217 @@ TEST_CASE("A shift that meets an eigenvalue is moved")
     }
 }
 
-TEST_CASE("A matrix that is not positive semidefinite has no such eigenpairs")
+TEST_CASE("A matrix of the wrong sign is named")
 {
-  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(2), 0.5);
   const double s = 4. * shapes::pi / op.mass.sum();
-  for(const double shift : {3., 8.})
-    for(const Eigen::Index K : {10, 30})
-      CHECK_THROWS_AS(SG::eigenpairs(op.L - shift * s * op.B, op.B, K, with_method(Method::block)),
-                      std::runtime_error);
+  for(const Method method : {Method::block, Method::dense})
+    for(const Eigen::Index K : {10, 30}) {
+      const SG::Eigenpairs_options options = with_method(method);
+      const auto refuses = [&](const Eigen::SparseMatrix<double>& L, const Eigen::SparseMatrix<double>& B,
+                               const char* sentence) {
+        CHECK_THROWS_WITH(SG::eigenpairs(L, B, K, options), ContainsSubstring(sentence));
+        CHECK_THROWS_AS(SG::eigenpairs(L, B, K, options), std::invalid_argument);
+      };
+      refuses(-op.L, op.B, "pass -L");
+      for(const double shift : {0.01, 3., 8.})
+        refuses(op.L - shift * s * op.B, op.B, "L is not positive semidefinite");
+      // Its row sums are positive.
+      Eigen::SparseMatrix<double> B = op.B;
+      B.coeffRef(5, 5) -= 3. * B.coeff(5, 5);
+      for(const Eigen::Index neighbor : {6, 7}) {
+        B.coeffRef(5, neighbor) += 2. * op.mass(5);
+        B.coeffRef(neighbor, 5) += 2. * op.mass(5);
+      }
+      refuses(op.L, B, "B is not positive definite");
+    }
+}
+
+namespace {
+
+// Parts of one shape, each turned another way, the last one of another size.
+shapes::Matrices turned_copies(const shapes::Matrices& part, const int copies, const double last_size = 1.)
+{
+  shapes::Matrices result = shapes::components_matrices(part, copies);
+  const Eigen::Index n = part.V.rows();
+  for(int c = 0; c < copies; ++c) {
+    const double size = c + 1 == copies ? last_size : 1.;
+    const Eigen::Matrix3d turn =
+        size * (Eigen::AngleAxisd(0.7 * c + 0.2, Eigen::Vector3d::UnitX()) *
+                Eigen::AngleAxisd(1.3 * c, Eigen::Vector3d(1, 2, c % 7).normalized()))
+                   .toRotationMatrix();
+    result.V.middleRows(c * n, n) =
+        ((part.V * turn.transpose()).rowwise() + Eigen::RowVector3d(3. * c, 0, 0)).eval();
+  }
+  return result;
+}
+
+shapes::Matrices box_matrices()
+{
+  shapes::Matrices box;
+  box.V.resize(8, 3);
+  for(int v = 0; v < 8; ++v)
+    box.V.row(v) << v % 2, v / 2 % 2 * 0.7, v / 4 * 0.4;
+  box.T.resize(12, 3);
+  box.T << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
+      3, 7, 5;
+  return box;
+}
+
+// All eigenvalues of the dense problem.
+Eigen::VectorXd dense_values(const Laplace_operator& op)
+{
+  const Eigen::MatrixXd L = op.L, B = op.B;
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(L, B, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+// Of the parts, each by itself: of the whole the dense solver would take minutes.
+Eigen::VectorXd dense_values_of_parts(const shapes::Matrices& part, const shapes::Matrices& mesh,
+                                      double theta)
+{
+  const Eigen::Index n = part.V.rows();
+  std::vector<double> all;
+  for(Eigen::Index first = 0; first < mesh.V.rows(); first += n) {
+    const Eigen::VectorXd values = dense_values(laplace({mesh.V.middleRows(first, n), part.T}, theta));
+    all.insert(all.end(), values.data(), values.data() + n);
+  }
+  std::sort(all.begin(), all.end());
+  return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
+}
+
+void check_converged(const Laplace_operator& op, const Eigenpairs& pairs, const Eigen::VectorXd& expected)
+{
+  const double s = 4. * shapes::pi / op.mass.sum();
+  const Eigen::VectorXd values = expected.head(pairs.size());
+  CHECK(pairs.complete);
+  CHECK(pairs.residuals.maxCoeff() < 1e-9);
+  CHECK(((pairs.values - values).array().abs() / (values.array() + s)).maxCoeff() < 1e-8);
+  CHECK(orthonormality_error(op, pairs) < 1e-10);
+}
+
+} // namespace
+
+TEST_CASE("Many like parts, each turned")
+{
+  struct Scene
+  {
+    shapes::Matrices part;
+    int copies;
+    std::vector<Eigen::Index> numbers;
+  };
+  for(const Scene& scene : {Scene{box_matrices(), 400, {20, 100}}, Scene{box_matrices(), 80, {630}},
+                            Scene{shapes::icosphere_matrices(0), 80, {20, 100, 400, 700}},
+                            Scene{shapes::icosphere_matrices(0), 300, {200}},
+                            Scene{shapes::icosphere_matrices(1), 25, {20, 100, 300, 700}},
+                            Scene{shapes::icosphere_matrices(1), 100, {100}},
+                            Scene{shapes::icosphere_matrices(2), 5, {20, 200, 350, 600}}})
+    for(const double theta : thetas) {
+      shapes::Matrices mesh = turned_copies(scene.part, scene.copies);
+      mesh.V = mesh.V.cast<float>().cast<double>().eval(); // as files have it
+      const Laplace_operator op = laplace(mesh, theta);
+      const Eigen::VectorXd expected = dense_values_of_parts(scene.part, mesh, theta);
+      for(const Eigen::Index K : scene.numbers) {
+        INFO(scene.copies << " parts of " << scene.part.V.rows() << ", K = " << K);
+        check_converged(op, SG::eigenpairs(op, K), expected);
+      }
+    }
+}
+
+TEST_CASE("One ball of five is a tenth as large")
+{
+  const shapes::Matrices mesh = turned_copies(shapes::icosphere_matrices(2), 5, 0.1);
+  for(const double theta : thetas) {
+    const Laplace_operator op = laplace(mesh, theta);
+    check_converged(op, SG::eigenpairs(op, 350), dense_values(op));
+  }
+}
+
+TEST_CASE("Many like parts in one Krylov space: its rank falls, copies are missed at first")
+{
+  struct Scene
+  {
+    shapes::Matrices part;
+    int copies;
+    Eigen::Index K;
+  };
+  for(const Scene& scene : {Scene{box_matrices(), 40, 60}, Scene{shapes::icosphere_matrices(1), 10, 100},
+                            Scene{shapes::icosphere_matrices(2), 3, 60}})
+    for(const double theta : thetas) {
+      const Laplace_operator op = laplace(turned_copies(scene.part, scene.copies), theta);
+      const SG::internal::Eigen_problem problem(op);
+      INFO(scene.copies << " parts of " << scene.part.V.rows() << ", K = " << scene.K);
+      check_converged(op, SG::internal::pairs_of_part(problem, scene.K, with_method(Method::block)),
+                      dense_values(op));
+    }
+}
+
+TEST_CASE("Copies below a shift inside that are missing do not mix up the order")
+{
+  // The first values were those above the shift, and the count agreed.
+  const Laplace_operator op = laplace(turned_copies(box_matrices(), 40));
+  const SG::internal::Eigen_problem problem(op);
+  const Eigenpairs pairs = SG::internal::pairs_of_part(problem, 150, with_method(Method::block));
+  CHECK(std::is_sorted(pairs.values.data(), pairs.values.data() + 150));
+  check_converged(op, pairs, dense_values(op));
+}
+
+TEST_CASE("Residuals are within ten times the tolerance, or are reported")
+{
+  for(const shapes::Matrices& mesh :
+      {shapes::bumpy_icosphere_matrices(3), shapes::grid_matrices(150, 3, 1., 1e-3),
+       turned_copies(shapes::icosphere_matrices(2), 4, 1e-3)})
+    for(const double theta : thetas)
+      for(const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
+        const Laplace_operator op = laplace(mesh, theta);
+        const Eigenpairs pairs = SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(tolerance));
+        INFO(tolerance);
+        CHECK(orthonormality_error(op, pairs) < 1e-9);
+        if(pairs.complete)
+          CHECK(pairs.residuals.maxCoeff() <= 10. * tolerance);
+        else // what rounding leaves, or no count
+          CHECK(pairs.residuals.maxCoeff() < (tolerance > 1e-3 ? 10. * tolerance : 1e-5));
+      }
+  // Rounding does not matter yet.
+  const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
+  CHECK(SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(1e-11)).complete);
+}
+
+TEST_CASE("The Dirichlet problem is that of the rows off the border")
+{
+  // Rings whose radii fall by a quarter: eigenvalues of the innermost exceed what stands in the rows of the border.
+  const int rings = 40, around = 12;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3i> triangles;
+  for(int i = 0; i < rings; ++i)
+    for(int j = 0; j < around; ++j) {
+      const double r = std::pow(0.75, i), angle = 2. * shapes::pi * j / around;
+      const int a = i * around + j, b = i * around + (j + 1) % around;
+      points.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.);
+      triangles.emplace_back(a, b, i + 1 < rings ? a + around : rings * around);
+      if(i + 1 < rings)
+        triangles.emplace_back(b, b + around, a + around);
+    }
+  points.emplace_back(0, 0, 0);
+  const shapes::Matrices mesh = shapes::matrices(points, triangles);
+  const Eigen::Index n = mesh.V.rows(), K = 200;
+  for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
+    const Laplace_operator op =
+        SG::laplace_operator(mesh.V, mesh.T, {mass, {}, SG::Boundary_condition::dirichlet});
+    Laplace_operator inner; // the border is the first ring
+    inner.L = op.L.bottomRightCorner(n - around, n - around);
+    inner.B = op.B.bottomRightCorner(n - around, n - around);
+    const Eigen::VectorXd expected = dense_values(inner).head(K);
+    CHECK(expected(K - 1) > op.L.coeff(0, 0) / op.B.coeff(0, 0));
+    for(const Solver solver : {by_block, by_dense}) {
+      const Eigenpairs pairs = solver(op, K, {});
+      CHECK(pairs.residuals.maxCoeff() < 1e-6);
+      CHECK(pairs.vectors.topRows(around).isZero(0.));
+      CHECK(((pairs.values - expected).array().abs() / expected.array()).maxCoeff() < 1e-6);
+      CHECK(orthonormality_error(op, pairs) < 1e-10);
+    }
+    CHECK_THROWS_WITH(SG::eigenpairs(op, n - around + 1), ContainsSubstring("off the border"));
+  }
 }
 
 TEST_CASE("Many eigenvectors stay orthonormal")

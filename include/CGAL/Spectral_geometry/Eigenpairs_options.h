@@ -25,7 +25,8 @@ struct Eigenpairs
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;
   std::string solver; ///< "block" or "dense"
-  /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`
+  /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`, and no residual is larger than ten times
+  /// the tolerance
   bool complete = false;
   /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
   /// min(`zeros`, K). To be set where pairs are filled by hand, see `number_of_zero_eigenvalues()`; negative: not known
@@ -44,10 +45,9 @@ enum class Eigenpairs_method { automatic, block, dense };
 struct Eigenpairs_options
 {
   Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
-  /// relative accuracy in the shift-inverted operator, \f$\|S\phi - \nu\phi\|_B \le\f$ tolerance \f$|\nu|\f$ with
-  /// \f$S = (L - \sigma B)^{-1} B\f$, \f$\nu = 1/(\lambda - \sigma)\f$, and where \f$\lambda + s\f$ is less than
-  /// \f$|\lambda - \sigma|\f$ as many times less; in ]0, 1[. The residuals of the result are up to some hundred times
-  /// larger, relative errors of the eigenvalues about the square of the tolerance.
+  /// of the residuals, \f$\|L \phi - \lambda B \phi\|_{M^{-1}} \le\f$ tolerance \f$(\lambda + s)\f$ with \f$s = 4\pi/\f$area, in ]0, 1[;
+  /// rounding may make them up to ten times larger. Beyond that pairs are refined, solved densely, or `eigenpairs()` throws; where no
+  /// double comes closer they are returned with `complete` false. Relative errors of the eigenvalues are about its square.
   double tolerance = 1e-10;
   /// restarts of the Krylov space, at least 1
   Eigen::Index maximum_iterations = 300;

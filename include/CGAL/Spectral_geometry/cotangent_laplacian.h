@@ -51,7 +51,9 @@ struct Laplace_operator
   bool voronoi = false;
   /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of before
   Boundary_condition boundary = Boundary_condition::neumann;
-  std::vector<int> vanishing;    ///< these vertices, in order
+  Eigen::Index vanishing = 0; ///< number of these vertices
+  std::vector<int>
+      vanishing_vertices;        ///< their numbers; where they are missing, their rows count as the others do
   bool has_coefficients = false; ///< whether it is that of other coefficients than 1
 };
 

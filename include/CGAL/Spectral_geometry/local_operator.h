@@ -58,8 +58,8 @@ that for a conductivity c. The shares s are 1/3 each, or those of mixed Voronoi 
 Constants are in the kernel of L, whatever D is.
 
 With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. What couples vertices of the border to others is taken
-out of both, so that eigenvectors vanish there; each of them alone has an eigenvalue of about 100 pi n over the mass of
-the mesh in the unit of L, far beyond the spectrum that n vertices resolve. The masses M stay what they are.
+out of both, and what is left of their rows is 100 pi n over the mass of the mesh in the unit of L: far beyond most of the spectrum.
+`eigenpairs()` solves the problem without these rows, and its vectors are 0 there. The masses M stay what they are.
 */
 struct Local_operator
 {

@@ -278,6 +278,11 @@ private:
       back.row(m_rank).tail(behind) = G.row(m_rank).tail(behind) / length;
       transform(exchange * step);
       m_link = (back * exchange * m_link).eval();
+      if(length < 1e-6 * m_norm) {
+        orthogonalise();
+        if(!(gram()(m_rank, m_rank) > 0.25))
+          break; // rounding along the basis
+      }
     }
     m_link.bottomRows(panel_width - m_rank).setZero();
     replace_columns();

@@ -83,7 +83,7 @@ public:
 
   void check(const Eigen::Index K) const
   {
-    const Eigen::Index n = size(), coupled = n - Eigen::Index(m_op.vanishing.size());
+    const Eigen::Index n = size(), coupled = n - m_op.vanishing;
     require(L().cols() == n && B().rows() == n && B().cols() == n && m_op.mass.size() == n,
             "Eigenpairs: L and B must be square matrices of the size of the mass vector.");
     require(n > 0 && m_op.mass.minCoeff() > 0. && std::isfinite(m_shift),

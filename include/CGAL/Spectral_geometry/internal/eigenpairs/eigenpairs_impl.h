@@ -162,7 +162,7 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
 {
   const Eigen::Index n = op.L.rows();
   std::vector<char> vanishes(std::size_t(n), 0);
-  for(const int v : op.vanishing)
+  for(const int v : op.vanishing_vertices)
     vanishes[std::size_t(v)] = 1;
   const std::vector<Eigen::Index> component = connected_components(n, [&](const auto& join) {
     for(const Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})

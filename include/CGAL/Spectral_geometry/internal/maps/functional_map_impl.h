@@ -134,7 +134,7 @@ evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, co
                   const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K)
 {
   internal::require(K >= 1, "spectral evaluation: K is ", K, ", judge at least one mode.");
-  const Eigen::Index N = coarse.B.rows() - Eigen::Index(coarse.vanishing.size()), judged = (std::min)(K, N);
+  const Eigen::Index N = coarse.B.rows() - coarse.vanishing, judged = (std::min)(K, N);
   internal::check_pairs("fine", fine, fine_pairs, judged);
   internal::check_pairs("coarse", coarse, coarse_pairs, judged);
 

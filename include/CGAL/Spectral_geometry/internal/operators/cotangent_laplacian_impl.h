@@ -224,7 +224,8 @@ inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& 
   op.boundary = Boundary_condition::dirichlet;
   for(std::size_t v = 0; v < border.size(); ++v)
     if(border[v])
-      op.vanishing.push_back(int(v));
+      op.vanishing_vertices.push_back(int(v));
+  op.vanishing = Eigen::Index(op.vanishing_vertices.size());
 }
 
 } // namespace internal
