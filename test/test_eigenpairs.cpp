@@ -565,8 +565,9 @@ TEST_CASE("Many like parts in one Krylov space: its rank falls, copies are misse
     int copies;
     Eigen::Index K;
   };
-  for(const Scene& scene : {Scene{box_matrices(), 40, 60}, Scene{shapes::icosphere_matrices(1), 10, 100},
-                            Scene{shapes::icosphere_matrices(2), 3, 60}})
+  for(const Scene& scene :
+      {Scene{box_matrices(), 40, 60}, Scene{shapes::icosphere_matrices(0), 40, 120},
+       Scene{shapes::icosphere_matrices(1), 10, 100}, Scene{shapes::icosphere_matrices(2), 3, 60}})
     for(const double theta : thetas) {
       const Laplace_operator op = laplace(turned_copies(scene.part, scene.copies), theta);
       const SG::internal::Eigen_problem problem(op);

@@ -530,7 +530,7 @@ private:
   }
 
   static constexpr double place_of_shift = 0.6; // among the wanted eigenvalues: with it the space is smallest
-  static constexpr double rounding = 1e-14;     // of S
+  static constexpr double rounding = 1e-12;     // of S
   static constexpr double largest_norm = 1e4;   // of S, 1e-4 of a spacing between the shift and an eigenvalue
 
   const Eigen_problem& m_problem;
