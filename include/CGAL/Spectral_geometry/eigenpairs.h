@@ -56,6 +56,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<do
 
 /// @}
 
+namespace internal {
+
+class Eigen_problem;
+
+/// The first K pairs of one part of a mesh.
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
+                                                       const Eigenpairs_options& options);
+
+} // namespace internal
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED

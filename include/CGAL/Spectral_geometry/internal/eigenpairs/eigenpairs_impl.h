@@ -122,8 +122,8 @@ bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& opti
 }
 
 /// The first K pairs of one part.
-inline Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
-                                const Eigenpairs_options& options)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
+                                                       const Eigenpairs_options& options)
 {
   Eigenpairs result;
   std::string reason;
