@@ -164,13 +164,16 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
       ++counts[loss > bound];
       CHECK(std::abs(candidate.cost - slow) < 1e-8 * (std::abs(slow) + before + std::abs(loss)));
       if(parameters.placement == Spectral_placement_strategy::free) {
-        // One sample: the least quadric within reach, unless that cannot be collapsed to.
+        // The least quadric within reach, or the cheapest of the ends and the middle.
         const Eigen::Vector3d middle = on_edge(mesh, e, 0.5);
         const double radius = (on_edge(mesh, e, 1) - on_edge(mesh, e, 0)).norm(), reach = (x - middle).norm();
         const bool at_sample = x == on_edge(mesh, e, 0) || x == middle || x == on_edge(mesh, e, 1);
         const auto both = [&](const Eigen::Vector3d& y) { return quadric(at_u, y) + quadric(at_v, y); };
         ++at_minimum[at_sample];
         CHECK(reach < radius * (1 + 1e-12));
+        for(const double alpha : {0., 0.5, 1.})
+          CHECK(candidate.cost <= core.cost_at(Slot(e.first), Slot(e.second), on_edge(mesh, e, alpha)) +
+                                      1e-12 * (std::abs(slow) + before + std::abs(loss)));
         for(int axis = 0; axis < 6 && !at_sample && reach < 0.99 * radius; ++axis) {
           const Eigen::Vector3d step =
               (axis % 2 == 0 ? 1e-3 : -1e-3) * radius * Eigen::Vector3d::Unit(axis / 2);
@@ -180,7 +183,7 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
     }
     CHECK(counts[0] > 10);
     if(parameters.placement == Spectral_placement_strategy::free)
-      CHECK(at_minimum[0] > 20 * at_minimum[1]);
+      CHECK(at_minimum[0] > 10);
     for(int i = 0; i < 15; ++i) {
       const std::vector<Edge> edges = mesh.edge_list();
       const Edge e = edges[random() % edges.size()];
