@@ -316,6 +316,7 @@ TEST_CASE("No more signals than the mixtures asked for are not mixed, those of e
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Spectral_edge_collapse_options options;
+  options.number_of_mixtures = 16;
   options.number_of_eigenvectors = GENERATE(5, 16, 17, 18);
   options.relocate = false;
   CAPTURE(options.number_of_eigenvectors);
@@ -364,6 +365,7 @@ TEST_CASE("Eigenvectors of eigenvalue 0, one for each component, are left out of
   const shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), 2);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, 0.5);
   Spectral_options options;
+  options.number_of_mixtures = 16;
   const Eigen::Index K = GENERATE(1, 2, 3, 12, 30);
   CAPTURE(K);
   options.eigenpairs = std::make_shared<const SG::Eigenpairs>(SG::eigenpairs(op, K));
