@@ -110,11 +110,17 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
   return "";
 }
 
+std::string fault_of_estimate(const double E)
+{
+  return std::isfinite(E) && E >= 0 ? "" : "E is " + std::to_string(E);
+}
+
 // Whether the metric may see mixtures: of fewer signals it never does.
 bool has_mixtures(const Policies& policies, const SMS::Spectral_edge_collapse_options& options)
 {
   const Eigen::Index K = policies.eigenpairs() ? policies.eigenpairs()->size() : options.signals.cols();
-  return options.number_of_mixtures != 0 && options.number_of_mixtures < K;
+  return SMS::internal::is_filtered(options) ||
+         (options.number_of_mixtures != 0 && options.number_of_mixtures < K);
 }
 
 std::string fault_of_result(const Mesh& mesh, const Policies& policies, const shapes::Matrices& fine,
@@ -131,9 +137,7 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies, const sh
      !(position_error(P, fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off by " + std::to_string(position_error(P, fine.V, coarse.V));
   if(has_mixtures(policies, options)) // then E is an estimate
-    return std::isfinite(policies.error()) && policies.error() >= 0
-               ? ""
-               : "E is " + std::to_string(policies.error());
+    return fault_of_estimate(policies.error());
   return fault_of_E(coarse,
                     {P, policies.error(), policies.relative_error(), policies.eigenpairs().get(),
                      SG::Local_operator(options.mass, options.coefficients).restricted(P).coefficients},
@@ -251,10 +255,12 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
      !call.post_processed() && !call.pre_simplified() && !call.has_zero_lengths())
     return "the error is " + std::to_string(result.relative_error) + ", " +
            std::to_string(result.relative_error / call.options.maximum_error) + " times the bound";
+  if(SMS::internal::is_filtered(call.options))
+    return fault_of_estimate(result.E);
   if(!result.eigenpairs && call.options.signals.size() == 0) // cancelled before the first spectral collapse
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
-    return std::isfinite(result.E) && result.E >= 0 ? "" : "E is " + std::to_string(result.E);
+    return fault_of_estimate(result.E);
   return fault_of_E(
       coarse,
       {result.restriction, result.E, result.relative_error, result.eigenpairs.get(), result.coefficients},

@@ -194,7 +194,8 @@ inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shap
     options.weights.resize(options.number_of_eigenvectors);
     for(double& weight : options.weights)
       weight = bytes.unit();
-  }
+  } else if(options.number_of_mixtures != 0 && options.signals.size() == 0 && bytes.one_in(4))
+    options.source = SMS::Spectral_signal_source::filtered_noise;
   return options;
 }
 
@@ -350,7 +351,7 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
   o.relocation.maximum_steps = 3;
   o.relocation.smoothing = bytes.one_in(2) ? 0 : 1;
   o.relocation.fix_boundary = bytes.one_in(2);
-  if(bytes.one_in(4))
+  if(bytes.one_in(4) && !SMS::internal::is_filtered(o))
     o.maximum_error = bytes.unit();
   o.quadrics_above = 1 + 4 * bytes.unit();
   if(bytes.one_in(4) && o.signals.size() == 0) {
