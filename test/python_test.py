@@ -392,8 +392,8 @@ class Results(Shapes):
             run = ss.simplify(self.V, self.F, 200)
         self.assertEqual(caught.filename, __file__)
         self.assertIn("less than 3 K", run.report["warnings"][0])
-        with self.assertWarnsRegex(UserWarning, "instead of 3 because every edge left was refused"):
-            self.assertGreater(len(ss.simplify(self.V, self.F, 3, 1).V), 3)
+        with self.assertRaisesRegex(ValueError, "n is 3, but 1 component needs at least 4 vertices"):
+            ss.simplify(self.V, self.F, 3, 1)
 
     def test_match(self):
         V, F = sphere(3)

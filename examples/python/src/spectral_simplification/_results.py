@@ -517,7 +517,7 @@ class Level(_Result):
         points; rows of vertices that were left out are empty. Computed when it is first asked
         for."""
         if self._Q is None:
-            V, F = self._part()
+            V, F = self.part()
             Q = _core.prolongation(dict(V=V, F=F, Vc=self.V, Fc=self.F, P=self._part_P()))
             if self._used is not None:
                 Q = Q.tocoo()

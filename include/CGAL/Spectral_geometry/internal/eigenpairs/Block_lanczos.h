@@ -142,8 +142,10 @@ private:
     m_below = 0;
     m_sigma = -m_problem.shift();
     factorise();
-    if(m_factor.number_of_negative_pivots() != 0)
+    if(m_factor.number_of_negative_pivots() != 0) {
       refuse_indefinite(m_problem, m_options.threads);
+      throw Not_positive_definite();
+    }
   }
 
   // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but two or three are to be there.

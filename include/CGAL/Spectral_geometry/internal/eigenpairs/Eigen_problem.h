@@ -163,8 +163,8 @@ private:
   mutable double m_fraction = 0.;
 };
 
-// Says which matrix has the wrong sign, where one has.
-[[noreturn]] inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
+// Says which matrix has the wrong sign, and goes on where none has and only rounding is negative.
+inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
 {
   const double s = problem.shift();
   const auto negative = [&](Eigen::SparseMatrix<double> A) {
@@ -177,7 +177,6 @@ private:
   const Eigen::Index count = negative(problem.shifted(-1e-8 * s));
   require(count <= 0, "Eigenpairs: L is not positive semidefinite, ", count,
           " of its eigenvalues are negative; add a multiple of B to it.");
-  throw Not_positive_definite();
 }
 
 // A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors
