@@ -190,6 +190,11 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals = std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
+  if(const auto pairs = policies.eigenpairs(); pairs && !pairs->complete)
+    result.warnings.push_back(
+        "The eigenpairs of the input did not reach their tolerance, the largest residual is " +
+        std::to_string(pairs->residuals.maxCoeff()) +
+        ": its triangles are of too different sizes for doubles; remesh it.");
   if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
     result.warnings.push_back(
         "The target of " + std::to_string(target) + " vertices is less than 3 K = " + std::to_string(3 * K) +

@@ -144,18 +144,14 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
   }
   if(dense || (options.method == Eigenpairs_method::automatic && problem.size() <= largest_dense)) {
     result = dense_eigenpairs(problem, K);
-    bool can_refine = true; // not where sizes are so graded that no factor exists: no solver does better there
-    if(have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
-         try {
-           Supernodal_factor factor(problem.shifted(-problem.shift()), options.threads);
-           refine(problem, factor, options.threads, range, pairs);
-         } catch(const std::runtime_error&) {
-           can_refine = false;
-         }
-       }) ||
-       !can_refine)
-      return result;
-    reason = left();
+    have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
+      try {
+        Supernodal_factor factor(problem.shifted(-problem.shift()), options.threads);
+        refine(problem, factor, options.threads, range, pairs);
+      } catch(const Not_positive_definite&) { // sizes are so graded that there is no factor
+      }
+    });
+    return result; // incomplete where the tolerance is not met: no solver does better in doubles
   }
   throw std::runtime_error("Eigenpairs: the solver did not converge to the tolerance " +
                            in_digits(options.tolerance) + " for " + std::to_string(K) + " pairs of " +
