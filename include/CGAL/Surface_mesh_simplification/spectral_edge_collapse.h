@@ -191,7 +191,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals = std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
   if(const auto pairs = policies.eigenpairs();
-     pairs && !pairs->complete && pairs->residuals.maxCoeff() > 1e-3)
+     pairs && !pairs->complete && pairs->residuals.size() != 0 && pairs->residuals.maxCoeff() > 1e-3)
     result.warnings.push_back(
         "The eigenpairs of the input did not reach their tolerance, the largest residual is " +
         std::to_string(pairs->residuals.maxCoeff()) +
