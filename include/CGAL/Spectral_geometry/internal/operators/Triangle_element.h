@@ -18,7 +18,7 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /// Of a triangle with the edges p, then q from where that ends, and `sum` = p + q: at each corner the product of the edges that leave it,
-/// and |p x q|^2. A `Number` is a double, or several for as many triangles (`Spectral_lanes`); edges are whatever has three coordinates.
+/// and |p x q|^2. A `Number` is a double; edges are whatever has three coordinates.
 template <class Number, class Edge, class Other_edge>
 CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, const Edge& sum,
                                             Number& at_start, Number& between, Number& at_end,
