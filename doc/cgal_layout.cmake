@@ -426,7 +426,7 @@ endfunction()
 
 set(titles_Spectral_geometry "Which mass, and why" "References")
 set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them"
-    "Choosing K and N" "Placements" "Relocation" "Control over a run" "What is guaranteed" "Design and implementation history")
+    "Choosing K and N" "Why a few random mixtures are enough" "Placements" "Relocation" "Control over a run" "What is guaranteed" "Design and implementation history")
 # The others are about the programs and their figures, or doc/cgal says it in fewer words.
 set(titles_left "Introduction" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators" "Python" "Performance"
                 "Large meshes" "Troubleshooting")

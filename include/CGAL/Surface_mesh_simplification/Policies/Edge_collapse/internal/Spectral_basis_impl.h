@@ -240,7 +240,7 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
 inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
                                           const Spectral_options& options,
                                           std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
-                                          const double area)
+                                          const double area, const Eigen::Index components)
 {
   Spectral_basis basis;
   Eigen::VectorXd weights = spectral_weights(options, pairs->size());
@@ -251,9 +251,11 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
      is_rounding(basis.sum_of_squares, weights.sum(), pairs->vectors.rows()))
     basis.sum_of_squares = 0;
   basis.rough = pairs_are_rough(residuals);
-  // What P carries over exactly, for every mesh, is nothing to look at: the constants of each component.
-  const Eigen::Index zeros = (std::min)(Spectral_geometry::number_of_zero_eigenvalues(op), pairs->size());
-  weights.head(zeros).setZero();
+  // P carries the constants of each component over exactly: they are nothing to look at. Where cotangents of 0 take a
+  // component apart, L has more functions of eigenvalue 0, and these cost something once triangles change.
+  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
+  if(zeros <= components)
+    weights.head((std::min)(zeros, pairs->size())).setZero();
   const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
   basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
   for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {
@@ -320,7 +322,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
       pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
           Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
     }
-    basis = basis_of_eigenpairs(op, options, pairs, area);
+    const std::vector<Eigen::Index> component =
+        Spectral_geometry::internal::connected_components(V.rows(), T);
+    basis = basis_of_eigenpairs(op, options, pairs, area,
+                                *std::max_element(component.begin(), component.end()) + 1);
   }
   basis.number_of_vertices = V.rows();
   basis.area = area;
