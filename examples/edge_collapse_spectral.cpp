@@ -34,9 +34,11 @@ try {
                          .visitor(spectral.visitor()));
   const auto P = spectral.restriction();
   //! [policies]
-  std::cout << "P, which takes functions to the coarse mesh, is " << P.rows() << " x " << P.cols() << '\n';
-  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
-                                                                                             : EXIT_FAILURE;
+  std::cout << "P, which takes functions to the coarse mesh, is " << P.rows() << " x " << P.cols()
+            << '\n';
+  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17))
+             ? EXIT_SUCCESS
+             : EXIT_FAILURE;
 } catch(const std::exception& error) {
   std::cerr << error.what() << '\n';
   return EXIT_FAILURE;

@@ -4,9 +4,10 @@
 
 // edge_collapse_spectral_attributes INPUT OUTPUT N
 //
-// Property maps of a `Surface_mesh` on the simplified mesh, by P: colours, normals, and of labels the one of most weight in a row. A
-// visitor that mixes the values of the two vertices at each collapse finds the same, P is the product of these steps: here it does so for
-// the normals, and both are compared. OUTPUT ends in .ply, which holds all of them.
+// Property maps of a `Surface_mesh` on the simplified mesh, by P: colours, normals, and of labels
+// the one of most weight in a row. A visitor that mixes the values of the two vertices at each
+// collapse finds the same, P is the product of these steps: here it does so for the normals, and
+// both are compared. OUTPUT ends in .ply, which holds all of them.
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/Polygon_mesh_processing/compute_normal.h>
@@ -36,7 +37,8 @@ using Vertex = Mesh::Vertex_index;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
 //! [visitor]
-// Mixes the vectors of the two ends of an edge by where on it the new vertex lies, as P does, while the mesh is collapsed.
+// Mixes the vectors of the two ends of an edge by where on it the new vertex lies, as P does, while
+// the mesh is collapsed.
 class Interpolating_visitor : public SMS::Edge_collapse_visitor_base<Mesh>
 {
 public:
@@ -51,7 +53,9 @@ public:
   {
     const Kernel::Vector_3 along = edge.p0() - edge.p1();
     const double length = along.squared_length();
-    const double alpha = !placement ? 0 : length > 0 ? (*placement - edge.p1()) * along / length : 0.5;
+    const double alpha = !placement   ? 0
+                         : length > 0 ? (*placement - edge.p1()) * along / length
+                                      : 0.5;
     const double weight = (std::min)((std::max)(alpha, 0.), 1.);
     m_mixed = (1 - weight) * m_map[edge.v1()] + weight * m_map[edge.v0()];
   }
@@ -72,10 +76,12 @@ int main(int argc, char* argv[])
 try {
   Mesh mesh;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], mesh)) {
-    std::cerr << "usage: edge_collapse_spectral_attributes INPUT OUTPUT.ply N, INPUT being a triangle mesh\n";
+    std::cerr << "usage: edge_collapse_spectral_attributes INPUT OUTPUT.ply N, INPUT being a "
+                 "triangle mesh\n";
     return EXIT_FAILURE;
   }
-  // What a mesh may have at its vertices; here it is made up: the colour by the normal, the label by the side of the plane x = y.
+  // What a mesh may have at its vertices; here it is made up: the colour by the normal, the label
+  // by the side of the plane x = y.
   auto colour = mesh.add_property_map<Vertex, CGAL::IO::Color>("v:color").first;
   auto normal = mesh.add_property_map<Vertex, Kernel::Vector_3>("v:normal").first;
   auto label = mesh.add_property_map<Vertex, int>("v:label").first;
@@ -98,7 +104,8 @@ try {
     mixed[v] = normal[v];
 
   //! [attributes]
-  Eigen::MatrixXd values(mesh.number_of_vertices(), 6); // in the order of vertices(mesh), as the columns of P
+  Eigen::MatrixXd values(mesh.number_of_vertices(),
+                         6); // in the order of vertices(mesh), as the columns of P
   std::vector<int> labels;
   for(const Vertex v : mesh.vertices()) {
     values.row(Eigen::Index(labels.size())) << colour[v].red(), colour[v].green(), colour[v].blue(),
@@ -107,7 +114,8 @@ try {
   }
 
   SMS::Spectral_policies spectral(mesh);
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(std::strtoul(argv[3], nullptr, 10), mesh),
+  SMS::edge_collapse(mesh,
+                     SMS::Vertex_count_stop_predicate(std::strtoul(argv[3], nullptr, 10), mesh),
                      CGAL::parameters::get_cost(spectral.get_cost())
                          .get_placement(spectral.get_placement())
                          .visitor(spectral.visitor(Interpolating_visitor(mixed))));
@@ -137,16 +145,20 @@ try {
     steps += std::abs(colour[v].red() - shade(normal[v]).red());
     right += label[v] == side(v);
     const auto c = carried.row(row++);
-    difference = (std::max)(difference, (Kernel::Vector_3(c[3], c[4], c[5]) - mixed[v]).squared_length());
+    difference =
+        (std::max)(difference, (Kernel::Vector_3(c[3], c[4], c[5]) - mixed[v]).squared_length());
   }
   const double N = double(mesh.number_of_vertices());
-  std::cout << N << " vertices; normals are " << degrees / N << " degrees from those of the faces, red is "
-            << steps / N << " of 255 from what the normal asks for, " << 100 * right / N
+  std::cout << N << " vertices; normals are " << degrees / N
+            << " degrees from those of the faces, red is " << steps / N
+            << " of 255 from what the normal asks for, " << 100 * right / N
             << " % of the labels are on their side\n"
-            << "normals of the visitor and of P differ by " << std::sqrt(difference) << " at most\n";
+            << "normals of the visitor and of P differ by " << std::sqrt(difference)
+            << " at most\n";
   mesh.remove_property_map(mixed);
-  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
-                                                                                             : EXIT_FAILURE;
+  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17))
+             ? EXIT_SUCCESS
+             : EXIT_FAILURE;
 } catch(const std::exception& error) {
   std::cerr << error.what() << '\n';
   return EXIT_FAILURE;

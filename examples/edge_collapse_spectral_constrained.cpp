@@ -4,8 +4,9 @@
 
 // edge_collapse_spectral_constrained INPUT OUTPUT N
 //
-// The spectral metric with two things that CGAL ships: edges sharper than 60 degrees and border edges stay as they are,
-// and no collapse turns a face over. The program says what could not be done for their sake.
+// The spectral metric with two things that CGAL ships: edges sharper than 60 degrees and border
+// edges stay as they are, and no collapse turns a face over. The program says what could not be
+// done for their sake.
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Simple_cartesian.h>
@@ -27,14 +28,17 @@ int main(int argc, char* argv[])
 try {
   Mesh mesh;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], mesh)) {
-    std::cerr << "usage: edge_collapse_spectral_constrained INPUT OUTPUT N, INPUT being a triangle mesh\n";
+    std::cerr << "usage: edge_collapse_spectral_constrained INPUT OUTPUT N, INPUT being a triangle "
+                 "mesh\n";
     return EXIT_FAILURE;
   }
-  auto is_constrained = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_constrained", false).first;
+  auto is_constrained =
+      mesh.add_property_map<Mesh::Edge_index, bool>("e:is_constrained", false).first;
   CGAL::Polygon_mesh_processing::detect_sharp_edges(mesh, 60, is_constrained);
   const auto count = [&] {
     const auto range = edges(mesh);
-    return std::count_if(range.begin(), range.end(), [&](Mesh::Edge_index e) { return is_constrained[e]; });
+    return std::count_if(range.begin(), range.end(),
+                         [&](Mesh::Edge_index e) { return is_constrained[e]; });
   };
   std::cout << count() << " edges are constrained\n";
 
@@ -47,11 +51,13 @@ try {
 
   std::cout << result.input_vertices << " -> " << result.output_vertices << " vertices, "
             << result.stop_reason_name() << "; " << result.refusals.filter
-            << " collapses were refused by the filter; " << count() << " constrained edges are left\n";
+            << " collapses were refused by the filter; " << count()
+            << " constrained edges are left\n";
   if(!result.explanation.empty())
     std::cout << result.explanation << '\n';
-  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
-                                                                                             : EXIT_FAILURE;
+  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17))
+             ? EXIT_SUCCESS
+             : EXIT_FAILURE;
 } catch(const std::exception& error) {
   std::cerr << error.what() << '\n';
   return EXIT_FAILURE;

@@ -4,7 +4,8 @@
 
 // edge_collapse_spectral_functions INPUT OUTPUT N
 //
-// Simplifies with one call, says how well the spectrum was kept, and carries a function to the coarse mesh and back.
+// Simplifies with one call, says how well the spectrum was kept, and carries a function to the
+// coarse mesh and back.
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
@@ -28,7 +29,8 @@ int main(int argc, char* argv[])
 try {
   Mesh fine;
   if(argc != 4 || !CGAL::IO::read_polygon_mesh(argv[1], fine)) {
-    std::cerr << "usage: edge_collapse_spectral_functions INPUT OUTPUT N, INPUT being a triangle mesh\n";
+    std::cerr
+        << "usage: edge_collapse_spectral_functions INPUT OUTPUT N, INPUT being a triangle mesh\n";
     return EXIT_FAILURE;
   }
   Mesh mesh = fine;
@@ -47,14 +49,15 @@ try {
   const SG::Laplace_operator coarse_operator = SG::cotangent_laplacian(mesh, options.mass);
   const SG::Eigenpairs fine_pairs = SG::eigenpairs(fine_operator, K);
   const SG::Eigenpairs coarse_pairs = SG::eigenpairs(coarse_operator, K + K / 10);
-  const SG::Spectral_evaluation evaluation =
-      SG::evaluate_spectrum(fine_operator, fine_pairs, coarse_operator, coarse_pairs, result.restriction, K);
-  std::cout << "|C|_L " << evaluation.norm_L << ", |C|_D " << evaluation.norm_D << ", eigenvalues off by "
-            << 100 * evaluation.errors.mean << " % in the mean\n";
+  const SG::Spectral_evaluation evaluation = SG::evaluate_spectrum(
+      fine_operator, fine_pairs, coarse_operator, coarse_pairs, result.restriction, K);
+  std::cout << "|C|_L " << evaluation.norm_L << ", |C|_D " << evaluation.norm_D
+            << ", eigenvalues off by " << 100 * evaluation.errors.mean << " % in the mean\n";
   //! [evaluate]
 
   //! [fit]
-  const SG::Eigenpairs more = SG::eigenpairs(fine_operator, K + K / 5); // the modes beyond K gain, too
+  const SG::Eigenpairs more =
+      SG::eigenpairs(fine_operator, K + K / 5); // the modes beyond K gain, too
   const SG::Operator_fit_result fit =
       SG::fit_operators(coarse_operator, result.restriction, fine_operator, more);
   const SG::Eigenpairs fitted_pairs = SG::eigenpairs(fit.op, K);
@@ -64,7 +67,8 @@ try {
   //! [fit]
 
   //! [transfer]
-  const SG::Mesh_matrices fine_matrices = SG::mesh_matrices(fine), coarse_matrices = SG::mesh_matrices(mesh);
+  const SG::Mesh_matrices fine_matrices = SG::mesh_matrices(fine),
+                          coarse_matrices = SG::mesh_matrices(mesh);
   const Eigen::VectorXd height = fine_matrices.V.col(2); // a function on the fine mesh
   const Eigen::VectorXd coarse_height = result.restriction * height;
   const Eigen::SparseMatrix<double> Q =
@@ -74,9 +78,11 @@ try {
   const Eigen::ArrayXd difference = (height_again - height).array();
   const double error = std::sqrt((fine_operator.mass.array() * difference.square()).sum() /
                                  (fine_operator.mass.array() * height.array().square()).sum());
-  std::cout << "the height, carried to the coarse mesh and back, is off by " << 100 * error << " %\n";
-  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17)) ? EXIT_SUCCESS
-                                                                                             : EXIT_FAILURE;
+  std::cout << "the height, carried to the coarse mesh and back, is off by " << 100 * error
+            << " %\n";
+  return CGAL::IO::write_polygon_mesh(argv[2], mesh, CGAL::parameters::stream_precision(17))
+             ? EXIT_SUCCESS
+             : EXIT_FAILURE;
 } catch(const std::exception& error) {
   std::cerr << error.what() << '\n';
   return EXIT_FAILURE;

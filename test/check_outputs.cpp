@@ -2,8 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// check_outputs FOLDER INPUT OUTPUT: reads what spectral_simplify wrote into FOLDER (P.mtx, Q.mtx, map.txt, out.json and
-// the folder pairs) and checks every definition. Prints the first that does not hold.
+// check_outputs FOLDER INPUT OUTPUT: reads what spectral_simplify wrote into FOLDER (P.mtx, Q.mtx,
+// map.txt, out.json and the folder pairs) and checks every definition. Prints the first that does
+// not hold.
 
 #include "io/input_mesh.h"
 
@@ -57,7 +58,8 @@ Sparse read_mtx(const std::string& path)
             path + " has indices in range and no zeros");
     triplets.emplace_back(i - 1, j - 1, x);
   }
-  require(static_cast<Eigen::Index>(triplets.size()) == entries, path + " has as many entries as announced");
+  require(static_cast<Eigen::Index>(triplets.size()) == entries,
+          path + " has as many entries as announced");
   Sparse matrix(rows, columns);
   matrix.setFromTriplets(triplets.begin(), triplets.end());
   require(matrix.nonZeros() == entries, path + " names no entry twice");
@@ -78,9 +80,11 @@ Dense read_npy(const std::string& path)
           path + " has a shape");
   require(header.find("'<f8'") != std::string::npos && header.find("True") != std::string::npos,
           path + " holds little-endian doubles by columns");
-  const Eigen::Index rows = std::stol(shape[1]), columns = shape[2].matched ? std::stol(shape[2]) : 1;
+  const Eigen::Index rows = std::stol(shape[1]),
+                     columns = shape[2].matched ? std::stol(shape[2]) : 1;
   require(bytes.size() == 10 + length + sizeof(double) * rows * columns, path + " is complete");
-  return Eigen::Map<const Dense>(reinterpret_cast<const double*>(bytes.data() + 10 + length), rows, columns);
+  return Eigen::Map<const Dense>(reinterpret_cast<const double*>(bytes.data() + 10 + length), rows,
+                                 columns);
 }
 
 Dense positions(const Mesh& mesh)
@@ -91,26 +95,29 @@ Dense positions(const Mesh& mesh)
   return V;
 }
 
-// By what the JSON file says of the run: P of the collapses, or of the closest points after a relocation.
+// By what the JSON file says of the run: P of the collapses, or of the closest points after a
+// relocation.
 bool carries(const nlohmann::json& json)
 {
   return json.at("relocation").is_null() || json["relocation"].at("signals") != "sampled";
 }
 
-void check_restriction(const Sparse& P, const Dense& fine, const Dense& coarse, const nlohmann::json& json)
+void check_restriction(const Sparse& P, const Dense& fine, const Dense& coarse,
+                       const nlohmann::json& json)
 {
   const bool binary = json.at("binary"),
              on_edges = json.at("placement") != "free" && json.at("relocation").is_null();
   require(P.rows() == coarse.rows() && P.cols() == fine.rows(), "P is coarse x fine");
-  require_small((P * Eigen::VectorXd::Ones(P.cols()) - Eigen::VectorXd::Ones(P.rows())).cwiseAbs().maxCoeff(),
-                1e-12, "the rows of P sum to 1");
+  require_small(
+      (P * Eigen::VectorXd::Ones(P.cols()) - Eigen::VectorXd::Ones(P.rows())).cwiseAbs().maxCoeff(),
+      1e-12, "the rows of P sum to 1");
   for(Eigen::Index column = 0; carries(json) && column < P.cols(); ++column)
     require(P.outerIndexPtr()[column + 1] - P.outerIndexPtr()[column] <= 1,
             "a column of P has at most one nonzero");
   if(binary)
     require(P.nonZeros() == P.rows(), "a binary P has one 1 in each row");
-  // Also shows that the rows have OUTPUT's order and the columns INPUT's. Rounded weights do not move positions, and a
-  // free placement leaves the edge by less than its length.
+  // Also shows that the rows have OUTPUT's order and the columns INPUT's. Rounded weights do not
+  // move positions, and a free placement leaves the edge by less than its length.
   if(on_edges && !binary)
     require_small((P * fine - coarse).cwiseAbs().maxCoeff(), 1e-9,
                   "P times the fine positions are the coarse ones");
@@ -146,8 +153,8 @@ struct Spectrum
     const Dense gram = vectors.transpose() * B * vectors;
     require_small((gram - Dense::Identity(gram.rows(), gram.cols())).norm(), 1e-8,
                   mesh + " eigenvectors are orthonormal");
-    require_small((L * vectors - B * vectors * values.asDiagonal()).norm(), 1e-5 * (L * vectors).norm(),
-                  mesh + " eigenpairs solve L phi = lambda B phi");
+    require_small((L * vectors - B * vectors * values.asDiagonal()).norm(),
+                  1e-5 * (L * vectors).norm(), mesh + " eigenpairs solve L phi = lambda B phi");
   }
 
   double area() const { return Sparse(B).sum(); }
@@ -180,28 +187,33 @@ void check_spectra(const std::string& folder, const Sparse& P, const nlohmann::j
   double sum = 0, low = 0, largest = 0;
   const Eigen::Index last_low = fine.values.size() / 5; // modes 2..K/5
   for(Eigen::Index k = 1; k < fine.values.size(); ++k) {
-    const double error = std::abs(coarse_area * coarse.values[k] / (fine_area * fine.values[k]) - 1);
+    const double error =
+        std::abs(coarse_area * coarse.values[k] / (fine_area * fine.values[k]) - 1);
     sum += error;
     low += k < last_low ? error : 0;
     largest = (std::max)(largest, error);
   }
-  require_small(std::abs(sum / (fine.values.size() - 1) / json.at("eigenvalue_error_mean").get<double>() - 1),
-                1e-8, "eigenvalue_error_mean follows from the files");
-  require_small(std::abs(low / (last_low - 1) / json.at("eigenvalue_error_low_mean").get<double>() - 1), 1e-8,
-                "eigenvalue_error_low_mean follows from the files");
+  require_small(
+      std::abs(sum / (fine.values.size() - 1) / json.at("eigenvalue_error_mean").get<double>() - 1),
+      1e-8, "eigenvalue_error_mean follows from the files");
+  require_small(
+      std::abs(low / (last_low - 1) / json.at("eigenvalue_error_low_mean").get<double>() - 1), 1e-8,
+      "eigenvalue_error_low_mean follows from the files");
   require_small(std::abs(largest / json.at("eigenvalue_error_max").get<double>() - 1), 1e-8,
                 "eigenvalue_error_max follows from the files");
 }
 
 void check_json(const nlohmann::json& json)
 {
-  for(const char* name : {"input_vertices", "output_vertices", "eigenvectors", "norm_L", "norm_D",
-                          "norm_L_input_scale", "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio",
-                          "seconds_eigenpairs", "seconds_collapse", "seconds_evaluation", "seconds_total"})
+  for(const char* name :
+      {"input_vertices", "output_vertices", "eigenvectors", "norm_L", "norm_D",
+       "norm_L_input_scale", "eigenvalue_error_mean", "eigenvalue_error_max", "area_ratio",
+       "seconds_eigenpairs", "seconds_collapse", "seconds_evaluation", "seconds_total"})
     require(json.contains(name) && json[name].is_number(),
             std::string(name) + " is a number in the JSON file");
   for(const char* name : {"mass", "stop_reason"})
-    require(json.contains(name) && json[name].is_string(), std::string(name) + " is a text in the JSON file");
+    require(json.contains(name) && json[name].is_string(),
+            std::string(name) + " is a text in the JSON file");
 }
 
 } // namespace
@@ -221,9 +233,10 @@ int main(int argc, char* argv[])
     check_restriction(P, fine, coarse, json);
     check_map(folder + "/map.txt", P, carries(json));
     require(Q.rows() == P.cols() && Q.cols() == P.rows(), "Q is fine x coarse");
-    require_small(
-        (Q * Eigen::VectorXd::Ones(Q.cols()) - Eigen::VectorXd::Ones(Q.rows())).cwiseAbs().maxCoeff(), 1e-12,
-        "the rows of Q sum to 1");
+    require_small((Q * Eigen::VectorXd::Ones(Q.cols()) - Eigen::VectorXd::Ones(Q.rows()))
+                      .cwiseAbs()
+                      .maxCoeff(),
+                  1e-12, "the rows of Q sum to 1");
     check_spectra(folder + "/pairs", P, json);
     return 0;
   } catch(const std::exception& error) {

@@ -71,7 +71,8 @@ inline Core make_core(const Slow_mesh& mesh, const Basis& basis,
   return make_core(mesh, core_basis(basis), basis.local, parameters, largest_degree_of_others);
 }
 
-inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Sample& c, const bool keep_first)
+inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Sample& c,
+                   const bool keep_first)
 {
   const int kept = keep_first ? e.first : e.second, removed = keep_first ? e.second : e.first;
   const double weight = keep_first ? c.weight : 1 - c.weight;
@@ -79,7 +80,8 @@ inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Sample& c, 
   core.commit(Slot(removed), Slot(kept), weight, c.point, mesh.ring(kept));
 }
 
-// Collapses `count` edges, each the cheapest of a few drawn at random, in the core and in the slow mesh alike.
+// Collapses `count` edges, each the cheapest of a few drawn at random, in the core and in the slow
+// mesh alike.
 inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& random)
 {
   int done = 0;
@@ -103,14 +105,16 @@ inline int simplify(Core& core, Slow_mesh& mesh, const int count, std::mt19937& 
   return done;
 }
 
-// The largest difference of fast and slow cost, and of the change whatever arises, over some edges of each kind, at points on and off the edge.
+// The largest difference of fast and slow cost, and of the change whatever arises, over some edges
+// of each kind, at points on and off the edge.
 struct Comparison
 {
   double worst = 0;
   int counts[number_of_kinds] = {};
 };
 
-inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per_kind, std::mt19937& random)
+inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per_kind,
+                                std::mt19937& random)
 {
   Comparison result;
   const std::map<Edge, int> faces = mesh.edges();
@@ -128,11 +132,12 @@ inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per
     for(const double alpha : {0., 0.5, 1., (random() % 1000) / 1000., -0.2, 0.7}) {
       Eigen::Vector3d point = on_edge(mesh, e, alpha);
       if(alpha == -0.2 || alpha == 0.7) // off the edge
-        point +=
-            0.3 * length * Eigen::Vector3d(std::sin(double(u)), std::cos(double(v)), std::sin(double(u + v)));
+        point += 0.3 * length *
+                 Eigen::Vector3d(std::sin(double(u)), std::cos(double(v)), std::sin(double(u + v)));
       const Eigen::Vector3d uv = on_edge(mesh, e, 1) - on_edge(mesh, e, 0);
       const double projection = (point - on_edge(mesh, e, 0)).dot(uv) / uv.squaredNorm();
-      const bool zero_u = mesh.vanishes_at(e.first, faces), zero_v = mesh.vanishes_at(e.second, faces);
+      const bool zero_u = mesh.vanishes_at(e.first, faces),
+                 zero_v = mesh.vanishes_at(e.second, faces);
       const double weight =
           zero_u != zero_v ? (zero_u ? 0. : 1.) : (std::min)(1., (std::max)(0., projection));
       const double slow = valid ? mesh.energy_after(e, weight, point) - before : infinity;
@@ -142,7 +147,8 @@ inline Comparison compare_costs(Core& core, const Slow_mesh& mesh, const int per
       else if(std::isfinite(slow)) {
         const double whole = core.change_at(u, v, weight, point);
         for(const double cost : {fast, whole})
-          result.worst = (std::max)(result.worst, std::abs(cost - slow) / (std::abs(slow) + before));
+          result.worst =
+              (std::max)(result.worst, std::abs(cost - slow) / (std::abs(slow) + before));
       }
     }
   }

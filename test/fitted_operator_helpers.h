@@ -35,8 +35,9 @@ inline std::vector<Eigen::Index> components_of_graph(const Eigen::SparseMatrix<d
   return result;
 }
 
-// What must hold for whatever was fitted to replace `own`, by dense solves; empty if it does. Rows and columns are divided by the roots
-// of the diagonal, which changes neither signs nor the number of zeros and keeps needles out of the rounding.
+// What must hold for whatever was fitted to replace `own`, by dense solves; empty if it does. Rows
+// and columns are divided by the roots of the diagonal, which changes neither signs nor the number
+// of zeros and keeps needles out of the rounding.
 inline std::string fault_of_fit(const CGAL::Spectral_geometry::Operator_fit_result& result,
                                 const CGAL::Spectral_geometry::Laplace_operator& own)
 {
@@ -70,7 +71,8 @@ inline std::string fault_of_fit(const CGAL::Spectral_geometry::Operator_fit_resu
   for(Eigen::Index c = 0; c < before.size(); ++c) {
     components += before(c) > 0.;
     if(!(std::abs(after(c) - before(c)) <= 1e-12 * before(c)))
-      return "the mass of a component is " + std::to_string(after(c) / before(c)) + " times what it was";
+      return "the mass of a component is " + std::to_string(after(c) / before(c)) +
+             " times what it was";
   }
   const auto eigenvalues = [](const Eigen::MatrixXd& A) -> Eigen::ArrayXd {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
@@ -82,7 +84,8 @@ inline std::string fault_of_fit(const CGAL::Spectral_geometry::Operator_fit_resu
   const Eigen::ArrayXd modes = eigenvalues(l);
   if(!(modes(0) >= -rounding) || (modes <= rounding).count() != components)
     return "L has " + std::to_string((modes <= rounding).count()) + " zeros, the first is " +
-           std::to_string(modes(0)) + ", and the graph " + std::to_string(components) + " components";
+           std::to_string(modes(0)) + ", and the graph " + std::to_string(components) +
+           " components";
   return "";
 }
 

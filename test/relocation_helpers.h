@@ -57,7 +57,8 @@ inline const Simplified_mesh& open_example()
   return s;
 }
 
-inline Eigen::Vector3d normal(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
+inline Eigen::Vector3d normal(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                              const Eigen::Index f)
 {
   const Eigen::Vector3d a = V.row(T(f, 1)) - V.row(T(f, 0)), b = V.row(T(f, 2)) - V.row(T(f, 0));
   return a.cross(b).normalized();

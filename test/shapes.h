@@ -19,7 +19,8 @@
 #include <utility>
 #include <vector>
 
-// Meshes with known geometry, as matrices (..._matrices()) and in any MutableFaceGraph (make_...()).
+// Meshes with known geometry, as matrices (..._matrices()) and in any MutableFaceGraph
+// (make_...()).
 namespace shapes {
 
 using Matrices = CGAL::Spectral_geometry::Mesh_matrices;
@@ -58,17 +59,18 @@ inline Matrices tetrahedron_matrices()
                   {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
 }
 
-// An icosahedron whose faces are split into four `subdivisions` times, on the sphere: 10 * 4^subdivisions + 2 vertices.
+// An icosahedron whose faces are split into four `subdivisions` times, on the sphere: 10 *
+// 4^subdivisions + 2 vertices.
 inline Matrices icosphere_matrices(int subdivisions, double radius = 1.)
 {
   const double g = 0.5 * (1. + std::sqrt(5.));
   std::vector<Eigen::Vector3d> points = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},
                                          {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g},
                                          {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
-  std::vector<Eigen::Vector3i> triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
-                                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
-                                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
+  std::vector<Eigen::Vector3i> triangles = {
+      {0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
   for(; subdivisions > 0; --subdivisions) {
     std::map<std::pair<int, int>, int> midpoints;
     const auto midpoint = [&](int i, int j) {
@@ -94,14 +96,16 @@ inline Matrices pebble_matrices(Matrices sphere)
 {
   for(Eigen::Index i = 0; i < sphere.V.rows(); ++i) {
     const Eigen::Vector3d d = sphere.V.row(i).transpose().normalized();
-    sphere.V.row(i) = Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
-                      (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3) +
-                       0.08 * std::sin(5 * d.z() + 2 * d.x() + 0.5));
+    sphere.V.row(i) =
+        Eigen::RowVector3d(1.5 * d.x(), 1.1 * d.y(), 0.8 * d.z()) *
+        (1 + 0.15 * std::sin(3 * d.x() + 1) + 0.1 * std::cos(4 * d.y() + d.z() - 0.3) +
+         0.08 * std::sin(5 * d.z() + 2 * d.x() + 0.5));
   }
   return sphere;
 }
 
-// A closed shape without symmetry, star-shaped: five limbs and waves of three lengths on an icosphere.
+// A closed shape without symmetry, star-shaped: five limbs and waves of three lengths on an
+// icosphere.
 inline Matrices bumpy_icosphere_matrices(int subdivisions)
 {
   const Eigen::Vector3d limbs[] = {
@@ -120,8 +124,9 @@ inline Matrices bumpy_icosphere_matrices(int subdivisions)
   return result;
 }
 
-// A closed surface of revolution, bent: rings of `around` vertices along a body that ends in a thin limb, folded back beside
-// itself at a tenth of its length, or at twice `bend`: its radius is 0.055. Little of the spectrum lives on the limb.
+// A closed surface of revolution, bent: rings of `around` vertices along a body that ends in a thin
+// limb, folded back beside itself at a tenth of its length, or at twice `bend`: its radius is
+// 0.055. Little of the spectrum lives on the limb.
 inline Matrices folded_limb_matrices(int along, int around, double bend = 0.14)
 {
   constexpr double pi = 3.14159265358979323846, leg = 1.2, body = 0.9;
@@ -131,7 +136,8 @@ inline Matrices folded_limb_matrices(int along, int around, double bend = 0.14)
   const auto ring = [&](int i, int j) { return i * around + (j + around) % around; };
   for(int i = 0; i < along; ++i) {
     const double s = length * (i + 0.5) / along; // along the centre
-    double r = 0.055 * std::sqrt((std::min)(1., (length - s) / 0.055)) * (1 + 0.1 * std::sin(9 * s));
+    double r =
+        0.055 * std::sqrt((std::min)(1., (length - s) / 0.055)) * (1 + 0.1 * std::sin(9 * s));
     if(s < body)
       r = (std::max)(r, 0.42 * std::sqrt((std::max)(0., 1 - std::pow(2 * s / body - 1, 2))));
     Eigen::Vector3d centre(0, 0, -s), across(1, 0, 0);
@@ -142,11 +148,13 @@ inline Matrices folded_limb_matrices(int along, int around, double bend = 0.14)
     } else if(t > 0) {
       const double angle = t / bend;
       across = Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
-      centre = Eigen::Vector3d(bend - bend * std::cos(angle), 0, -body - leg - bend * std::sin(angle));
+      centre =
+          Eigen::Vector3d(bend - bend * std::cos(angle), 0, -body - leg - bend * std::sin(angle));
     }
     for(int j = 0; j < around; ++j) {
       const double angle = 2 * pi * (j + 0.5 * (i % 2)) / around;
-      points.push_back(centre + r * (std::cos(angle) * across + std::sin(angle) * Eigen::Vector3d(0, 1, 0)));
+      points.push_back(centre +
+                       r * (std::cos(angle) * across + std::sin(angle) * Eigen::Vector3d(0, 1, 0)));
     }
     for(int j = 0; i > 0 && j < around; ++j) {
       const int shift = i % 2; // rows are half a step apart
@@ -174,7 +182,8 @@ inline Matrices thin_bowl_matrices(int subdivisions)
   Matrices result = icosphere_matrices(subdivisions);
   for(Eigen::Index i = 0; i < result.V.rows(); ++i) {
     const double x = result.V(i, 0), y = result.V(i, 1);
-    result.V(i, 2) = 0.02 * result.V(i, 2) + 0.7 * (x * x + y * y) + 0.05 * std::sin(5 * x) * std::cos(4 * y);
+    result.V(i, 2) =
+        0.02 * result.V(i, 2) + 0.7 * (x * x + y * y) + 0.05 * std::sin(5 * x) * std::cos(4 * y);
   }
   return result;
 }
@@ -249,14 +258,16 @@ inline Matrices disc_matrices(int d)
   std::vector<Eigen::Vector3d> points = {{0, 0, 0.1}};
   std::vector<Eigen::Vector3i> triangles;
   for(int i = 0; i < d; ++i) {
-    const double a = 2. * pi * i / d, r = 1. + 0.1 * std::cos(5. * a) + 0.02 * std::sin(17. * a + 1.);
+    const double a = 2. * pi * i / d,
+                 r = 1. + 0.1 * std::cos(5. * a) + 0.02 * std::sin(17. * a + 1.);
     points.emplace_back(r * std::cos(a), r * std::sin(a), 0.05 * std::sin(3. * a));
     triangles.emplace_back(0, 1 + i, 1 + (i + 1) % d);
   }
   return matrices(points, triangles);
 }
 
-// A closed gear: a cylinder of `rings` rings of d vertices; the centres of its two caps, the last vertices, have d neighbours.
+// A closed gear: a cylinder of `rings` rings of d vertices; the centres of its two caps, the last
+// vertices, have d neighbours.
 inline Matrices gear_matrices(int d, int rings)
 {
   std::vector<Eigen::Vector3d> points;
@@ -309,7 +320,8 @@ void make_mesh(Mesh& mesh, const Matrices& from)
     put(points, vertex.back(), Point(from.V(i, 0), from.V(i, 1), from.V(i, 2)));
   }
   for(Eigen::Index f = 0; f < from.T.rows(); ++f) {
-    const std::vector<Vertex> corners = {vertex[from.T(f, 0)], vertex[from.T(f, 1)], vertex[from.T(f, 2)]};
+    const std::vector<Vertex> corners = {vertex[from.T(f, 0)], vertex[from.T(f, 1)],
+                                         vertex[from.T(f, 2)]};
     CGAL::Euler::add_face(corners, mesh);
   }
 }

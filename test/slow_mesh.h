@@ -41,11 +41,15 @@ public:
       triangles.push_back(mesh.T.row(f));
   }
 
-  static bool contains(const Eigen::Vector3i& t, const int v) { return t(0) == v || t(1) == v || t(2) == v; }
+  static bool contains(const Eigen::Vector3i& t, const int v)
+  {
+    return t(0) == v || t(1) == v || t(2) == v;
+  }
 
   bool alive(const int v) const
   {
-    return std::any_of(triangles.begin(), triangles.end(), [v](const auto& t) { return contains(t, v); });
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [v](const auto& t) { return contains(t, v); });
   }
 
   // Each edge with the number of its faces.
@@ -190,7 +194,8 @@ public:
 
   double energy() const { return vertex_energies().sum(); }
 
-  // Collapsing to a point with a weight of `e.second`: E afterwards. Infinite where a vertex loses its last face.
+  // Collapsing to a point with a weight of `e.second`: E afterwards. Infinite where a vertex loses
+  // its last face.
   double energy_after(const Edge& e, const double weight, const Eigen::Vector3d& point) const
   {
     Slow_mesh after = *this;

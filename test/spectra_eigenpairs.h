@@ -20,13 +20,15 @@
 #include <cmath>
 #include <stdexcept>
 
-// The independent reference for eigenpairs(), in the tests and in the benchmark: Spectra's implicitly restarted Lanczos method.
+// The independent reference for eigenpairs(), in the tests and in the benchmark: Spectra's
+// implicitly restarted Lanczos method.
 namespace reference {
 
 namespace SG = CGAL::Spectral_geometry;
 
-// Spectra's operators, without unit, since Spectra compares with absolute thresholds: the inner product is s B, the operator
-// S = s (L + s B)^-1 B with eigenvalues s / (lambda + s) in ]0, 1], 1 for the kernel.
+// Spectra's operators, without unit, since Spectra compares with absolute thresholds: the inner
+// product is s B, the operator S = s (L + s B)^-1 B with eigenvalues s / (lambda + s) in ]0, 1], 1
+// for the kernel.
 class Scaled_mass
 {
 public:
@@ -61,7 +63,8 @@ public:
   void set_shift(double) {} // factorised beforehand
   void perform_op(const double* x, double* y) const
   {
-    Eigen::Map<Eigen::VectorXd>(y, m_size) = m_cholesky.solve(Eigen::Map<const Eigen::VectorXd>(x, m_size));
+    Eigen::Map<Eigen::VectorXd>(y, m_size) =
+        m_cholesky.solve(Eigen::Map<const Eigen::VectorXd>(x, m_size));
   }
 
 private:
@@ -88,7 +91,8 @@ inline SG::Eigenpairs spectra_eigenpairs(const SG::Laplace_operator& op, const E
   if(solver.info() != Spectra::CompInfo::Successful)
     throw std::runtime_error("Spectra did not converge.");
   SG::Eigenpairs result;
-  result.values = (s * (solver.eigenvalues().array() - 1.)).max(0.); // Spectra's are (lambda + s) / s
+  result.values =
+      (s * (solver.eigenvalues().array() - 1.)).max(0.); // Spectra's are (lambda + s) / s
   result.vectors = std::sqrt(s) * solver.eigenvectors(K);
   result.residuals = problem.residuals(result);
   return result;

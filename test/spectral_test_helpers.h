@@ -64,7 +64,8 @@ inline Basis basis_of_pairs(const SG::Laplace_operator& op, const SG::Eigenpairs
   return basis_of_pairs(op, pairs, op.theta);
 }
 
-inline Basis eigenbasis(const shapes::Matrices& mesh, const SG::Local_operator& local, const Eigen::Index K)
+inline Basis eigenbasis(const shapes::Matrices& mesh, const SG::Local_operator& local,
+                        const Eigen::Index K)
 {
   const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, local);
   return basis_of_pairs(op, SG::eigenpairs(op, K), local);
@@ -79,7 +80,8 @@ inline Basis signal_basis(const shapes::Matrices& mesh, const SG::Local_operator
   basis.local = local;
   basis.area = op.mass.sum();
   basis.F = signals;
-  basis.Z = basis.area * Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(op.B).solve(op.L * signals);
+  basis.Z =
+      basis.area * Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(op.B).solve(op.L * signals);
   return basis;
 }
 
@@ -90,28 +92,33 @@ inline Eigen::MatrixXd rough_signals(const shapes::Matrices& mesh, const Eigen::
   for(Eigen::Index v = 0; v < F.rows(); ++v)
     for(Eigen::Index k = 0; k < K; ++k)
       F(v, k) = k == 0 ? std::sin(12.9898 * double(v))
-                       : std::sin(mesh.V.row(v).dot(
-                             Eigen::RowVector3d(double(k), 1. + 0.7 * double(k % 3), 0.4 * double(k))));
+                       : std::sin(mesh.V.row(v).dot(Eigen::RowVector3d(
+                             double(k), 1. + 0.7 * double(k % 3), 0.4 * double(k))));
   return F;
 }
 
-// E_w = || (B P Z)_w - (L P F)_w ||^2 / M_w of every vertex w of a mesh, from its assembled matrices (Eq. 2).
+// E_w = || (B P Z)_w - (L P F)_w ||^2 / M_w of every vertex w of a mesh, from its assembled
+// matrices (Eq. 2).
 inline Eigen::VectorXd energies(const shapes::Matrices& mesh, const SG::Local_operator& local,
-                                const double input_area, const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ)
+                                const double input_area, const Eigen::MatrixXd& PF,
+                                const Eigen::MatrixXd& PZ)
 {
-  const SG::Laplace_operator op = SG::laplace_operator(mesh.V / std::sqrt(input_area), mesh.T, local);
+  const SG::Laplace_operator op =
+      SG::laplace_operator(mesh.V / std::sqrt(input_area), mesh.T, local);
   const Eigen::MatrixXd R = op.B * PZ - op.L * PF;
   return R.rowwise().squaredNorm().cwiseQuotient(op.mass);
 }
 
-inline double energy(const shapes::Matrices& mesh, const Basis& basis, const Eigen::SparseMatrix<double>& P)
+inline double energy(const shapes::Matrices& mesh, const Basis& basis,
+                     const Eigen::SparseMatrix<double>& P)
 {
   return energies(mesh, basis.local.restricted(P), basis.area, P * basis.F, P * basis.Z).sum();
 }
 
 // What is wrong with a restriction and its vertex map; empty if nothing is.
 inline std::string fault_of_restriction(const Eigen::SparseMatrix<double>& P,
-                                        const std::vector<std::size_t>& map, const bool binary = false)
+                                        const std::vector<std::size_t>& map,
+                                        const bool binary = false)
 {
   const auto at = [](const Eigen::Index i) { return " " + std::to_string(i); };
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(P.rows());

@@ -41,7 +41,8 @@ shapes::Matrices bent(shapes::Matrices mesh)
 {
   for(Index i = 0; i < mesh.V.rows(); ++i) {
     const double angle = 0.2 * mesh.V(i, 0), radius = 5 - mesh.V(i, 1);
-    mesh.V.row(i) = Eigen::RowVector3d(mesh.V(i, 2), radius * std::sin(angle), 5 - radius * std::cos(angle));
+    mesh.V.row(i) =
+        Eigen::RowVector3d(mesh.V(i, 2), radius * std::sin(angle), 5 - radius * std::cos(angle));
   }
   return mesh;
 }
@@ -80,7 +81,8 @@ double roughness(const shapes::Matrices& from, const shapes::Matrices& to, const
       const int u = from.T(t, k), v = from.T(t, (k + 1) % 3);
       before += (from.V.row(u) - from.V.row(v)).norm();
       after +=
-          (to.V.row(map[static_cast<std::size_t>(u)]) - to.V.row(map[static_cast<std::size_t>(v)])).norm();
+          (to.V.row(map[static_cast<std::size_t>(u)]) - to.V.row(map[static_cast<std::size_t>(v)]))
+              .norm();
     }
   return after / before;
 }

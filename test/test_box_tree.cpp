@@ -38,7 +38,8 @@ TEST_CASE("A tree of boxes finds what looking at all of them finds, while they c
   const auto draw = [&] {
     const Eigen::Vector3d p(uniform(random), uniform(random), uniform(random));
     // far apart in size
-    return Box(p, p + std::pow(10., -6 * uniform(random)) * Eigen::Vector3d(uniform(random), 0.3, 0.1));
+    return Box(p, p + std::pow(10., -6 * uniform(random)) *
+                          Eigen::Vector3d(uniform(random), 0.3, 0.1));
   };
   for(const std::size_t n : {std::size_t(0), std::size_t(1), std::size_t(2), std::size_t(700)}) {
     std::vector<Box> boxes(n);

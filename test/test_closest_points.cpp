@@ -26,7 +26,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 namespace {
 
 // The closest point of a triangle by the regions of its plane (Ericson 2005, section 5.1.5).
-Vector3d closest_by_regions(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector3d& c)
+Vector3d closest_by_regions(const Vector3d& p, const Vector3d& a, const Vector3d& b,
+                            const Vector3d& c)
 {
   const Vector3d ab = b - a, ac = c - a;
   const double d1 = ab.dot(p - a), d2 = ac.dot(p - a), d3 = ab.dot(p - b), d4 = ac.dot(p - b),
@@ -104,24 +105,26 @@ TEST_CASE("interpolation of a linear function at points of a plane surface is ex
 TEST_CASE("faces without area count as their edges")
 {
   // a segment, a point and a proper triangle; then the segment alone
-  shapes::Matrices surface =
-      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {0, 5, 0}, {1, 5, 0}, {0, 6, 0}},
-                       {{0, 1, 2}, {3, 3, 3}, {4, 5, 6}});
-  MatrixXd points(5, 3), expected(5, 3); // the last is next to the edge from the third corner to the first
+  shapes::Matrices surface = shapes::matrices(
+      {{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {9, 9, 9}, {0, 5, 0}, {1, 5, 0}, {0, 6, 0}},
+      {{0, 1, 2}, {3, 3, 3}, {4, 5, 6}});
+  MatrixXd points(5, 3),
+      expected(5, 3); // the last is next to the edge from the third corner to the first
   points << 2, 1, 1, -1, 0, 0, 9, 10, 9, 0.25, 5.25, 4, -1, 5.5, 0;
   expected << 2, 0, 0, 0, 0, 0, 9, 9, 9, 0.25, 5.25, 0, 0, 5.5, 0;
   const Sparse W = SG::closest_point_interpolation(points, surface);
   check_interpolation(W);
   CHECK((W * surface.V - expected).cwiseAbs().maxCoeff() < 1e-14);
   surface.T = surface.T.topRows(1).eval();
-  CHECK(
-      (SG::closest_point_interpolation(points.topRows(1), surface) * surface.V - expected.topRows(1)).norm() <
-      1e-14);
+  CHECK((SG::closest_point_interpolation(points.topRows(1), surface) * surface.V -
+         expected.topRows(1))
+            .norm() < 1e-14);
 }
 
 TEST_CASE("closest point of a needle lies on the needle")
 {
-  // The normal of a needle of width 1e-13 is rounding: a projection along it lands anywhere in space.
+  // The normal of a needle of width 1e-13 is rounding: a projection along it lands anywhere in
+  // space.
   const shapes::Matrices surface =
       shapes::matrices({{0.1, 0.2, 0.3}, {1.1, 1.3, 0.9}, {0.6, 0.75 + 1e-13, 0.6}}, {{0, 1, 2}});
   const MatrixXd points = random_points(100, 2., 1);
@@ -130,7 +133,8 @@ TEST_CASE("closest point of a needle lies on the needle")
     const Vector3d a = surface.V.row(0), b = surface.V.row(1), p = points.row(i);
     const double s = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.);
     CHECK((found.row(i).transpose() - a - s * (b - a)).norm() < 1e-7);
-    CHECK((found.row(i).transpose() - p).norm() == Approx((a + s * (b - a) - p).norm()).epsilon(1e-12));
+    CHECK((found.row(i).transpose() - p).norm() ==
+          Approx((a + s * (b - a) - p).norm()).epsilon(1e-12));
   }
 }
 
@@ -210,10 +214,11 @@ TEST_CASE("meshes without a row that strays keep their closest points")
                          coarse = shapes::bumpy_icosphere_matrices(2);
   const Sparse plain = SG::closest_point_interpolation(coarse.V, fine);
   CHECK((SG::closest_point_restriction(coarse, fine) - plain).norm() == 0);
-  CHECK(
-      (SG::closest_point_prolongation(fine, coarse, plain) - SG::closest_point_interpolation(fine.V, coarse))
-          .norm() < 1e-12);
-  CHECK_THROWS_WITH(SG::closest_point_prolongation(coarse, fine, plain), ContainsSubstring("coarse x fine"));
+  CHECK((SG::closest_point_prolongation(fine, coarse, plain) -
+         SG::closest_point_interpolation(fine.V, coarse))
+            .norm() < 1e-12);
+  CHECK_THROWS_WITH(SG::closest_point_prolongation(coarse, fine, plain),
+                    ContainsSubstring("coarse x fine"));
 }
 
 TEST_CASE("a fine surface in unwelded patches tears no edge of the coarse mesh")
@@ -226,7 +231,8 @@ TEST_CASE("a fine surface in unwelded patches tears no edge of the coarse mesh")
       soup.V.row(3 * f + k) = welded.V.row(welded.T(f, k));
       soup.T(f, k) = int(3 * f + k);
     }
-  CHECK(SG::rows_off_their_part(coarse, soup, SG::closest_point_interpolation(coarse.V, soup)).empty());
+  CHECK(SG::rows_off_their_part(coarse, soup, SG::closest_point_interpolation(coarse.V, soup))
+            .empty());
 }
 
 } // namespace test_closest_points

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How the policies live inside CGAL's loop: visitors, misuse, exceptions, several runs, difficult edges.
+// How the policies live inside CGAL's loop: visitors, misuse, exceptions, several runs, difficult
+// edges.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
@@ -131,7 +132,8 @@ int collapse_without_visitor(Mesh& mesh, const Policies& policies)
       CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
 }
 
-// At every collapse: the edges whose costs CGAL has asked for in either direction. After the run: what differed.
+// At every collapse: the edges whose costs CGAL has asked for in either direction. After the run:
+// what differed.
 struct Direction_probe : SMS::internal::Dummy_visitor
 {
   explicit Direction_probe(const Policies& p)
@@ -179,8 +181,8 @@ struct Border_probe : SMS::internal::Dummy_visitor
   int one_border = 0, kept = 0;
 };
 
-// CGAL does not cost edges again after it has merged the ends of an edge without length: what was known of the edges there
-// must be forgotten.
+// CGAL does not cost edges again after it has merged the ends of an edge without length: what was
+// known of the edges there must be forgotten.
 bool costs_at_merged_vertices_are_forgotten(const Mesh& mesh, const Policies& policies)
 {
   const SMS::internal::Spectral_rings& rings = policies.state().core().fields().rings;
@@ -191,14 +193,16 @@ bool costs_at_merged_vertices_are_forgotten(const Mesh& mesh, const Policies& po
     const Slot w = Slot(slots[std::size_t(row)]);
     merged += P.row(row).nonZeros() > 1;
     for(const auto& e : rings[w])
-      if(P.row(row).nonZeros() > 1 && (rings[w][rings.find(w, e.vertex)].cost != unknown_cost ||
-                                       rings[e.vertex][rings.find(e.vertex, w)].cost != unknown_cost))
+      if(P.row(row).nonZeros() > 1 &&
+         (rings[w][rings.find(w, e.vertex)].cost != unknown_cost ||
+          rings[e.vertex][rings.find(e.vertex, w)].cost != unknown_cost))
         return false;
   }
   return merged > 0 && count_vertices(mesh) == slots.size();
 }
 
-// What CGAL is told that edges cost, beside what they cost. Slots are vertices: nothing has been removed before.
+// What CGAL is told that edges cost, beside what they cost. Slots are vertices: nothing has been
+// removed before.
 struct Watch
 {
   using Edge = std::pair<Slot, Slot>;
@@ -254,8 +258,8 @@ struct Watched_placement
   {
     const auto result = placement(profile);
     if(result && watch->selecting)
-      watch->recent =
-          (std::max)(watch->cost_now(Watch::edge(profile.v0(), profile.v1())), 0.998 * watch->recent);
+      watch->recent = (std::max)(watch->cost_now(Watch::edge(profile.v0(), profile.v1())),
+                                 0.998 * watch->recent);
     return result;
   }
   Policies::Get_placement placement;
@@ -286,7 +290,8 @@ struct Watching_visitor : SMS::internal::Dummy_visitor
 
 } // namespace
 
-TEST_CASE("A cost is that of now whenever CGAL asks, or an older one far above those of recent collapses")
+TEST_CASE(
+    "A cost is that of now whenever CGAL asks, or an older one far above those of recent collapses")
 {
   const auto placement =
       GENERATE(SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::free);
@@ -311,7 +316,8 @@ TEST_CASE("A cost is that of now whenever CGAL asks, or an older one far above t
   CHECK(policies.state().core().number_of_evaluations() < watch.asked);
 }
 
-TEST_CASE("With a placement of the user's a cost is that of its point, or the one that CGAL was told before")
+TEST_CASE("With a placement of the user's a cost is that of its point, or the one that CGAL was "
+          "told before")
 {
   const bool calls_ours = GENERATE(false, true);
   CAPTURE(calls_ours);
@@ -323,7 +329,8 @@ TEST_CASE("With a placement of the user's a cost is that of its point, or the on
   const auto placement = [&](const auto& profile) {
     if(calls_ours && !policies.get_placement()(profile))
       return SMS::internal::Spectral_optional<Point>();
-    return SMS::internal::Spectral_optional<Point>(CGAL::barycenter(profile.p0(), 0.8, profile.p1(), 0.2));
+    return SMS::internal::Spectral_optional<Point>(
+        CGAL::barycenter(profile.p0(), 0.8, profile.p1(), 0.2));
   };
   const auto cost = [&](const auto& profile, const auto& point) {
     const auto result = policies.get_cost()(profile, point);
@@ -340,8 +347,9 @@ TEST_CASE("With a placement of the user's a cost is that of its point, or the on
     ++asked;
     return result;
   };
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(60, mesh),
-                     CGAL::parameters::get_cost(cost).get_placement(placement).visitor(policies.visitor()));
+  SMS::edge_collapse(
+      mesh, SMS::Vertex_count_stop_predicate<Mesh>(60, mesh),
+      CGAL::parameters::get_cost(cost).get_placement(placement).visitor(policies.visitor()));
   CHECK(count_vertices(mesh) == 60);
   CHECK(asked > 1000);
   CHECK(wrong == 0);
@@ -409,14 +417,17 @@ TEST_CASE("A user's visitor sees every call, copied or by reference")
   CHECK(recorder[collapsed] == n - 40);
   const auto& refusals = policies.state().refusals();
   CHECK(recorder[non_collapsable] == refusals.topology);
-  CHECK(recorder[selected] == n - 40 + 1 + refusals.topology + refusals.geometry + refusals.placement);
+  CHECK(recorder[selected] ==
+        n - 40 + 1 + refusals.topology + refusals.geometry + refusals.placement);
   CHECK(refusals.filter == 0);
   CHECK(recorder.costs_are_numbers);
 }
 
-TEST_CASE("After an exception of the user's visitor the run is over, the mesh valid, and the policies go on")
+TEST_CASE("After an exception of the user's visitor the run is over, the mesh valid, and the "
+          "policies go on")
 {
-  const Call where = GENERATE(started, finished, stopped, collected, selected, collapsing, collapsed);
+  const Call where =
+      GENERATE(started, finished, stopped, collected, selected, collapsing, collapsed);
   CAPTURE(where);
   const shapes::Matrices input = wavy_grid_matrices(14, 12);
   Mesh mesh = make_mesh(input);
@@ -507,7 +518,8 @@ TEST_CASE("An edge has one placement and one cost, in whichever direction it is 
   Spectral_options options = options_with(10);
   options.binary = GENERATE(false, true);
   const bool bordered = GENERATE(false, true);
-  Mesh mesh = make_mesh(bordered ? wavy_grid_matrices(25, 24) : shapes::bumpy_icosphere_matrices(3));
+  Mesh mesh =
+      make_mesh(bordered ? wavy_grid_matrices(25, 24) : shapes::bumpy_icosphere_matrices(3));
   const Policies policies(mesh, options);
   Direction_probe probe(policies);
   collapse(mesh, policies, 60, std::ref(probe));
@@ -518,7 +530,8 @@ TEST_CASE("An edge has one placement and one cost, in whichever direction it is 
 TEST_CASE("After many collapses an edge weighs the vertices that it says")
 {
   const bool bordered = GENERATE(false, true);
-  Mesh mesh = make_mesh(bordered ? wavy_grid_matrices(40, 30) : shapes::bumpy_icosphere_matrices(4));
+  Mesh mesh =
+      make_mesh(bordered ? wavy_grid_matrices(40, 30) : shapes::bumpy_icosphere_matrices(4));
   const Policies policies(mesh, options_with(10));
   collapse(mesh, policies, 300);
   SMS::internal::Spectral_collapse_core core = policies.state().core();
@@ -541,12 +554,13 @@ TEST_CASE("After many collapses an edge weighs the vertices that it says")
     if(!c.collapsible())
       continue;
     ++collapsible;
-    const Eigen::Vector3d expected = (1 - c.weight) * fields.points[u] + c.weight * fields.points[v];
+    const Eigen::Vector3d expected =
+        (1 - c.weight) * fields.points[u] + c.weight * fields.points[v];
     worst = (std::max)(worst, (c.point - expected).norm());
     const auto p = mesh.point(source(e, mesh));
-    worst_point = (std::max)(
-        worst_point,
-        (fields.points[std::size_t(slot[source(e, mesh)])] - Eigen::Vector3d(p.x(), p.y(), p.z())).norm());
+    worst_point = (std::max)(worst_point, (fields.points[std::size_t(slot[source(e, mesh)])] -
+                                           Eigen::Vector3d(p.x(), p.y(), p.z()))
+                                              .norm());
   }
   CHECK(worst < 1e-12);
   CHECK(worst_point == 0);
@@ -554,14 +568,17 @@ TEST_CASE("After many collapses an edge weighs the vertices that it says")
   CHECK(on_record > 50);
 }
 
-TEST_CASE("Edges without length are merged with equal weights before the loop, and E and P stay right")
+TEST_CASE(
+    "Edges without length are merged with equal weights before the loop, and E and P stay right")
 {
   const bool bordered = GENERATE(false, true);
   Spectral_options options = options_with(10);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   CAPTURE(bordered, SG::mass_name(options.mass), int(options.placement));
-  shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
+  shapes::Matrices input =
+      bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
   const auto put_on = [&](const int v, const int w) { input.V.row(v) = input.V.row(w); };
   std::size_t merges = 0;
   for(const int f : {100, 300, 500}) { // one edge
@@ -605,7 +622,8 @@ TEST_CASE("Edges without length are merged with equal weights before the loop, a
   CHECK(fault_of_run(mesh, policies, fine) == "");
 }
 
-TEST_CASE("An edge without length that must not be collapsed stays, and its neighbours still can be")
+TEST_CASE(
+    "An edge without length that must not be collapsed stays, and its neighbours still can be")
 {
   // The ends of a bridge between two borders coincide.
   shapes::Matrices input = wavy_grid_matrices(12, 1);
@@ -624,14 +642,16 @@ TEST_CASE("preserve_border collapses an edge with one border vertex onto it")
 {
   Spectral_options options = options_with(10);
   options.preserve_border = GENERATE(true, false);
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
   Border_probe probe;
   collapse(mesh, policies, 80, std::ref(probe));
   CHECK(count_vertices(mesh) == 80);
-  CHECK(fault_of_run(mesh, policies, eigen_input(input, SG::Mass::lumped, *policies.eigenpairs())) == "");
+  CHECK(fault_of_run(mesh, policies,
+                     eigen_input(input, SG::Mass::lumped, *policies.eigenpairs())) == "");
   CHECK(probe.one_border > 5);
   CHECK((probe.kept == probe.one_border) == options.preserve_border);
 }

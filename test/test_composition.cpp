@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The policies together with what CGAL ships: constraints, filters, wrappers, queues, stop predicates, other costs.
+// The policies together with what CGAL ships: constraints, filters, wrappers, queues, stop
+// predicates, other costs.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
@@ -50,7 +51,8 @@ namespace {
 using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
 
 // The ends of the constrained edges.
-std::set<std::pair<Point, Point>> constrained_segments(const Mesh& mesh, const Constraints& constraints)
+std::set<std::pair<Point, Point>> constrained_segments(const Mesh& mesh,
+                                                       const Constraints& constraints)
 {
   std::set<std::pair<Point, Point>> result;
   for(const auto e : edges(mesh))
@@ -71,13 +73,15 @@ struct Shifted_placement
     auto point = base(profile);
     if(point) {
       const double length = std::sqrt(CGAL::squared_distance(profile.p0(), profile.p1()));
-      point = *point + 0.1 * length * Vector(std::sin(50 * point->x()), std::cos(70 * point->y()), 0.5);
+      point =
+          *point + 0.1 * length * Vector(std::sin(50 * point->x()), std::cos(70 * point->y()), 0.5);
     }
     return point;
   }
 };
 
-// Keeps the point at which each edge was last costed, and compares the one that is collapsed with it and with the best of now.
+// Keeps the point at which each edge was last costed, and compares the one that is collapsed with
+// it and with the best of now.
 struct Costed_points
 {
   using Edge = std::pair<Mesh::Vertex_index, Mesh::Vertex_index>;
@@ -98,7 +102,8 @@ struct Costed_points
   bool is_best(const Edge& edge, const Point& point) const
   {
     SMS::internal::Spectral_collapse_core core = policies->state().core();
-    const Eigen::Vector3d best = core.evaluate(std::uint32_t(edge.first), std::uint32_t(edge.second)).point;
+    const Eigen::Vector3d best =
+        core.evaluate(std::uint32_t(edge.first), std::uint32_t(edge.second)).point;
     return best == Eigen::Vector3d(point.x(), point.y(), point.z());
   }
 };
@@ -145,7 +150,8 @@ struct Selection_visitor : SMS::internal::Dummy_visitor
   }
 };
 
-Input fine_input(const shapes::Matrices& mesh, const Policies& policies, const Spectral_options& options)
+Input fine_input(const shapes::Matrices& mesh, const Policies& policies,
+                 const Spectral_options& options)
 {
   return eigen_input(mesh, options.mass, *policies.eigenpairs());
 }
@@ -160,9 +166,11 @@ TEST_CASE("Constrained edges survive, unmoved, and P stays right")
   Spectral_options options = options_with(10);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   options.binary = GENERATE(false, true);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
-  const Constraints constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  const Constraints constraints =
+      mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
   for(const auto e : edges(mesh)) {
     const Point p = mesh.point(source(e, mesh)), q = mesh.point(target(e, mesh));
     constraints[e] =
@@ -170,8 +178,8 @@ TEST_CASE("Constrained edges survive, unmoved, and P stays right")
   }
   const auto segments = constrained_segments(mesh, constraints);
   const Policies policies(mesh, options);
-  const SMS::Constrained_placement<Policies::Get_placement, Constraints> placement(constraints,
-                                                                                   policies.get_placement());
+  const SMS::Constrained_placement<Policies::Get_placement, Constraints> placement(
+      constraints, policies.get_placement());
   const std::size_t N = 200;
   SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(N, mesh),
                      CGAL::parameters::get_cost(policies.get_cost())
@@ -214,31 +222,37 @@ TEST_CASE("Bounded_normal_change_placement wraps the placement, and P stays righ
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
-  const SMS::Bounded_normal_change_placement<Policies::Get_placement> placement(policies.get_placement());
-  SMS::edge_collapse(
-      mesh, SMS::Vertex_count_stop_predicate<Mesh>(20, mesh),
-      CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement).visitor(policies.visitor()));
+  const SMS::Bounded_normal_change_placement<Policies::Get_placement> placement(
+      policies.get_placement());
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(20, mesh),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(placement)
+                         .visitor(policies.visitor()));
   CHECK(count_vertices(mesh) < 100);
   CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options)) == "");
 }
 
-TEST_CASE("A wrapper may move the point anywhere: the cost is that of its point, the weight its projection")
+TEST_CASE("A wrapper may move the point anywhere: the cost is that of its point, the weight its "
+          "projection")
 {
   Spectral_options options = options_with(10);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const bool bordered = GENERATE(false, true);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
   const Shifted_placement<Policies::Get_placement> placement{policies.get_placement()};
-  SMS::edge_collapse(
-      mesh, SMS::Vertex_count_stop_predicate<Mesh>(100, mesh),
-      CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement).visitor(policies.visitor()));
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(100, mesh),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(placement)
+                         .visitor(policies.visitor()));
   CHECK(count_vertices(mesh) == 100);
   CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options), off_the_edge) == "");
 }
 
-TEST_CASE("The placement that is collapsed is the best of the mesh as it is, mostly the one that was costed")
+TEST_CASE("The placement that is collapsed is the best of the mesh as it is, mostly the one that "
+          "was costed")
 {
   Mesh mesh = make_mesh(wavy_grid_matrices(24, 22));
   const Policies policies(mesh, options_with(10));
@@ -246,17 +260,18 @@ TEST_CASE("The placement that is collapsed is the best of the mesh as it is, mos
   log.policies = &policies;
   Selection_visitor visitor;
   visitor.log = &log;
-  SMS::edge_collapse(
-      mesh, SMS::Vertex_count_stop_predicate<Mesh>(100, mesh),
-      CGAL::parameters::get_cost(policies.get_cost())
-          .get_placement(Recording_placement<Policies::Get_placement>{policies.get_placement(), &log})
-          .visitor(policies.visitor(visitor)));
+  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(100, mesh),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(Recording_placement<Policies::Get_placement>{
+                             policies.get_placement(), &log})
+                         .visitor(policies.visitor(visitor)));
   CHECK(count_vertices(mesh) == 100);
   CHECK(log.compared + log.put_off >= 475);
   CHECK(log.compared >= 300);
   CHECK(log.put_off > 0);
   CHECK(log.not_best == 0);
-  CHECK(log.different < log.compared / 4); // by collapses two rings away, after which CGAL does not ask
+  CHECK(log.different <
+        log.compared / 4); // by collapses two rings away, after which CGAL does not ask
 }
 
 TEST_CASE("The relaxed queue works, and P stays right")
@@ -289,7 +304,8 @@ TEST_CASE("Edges of the current mesh can be counted instead of vertices")
   CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options)) == "");
 }
 
-TEST_CASE("The visitor follows any other cost and placement, too: P for them, and an E that the metric beats")
+TEST_CASE("The visitor follows any other cost and placement, too: P for them, and an E that the "
+          "metric beats")
 {
   const bool binary = GENERATE(false, true);
   Spectral_options options = options_with(20);
@@ -302,15 +318,18 @@ TEST_CASE("The visitor follows any other cost and placement, too: P for them, an
                          .get_placement(SMS::Midpoint_placement<Mesh>())
                          .visitor(policies.visitor()));
   CHECK(count_vertices(mesh) == 120);
-  CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options), Check{binary, true, 1e-8}) == "");
+  CHECK(fault_of_run(mesh, policies, fine_input(input, policies, options),
+                     Check{binary, true, 1e-8}) == "");
   collapse(ours, our_policies, 120);
   CHECK(our_policies.error() < policies.error());
 }
 
-TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the cost and without a visitor")
+TEST_CASE(
+    "Vertex_count_stop_predicate stops at the exact count, whatever the cost and without a visitor")
 {
   const bool bordered = GENERATE(false, true);
-  Mesh mesh = make_mesh(bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3));
+  Mesh mesh =
+      make_mesh(bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3));
   const auto by_length = CGAL::parameters::get_cost(SMS::Edge_length_cost<Mesh>())
                              .get_placement(SMS::Midpoint_placement<Mesh>());
   const SMS::Vertex_count_stop_predicate<Mesh> stop(150, mesh);
@@ -337,9 +356,9 @@ TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the co
       const auto h = mesh.halfedge(*edges(mesh).begin());
       const auto f = mesh.is_border(h) ? mesh.opposite(h) : h;
       const auto center = CGAL::Euler::add_center_vertex(f, mesh);
-      mesh.point(mesh.target(center)) =
-          CGAL::centroid(mesh.point(mesh.source(center)), mesh.point(mesh.target(mesh.next(center))),
-                         mesh.point(mesh.source(mesh.opposite(mesh.next(center)))));
+      mesh.point(mesh.target(center)) = CGAL::centroid(
+          mesh.point(mesh.source(center)), mesh.point(mesh.target(mesh.next(center))),
+          mesh.point(mesh.source(mesh.opposite(mesh.next(center)))));
     }
     CHECK(count_vertices(mesh) == 180);
     SMS::edge_collapse(mesh, stop, by_length);
@@ -366,8 +385,10 @@ TEST_CASE("Vertex_count_stop_predicate stops at the exact count, whatever the co
   SECTION("a target that is met already")
   {
     const std::size_t n = count_vertices(mesh);
-    CHECK(SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(n, mesh), by_length) == 0);
-    CHECK(SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(n + 5, mesh), by_length) == 0);
+    CHECK(SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(n, mesh), by_length) ==
+          0);
+    CHECK(SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(n + 5, mesh),
+                             by_length) == 0);
     SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(n - 1, mesh), by_length);
     CHECK(count_vertices(mesh) == n - 1);
   }

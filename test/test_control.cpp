@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Control over a run: an error to stop at, progress, cancelling, and what the first of two stages asks.
+// Control over a run: an error to stop at, progress, cancelling, and what the first of two stages
+// asks.
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -53,7 +54,8 @@ TEST_CASE("A bound of the error stops before the collapse that would exceed it")
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const std::size_t about = GENERATE(500, 200);
   Mesh counted_first = make_mesh(input);
-  const double bound = 1.0001 * SMS::spectral_edge_collapse(counted_first, about, options).relative_error;
+  const double bound =
+      1.0001 * SMS::spectral_edge_collapse(counted_first, about, options).relative_error;
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
   SMS::edge_collapse(mesh, SMS::Spectral_error_stop_predicate(policies, bound),
@@ -97,7 +99,8 @@ TEST_CASE("A bound of the error holds beside a cap, whose cost is nothing but ro
       for(const double bound : {0.1, 0.2}) {
         shapes::Matrices input = wavy_grid_matrices(8, 8);
         const Eigen::RowVector3i t = input.T.row(face);
-        input.V.row(t[1]) = (input.V.row(t[0]) + input.V.row(t[2])) / 2 + height * input.V.row(t[1]);
+        input.V.row(t[1]) =
+            (input.V.row(t[0]) + input.V.row(t[2])) / 2 + height * input.V.row(t[1]);
         Mesh mesh = make_mesh(input);
         Spectral_edge_collapse_options options = options_with(5);
         options.maximum_error = bound;
@@ -118,9 +121,10 @@ TEST_CASE("A bound of the error looks at the placement of a wrapper")
   const double bound = GENERATE(0.05, 0.15, 0.3);
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(3));
   const Policies policies(mesh, options_with(20));
-  SMS::edge_collapse(
-      mesh, SMS::Spectral_error_stop_predicate(policies, bound, first_end),
-      CGAL::parameters::get_cost(policies.get_cost()).get_placement(first_end).visitor(policies.visitor()));
+  SMS::edge_collapse(mesh, SMS::Spectral_error_stop_predicate(policies, bound, first_end),
+                     CGAL::parameters::get_cost(policies.get_cost())
+                         .get_placement(first_end)
+                         .visitor(policies.visitor()));
   CAPTURE(bound, count_vertices(mesh));
   CHECK(policies.relative_error() <= bound);
   CHECK(policies.relative_error() > 0.8 * bound);
@@ -134,7 +138,8 @@ TEST_CASE("A bound that is no number is refused; 0 lets nothing be lost; constan
   for(const double bound : {-1., std::nan("")}) {
     CHECK_THROWS_AS(SMS::Spectral_error_stop_predicate(policies, bound), std::invalid_argument);
     options.maximum_error = bound;
-    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring("maximum_error"));
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options),
+                      ContainsSubstring("maximum_error"));
   }
   options.maximum_error = 0;
   CHECK(SMS::spectral_edge_collapse(mesh, 1, options).output_vertices == 162);
@@ -215,18 +220,21 @@ TEST_CASE("Another thread can cancel, in every phase")
   }
 }
 
-TEST_CASE("A run of two stages that is cancelled in the first leaves the mesh as it was, later what the "
-          "first has made")
+TEST_CASE(
+    "A run of two stages that is cancelled in the first leaves the mesh as it was, later what the "
+    "first has made")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
   Spectral_edge_collapse_options options = options_with(20);
   options.pre_simplify = 300;
-  const Spectral_phase phase =
-      GENERATE(Spectral_phase::pre_simplification, Spectral_phase::eigenpairs, Spectral_phase::first_costs);
+  const Spectral_phase phase = GENERATE(Spectral_phase::pre_simplification,
+                                        Spectral_phase::eigenpairs, Spectral_phase::first_costs);
   const double fraction = GENERATE(0., 0.5);
   CAPTURE(int(phase), fraction);
-  options.progress = [&](const Spectral_progress& p) { return p.phase != phase || p.fraction < fraction; };
+  options.progress = [&](const Spectral_progress& p) {
+    return p.phase != phase || p.fraction < fraction;
+  };
   if(phase == Spectral_phase::pre_simplification) {
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);
@@ -250,7 +258,8 @@ TEST_CASE("A visitor or a filter is refused where the first stage could not call
   const auto filter = CGAL::parameters::filter(SMS::Bounded_normal_change_filter<>());
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 100, options, visitor),
                     ContainsSubstring("no visitor"));
-  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 100, options, filter), ContainsSubstring("no filter"));
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 100, options, filter),
+                    ContainsSubstring("no filter"));
   CHECK(positions(mesh) == input.V);
   options.pre_simplify = 0;
   CHECK(SMS::spectral_edge_collapse(mesh, 100, options, filter).output_vertices == 100);
@@ -271,8 +280,9 @@ TEST_CASE("Named parameters that the one call cannot honour do not compile")
   CHECK(!overrides(parameters::default_values()));
 }
 
-TEST_CASE("The first stage does not feel how far from the origin the mesh lies, and leaves no vertex a "
-          "rounding away")
+TEST_CASE(
+    "The first stage does not feel how far from the origin the mesh lies, and leaves no vertex a "
+    "rounding away")
 {
   shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   input.V = (input.V * 65536).array().round() / 65536; // so that moving it is exact
@@ -297,7 +307,8 @@ TEST_CASE("The first stage does not feel how far from the origin the mesh lies, 
   }
 }
 
-TEST_CASE("edge_collapse() is cancelled through the stop predicate, and the policies go on afterwards")
+TEST_CASE(
+    "edge_collapse() is cancelled through the stop predicate, and the policies go on afterwards")
 {
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
   Mesh mesh = make_mesh(input), expected = mesh;

@@ -78,7 +78,8 @@ void check_pairs(const Laplace_operator& op, const Eigenpairs& pairs, double tol
     const Eigen::VectorXd phi = pairs.vectors.col(k);
     const Eigen::VectorXd r = op.L * phi - pairs.values(k) * (op.B * phi);
     const double s = 4. * shapes::pi / op.mass.sum();
-    const double norm = std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values(k) + s);
+    const double norm =
+        std::sqrt(r.cwiseAbs2().cwiseQuotient(op.mass).sum()) / (pairs.values(k) + s);
     CHECK(pairs.residuals(k) == Approx(norm).margin(1e-14));
     Eigen::Index i = 0;
     while(std::abs(phi(i)) < 0.618 * phi.cwiseAbs().maxCoeff())
@@ -123,7 +124,8 @@ TEST_CASE("A sphere's spectrum is l(l+1) with multiplicity 2l+1")
     CHECK(pairs.complete);
     for(int l = 1, k = 1; l < 6; k += 2 * l + 1, ++l)
       for(int i = 0; i < 2 * l + 1; ++i)
-        CHECK(pairs.values(k + i) * radius * radius == Approx(l * (l + 1)).epsilon(theta > 0. ? 0.01 : 0.02));
+        CHECK(pairs.values(k + i) * radius * radius ==
+              Approx(l * (l + 1)).epsilon(theta > 0. ? 0.01 : 0.02));
     // The symmetry of the icosahedron makes three copies exact.
     CHECK(pairs.values(3) - pairs.values(1) < 1e-9 * pairs.values(1));
   }
@@ -144,7 +146,8 @@ TEST_CASE("A square's Neumann spectrum is pi^2 (i^2 + j^2)")
 
 TEST_CASE("On equilateral triangles the averaged mass is far more accurate than the lumped one")
 {
-  // Lame's closed form for the equilateral triangle with Neumann condition: 16 pi^2 / 9 (i^2 + ij + j^2).
+  // Lame's closed form for the equilateral triangle with Neumann condition: 16 pi^2 / 9 (i^2 + ij +
+  // j^2).
   std::vector<double> exact;
   for(int i = 0; i < 12; ++i)
     for(int j = 0; j < 12; ++j)
@@ -175,7 +178,8 @@ TEST_CASE("Copies of eigenvalues on several components are all found, by either 
 TEST_CASE("More copies of an eigenvalue than a block has vectors are found")
 {
   // Twenty components: 20 constants, then 60 copies of the first eigenvalue of a sphere.
-  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
+  const Laplace_operator op =
+      laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
   const Eigenpairs pairs = SG::eigenpairs(op, 70, with_method(Method::block));
   check_pairs(op, pairs);
   CHECK(pairs.complete);
@@ -186,8 +190,10 @@ TEST_CASE("More copies of an eigenvalue than a block has vectors are found")
 
 TEST_CASE("Copies are found where the last block of the first round was not full")
 {
-  // What was kept beyond the first K had not converged, and the second round lost its orthogonality to it.
-  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
+  // What was kept beyond the first K had not converged, and the second round lost its orthogonality
+  // to it.
+  const Laplace_operator op =
+      laplace(shapes::components_matrices(shapes::icosphere_matrices(2), 20));
   for(const int K : {21, 26}) {
     const Eigenpairs pairs = SG::eigenpairs(op, K, with_method(Method::block, 1e-3));
     CHECK(pairs.complete);
@@ -198,7 +204,8 @@ TEST_CASE("Copies are found where the last block of the first round was not full
 
 TEST_CASE("A kernel larger than K is returned as such")
 {
-  const Laplace_operator op = laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
+  const Laplace_operator op =
+      laplace(shapes::components_matrices(shapes::icosphere_matrices(1), 9));
   for(const Solver solver : {by_block, by_dense}) {
     const Eigenpairs pairs = solver(op, 7, {});
     check_pairs(op, pairs);
@@ -247,8 +254,9 @@ TEST_CASE("The block method takes problems of any size")
 {
   for(const shapes::Matrices& mesh :
       {shapes::grid_matrices(4, 3), shapes::torus_matrices(6, 5), shapes::icosphere_matrices(1),
-       shapes::components_matrices(shapes::icosphere_matrices(0), 5), shapes::irregular_grid_matrices(8, 7),
-       shapes::torus_matrices(11, 9), shapes::bumpy_icosphere_matrices(2)}) {
+       shapes::components_matrices(shapes::icosphere_matrices(0), 5),
+       shapes::irregular_grid_matrices(8, 7), shapes::torus_matrices(11, 9),
+       shapes::bumpy_icosphere_matrices(2)}) {
     const Laplace_operator op = laplace(mesh, 0.5);
     const Eigen::Index n = op.mass.size();
     for(Eigen::Index K = 1; K <= n; K += K < 10 ? 1 : 7) {
@@ -257,14 +265,16 @@ TEST_CASE("The block method takes problems of any size")
       CHECK(pairs.complete);
       CHECK(orthonormality_error(op, pairs) < 1e-10);
       const double spacing = 4. * shapes::pi / op.mass.sum();
-      CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() < 1e-8 * (dense.values(K - 1) + spacing));
+      CHECK((pairs.values - dense.values).cwiseAbs().maxCoeff() <
+            1e-8 * (dense.values(K - 1) + spacing));
     }
   }
 }
 
 TEST_CASE("Rough pairs are complete only where they have been counted")
 {
-  // Four spheres that differ a little: twelve nearly equal first eigenvalues, of which a block may find eight mixtures.
+  // Four spheres that differ a little: twelve nearly equal first eigenvalues, of which a block may
+  // find eight mixtures.
   const shapes::Matrices sphere = shapes::icosphere_matrices(3);
   shapes::Matrices mesh = shapes::components_matrices(sphere, 4);
   for(int c = 0; c < 4; ++c)
@@ -297,7 +307,8 @@ TEST_CASE("Eigenpairs of a stiffness in any unit")
       const Eigenpairs pairs = solver(scaled, 30, {});
       CHECK(pairs.complete);
       CHECK(pairs.residuals.maxCoeff() < 1e-8);
-      CHECK((pairs.values / unit - reference.values).cwiseAbs().maxCoeff() < 1e-9 * reference.values(29));
+      CHECK((pairs.values / unit - reference.values).cwiseAbs().maxCoeff() <
+            1e-9 * reference.values(29));
     }
   // the shapes of triangles are no unit
   const Laplace_operator strip = laplace(shapes::grid_matrices(400, 1, 1., 1e-5));
@@ -328,8 +339,8 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
   const Eigen::Index n = 37;
   const Rows P = Rows::Random(n, 8), W = Rows::Random(n, 8);
   const Small H = Small::Random();
-  const auto check = [&](auto gram, auto subtract_product, auto multiply, auto forward, auto backward,
-                         auto multiply_block) {
+  const auto check = [&](auto gram, auto subtract_product, auto multiply, auto forward,
+                         auto backward, auto multiply_block) {
     Small sum = H;
     gram(P.data(), W.data(), n, sum.data());
     CHECK((sum - (H + P.transpose() * W)).norm() < 1e-13);
@@ -338,13 +349,15 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
     subtract_product(left.data(), P.data(), n, H.data());
     CHECK((left - (W - P * H)).norm() < 1e-13);
 
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> A = Eigen::MatrixXd(P * W.transpose()).sparseView();
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> A =
+        Eigen::MatrixXd(P * W.transpose()).sparseView();
     Rows product = W;
     multiply(A.outerIndexPtr(), A.innerIndexPtr(), A.valuePtr(), P.data(), product.data(), 5, n);
     CHECK((product.bottomRows(n - 5) - (A * P).bottomRows(n - 5)).norm() < 1e-12);
     CHECK(product.topRows(5) == W.topRows(5));
 
-    // One supernode of 7 columns that begins at row 3, and 11 rows below; its diagonal holds inverses.
+    // One supernode of 7 columns that begins at row 3, and 11 rows below; its diagonal holds
+    // inverses.
     const int width = 7, below = 11;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> L =
         Eigen::MatrixXd::Random(width + below, width);
@@ -356,7 +369,8 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
       rows.push_back(12 + 2 * i);
     const I::Supernode s{L.data(), rows.data(), 3, width, below};
     Rows expected = W, found = W;
-    expected.middleRows(3, width) = lower.triangularView<Eigen::Lower>().solve(W.middleRows(3, width));
+    expected.middleRows(3, width) =
+        lower.triangularView<Eigen::Lower>().solve(W.middleRows(3, width));
     for(int i = 0; i < below; ++i)
       expected.row(rows[i]) -= L.row(width + i) * expected.middleRows(3, width);
     forward(s, found.data());
@@ -382,8 +396,8 @@ TEST_CASE("The kernels on panels compute what Eigen does, for either kind of row
   };
   check(I::gram, I::subtract_product, I::multiply, I::forward, I::backward, I::multiply_block);
   using Row = I::Panel_row;
-  check(I::gram_body<Row>, I::subtract_product_body<Row>, I::multiply_body<Row>, I::forward_body<Row>,
-        I::backward_body<Row>, I::multiply_block_body<Row>);
+  check(I::gram_body<Row>, I::subtract_product_body<Row>, I::multiply_body<Row>,
+        I::forward_body<Row>, I::backward_body<Row>, I::multiply_block_body<Row>);
 }
 
 TEST_CASE("The shift lies inside of the wanted spectrum, unless that has too many copies")
@@ -419,7 +433,8 @@ TEST_CASE("A shift that meets an eigenvalue is moved")
   B.setIdentity();
   for(const double offset : {0., 1e-13, 1e-11, 1e-9, 1e-6, -1e-9})
     for(const Eigen::Index K : {20, 25, 50, 100}) {
-      const Eigenpairs pairs = SG::eigenpairs(spacing * (1. + offset) * L, B, K, with_method(Method::block));
+      const Eigenpairs pairs =
+          SG::eigenpairs(spacing * (1. + offset) * L, B, K, with_method(Method::block));
       INFO(offset << ' ' << K);
       CHECK(pairs.complete);
       CHECK((pairs.values / (spacing * (1. + offset)) - Eigen::VectorXd::LinSpaced(K, 0., K - 1.))
@@ -438,8 +453,8 @@ TEST_CASE("A matrix of the wrong sign is named")
   for(const Method method : {Method::block, Method::dense})
     for(const Eigen::Index K : {10, 30}) {
       const SG::Eigenpairs_options options = with_method(method);
-      const auto refuses = [&](const Eigen::SparseMatrix<double>& L, const Eigen::SparseMatrix<double>& B,
-                               const char* sentence) {
+      const auto refuses = [&](const Eigen::SparseMatrix<double>& L,
+                               const Eigen::SparseMatrix<double>& B, const char* sentence) {
         CHECK_THROWS_WITH(SG::eigenpairs(L, B, K, options), ContainsSubstring(sentence));
         CHECK_THROWS_AS(SG::eigenpairs(L, B, K, options), std::invalid_argument);
       };
@@ -460,7 +475,8 @@ TEST_CASE("A matrix of the wrong sign is named")
 namespace {
 
 // Parts of one shape, each turned another way, the last one of another size.
-shapes::Matrices turned_copies(const shapes::Matrices& part, const int copies, const double last_size = 1.)
+shapes::Matrices turned_copies(const shapes::Matrices& part, const int copies,
+                               const double last_size = 1.)
 {
   shapes::Matrices result = shapes::components_matrices(part, copies);
   const Eigen::Index n = part.V.rows();
@@ -483,8 +499,8 @@ shapes::Matrices box_matrices()
   for(int v = 0; v < 8; ++v)
     box.V.row(v) << v % 2, v / 2 % 2 * 0.7, v / 4 * 0.4;
   box.T.resize(12, 3);
-  box.T << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5,
-      3, 7, 5;
+  box.T << 0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6,
+      1, 3, 5, 3, 7, 5;
   return box;
 }
 
@@ -503,14 +519,16 @@ Eigen::VectorXd dense_values_of_parts(const shapes::Matrices& part, const shapes
   const Eigen::Index n = part.V.rows();
   std::vector<double> all;
   for(Eigen::Index first = 0; first < mesh.V.rows(); first += n) {
-    const Eigen::VectorXd values = dense_values(laplace({mesh.V.middleRows(first, n), part.T}, theta));
+    const Eigen::VectorXd values =
+        dense_values(laplace({mesh.V.middleRows(first, n), part.T}, theta));
     all.insert(all.end(), values.data(), values.data() + n);
   }
   std::sort(all.begin(), all.end());
   return Eigen::VectorXd::Map(all.data(), Eigen::Index(all.size()));
 }
 
-void check_converged(const Laplace_operator& op, const Eigenpairs& pairs, const Eigen::VectorXd& expected)
+void check_converged(const Laplace_operator& op, const Eigenpairs& pairs,
+                     const Eigen::VectorXd& expected)
 {
   const double s = 4. * shapes::pi / op.mass.sum();
   const Eigen::VectorXd values = expected.head(pairs.size());
@@ -595,7 +613,8 @@ TEST_CASE("Residuals are within ten times the tolerance, or are reported")
     for(const double theta : thetas)
       for(const double tolerance : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14}) {
         const Laplace_operator op = laplace(mesh, theta);
-        const Eigenpairs pairs = SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(tolerance));
+        const Eigenpairs pairs =
+            SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(tolerance));
         INFO(tolerance);
         CHECK(orthonormality_error(op, pairs) < 1e-9);
         if(pairs.complete)
@@ -610,7 +629,8 @@ TEST_CASE("Residuals are within ten times the tolerance, or are reported")
 
 TEST_CASE("The Dirichlet problem is that of the rows off the border")
 {
-  // Rings whose radii fall by a quarter: eigenvalues of the innermost exceed what stands in the rows of the border.
+  // Rings whose radii fall by a quarter: eigenvalues of the innermost exceed what stands in the
+  // rows of the border.
   const int rings = 40, around = 12;
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;
@@ -692,7 +712,8 @@ TEST_CASE("Progress is reported in [0, 1] and can cancel")
 TEST_CASE("Bad requests for eigenpairs are refused")
 {
   const Laplace_operator op = laplace(shapes::icosphere_matrices(1));
-  CHECK_THROWS_WITH(SG::eigenpairs(op, 43), ContainsSubstring("between 1 and") && ContainsSubstring("43"));
+  CHECK_THROWS_WITH(SG::eigenpairs(op, 43),
+                    ContainsSubstring("between 1 and") && ContainsSubstring("43"));
   CHECK_THROWS_AS(SG::eigenpairs(op, 0), std::invalid_argument);
   CHECK_THROWS_AS(SG::eigenpairs(op, -3), std::invalid_argument);
   SG::Eigenpairs_options options;

@@ -60,7 +60,8 @@ Sparse identity(Index n)
   return I;
 }
 
-// The vertices of a coarse icosphere are the first of its subdivision; so are those of the bumpy one.
+// The vertices of a coarse icosphere are the first of its subdivision; so are those of the bumpy
+// one.
 Problem nested(int subdivisions, Index K, double scale = 1., double theta = 0.5)
 {
   const auto laplace = [&](int s) {
@@ -87,7 +88,8 @@ Problem of_itself(const Laplace_operator& op, Index K)
 
 SG::Spectral_evaluation judge(const Problem& p, const Laplace_operator& op)
 {
-  return SG::evaluate_spectrum(p.fine, p.pairs, op, SG::eigenpairs(op, p.pairs.size()), p.P, p.pairs.size());
+  return SG::evaluate_spectrum(p.fine, p.pairs, op, SG::eigenpairs(op, p.pairs.size()), p.P,
+                               p.pairs.size());
 }
 
 double difference(const Sparse& A, const Sparse& B)
@@ -95,7 +97,8 @@ double difference(const Sparse& A, const Sparse& B)
   return Sparse(A - B).norm() / B.norm();
 }
 
-void check_definite(const SG::Operator_fit_result& result, const Laplace_operator& own, Index components)
+void check_definite(const SG::Operator_fit_result& result, const Laplace_operator& own,
+                    Index components)
 {
   CHECK(fault_of_fit(result, own) == "");
   const std::vector<Index> roots = components_of_graph(own.L);
@@ -122,7 +125,8 @@ TEST_CASE("Operators that are right already stay as they are", "[fitted_operator
   REQUIRE((L - MatrixXd(L.diagonal().asDiagonal())).maxCoeff() > 0.);
   Operator_fit_options none;
   none.maximum_iterations = 0;
-  CHECK(difference(fit(of_itself(obtuse, 60), none).op.L, obtuse.L) < 1e-3); // bounds lift weights next to 0
+  CHECK(difference(fit(of_itself(obtuse, 60), none).op.L, obtuse.L) <
+        1e-3); // bounds lift weights next to 0
 }
 
 TEST_CASE("Wrong entries are put right when P is the identity", "[fitted_operators]")
@@ -174,7 +178,8 @@ TEST_CASE("Fitted operators keep the spectrum better than the mesh's own", "[fit
   Operator_fit_options options;
   options.mass = Mass_pattern::diagonal;
   options.rings = 1;
-  const auto own_lumped = judge(lumped, lumped.coarse), diagonal = judge(lumped, fit(lumped, options).op);
+  const auto own_lumped = judge(lumped, lumped.coarse),
+             diagonal = judge(lumped, fit(lumped, options).op);
   CHECK(diagonal.norm_L < 0.5 * own_lumped.norm_L);
   options.rings = 2;
   const auto result = fit(lumped, options);
@@ -331,11 +336,13 @@ TEST_CASE("Edges of next to no weight do not make up for negative ones", "[fitte
   check_definite(fit(p), p.coarse, 1);
 }
 
-TEST_CASE("Two rings stay linear in the degree of a vertex, and fit all the same", "[fitted_operators]")
+TEST_CASE("Two rings stay linear in the degree of a vertex, and fit all the same",
+          "[fitted_operators]")
 {
   const shapes::Matrices gear = shapes::gear_matrices(500, 3);
   Problem p = of_itself(SG::laplace_operator(gear.V, gear.T, 0.5), 20);
-  p.coarse = SG::laplace_operator(gear.V, gear.T, 0.); // lumped, to the spectrum of the averaged mass
+  p.coarse =
+      SG::laplace_operator(gear.V, gear.T, 0.); // lumped, to the spectrum of the averaged mass
   Operator_fit_options options;
   options.rings = 2;
   options.mass = Mass_pattern::diagonal;
@@ -350,7 +357,8 @@ TEST_CASE("Stopping early is said, and what there is can be used", "[fitted_oper
 {
   const Problem p = nested(2, 40);
   Operator_fit_options options;
-  for(options.maximum_iterations = 0; options.maximum_iterations < 4; ++options.maximum_iterations) {
+  for(options.maximum_iterations = 0; options.maximum_iterations < 4;
+      ++options.maximum_iterations) {
     const auto result = fit(p, options);
     CHECK(!result.converged);
     CHECK(result.iterations == options.maximum_iterations);
@@ -362,7 +370,8 @@ TEST_CASE("Stopping early is said, and what there is can be used", "[fitted_oper
   CHECK_THROWS_AS(fit(p, options), SG::Cancelled);
 }
 
-// The same program with dense matrices: min |A x - b|^2 with bounds by projected gradients with Nesterov's momentum.
+// The same program with dense matrices: min |A x - b|^2 with bounds by projected gradients with
+// Nesterov's momentum.
 TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_operators]")
 {
   Problem p = nested(1, 12);
@@ -426,8 +435,8 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
     MatrixXd R = terms[a].second ? MatrixXd(dG * lambda.asDiagonal()) : MatrixXd(-dG);
     R = R * W.cwiseSqrt().asDiagonal();
     const MatrixXd projected = G.transpose() * R;
-    const MatrixXd local =
-        std::sqrt(options.plain) * (p.coarse.mass / area).cwiseSqrt().cwiseInverse().asDiagonal() * R;
+    const MatrixXd local = std::sqrt(options.plain) *
+                           (p.coarse.mass / area).cwiseSqrt().cwiseInverse().asDiagonal() * R;
     MatrixXd T = MatrixXd::Zero(K, K);
     if(terms[a].second)
       T = std::sqrt(options.orthonormality) * G.transpose() * dG;
@@ -481,7 +490,8 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   Problem p = good;
   const auto refused = [&](const std::string& text, const Operator_fit_options& options = {}) {
     CHECK_THROWS_AS(fit(p, options), std::invalid_argument);
-    CHECK_THROWS_WITH(fit(p, options), ContainsSubstring(text) && ContainsSubstring("operator fit: "));
+    CHECK_THROWS_WITH(fit(p, options),
+                      ContainsSubstring(text) && ContainsSubstring("operator fit: "));
     p = good;
   };
   p.P = Sparse(good.P.leftCols(50));
@@ -551,14 +561,16 @@ TEST_CASE("The one call fits operators to the mesh that it leaves")
     CHECK(positions(mesh) == positions(without));
     CHECK(Eigen::MatrixXd(other.restriction) == Eigen::MatrixXd(result.restriction));
   }
-  SECTION(
-      "they are what fit_operators() gives, and keep the spectrum of the input better than the mesh's own")
+  SECTION("they are what fit_operators() gives, and keep the spectrum of the input better than the "
+          "mesh's own")
   {
     const SG::Laplace_operator own = SG::cotangent_laplacian(mesh, options.mass);
-    const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+    const SG::Laplace_operator fine =
+        SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
     const SG::Eigenpairs pairs = SG::eigenpairs(fine, 24, options.eigenpairs_options);
     if(options.pre_simplify == 0) {
-      const SG::Operator_fit_result direct = SG::fit_operators(own, result.restriction, fine, pairs);
+      const SG::Operator_fit_result direct =
+          SG::fit_operators(own, result.restriction, fine, pairs);
       CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(result.fitted->op.L)).norm() <
             1e-9 * own.L.norm());
       CHECK((Eigen::MatrixXd(direct.op.B) - Eigen::MatrixXd(result.fitted->op.B)).norm() <
@@ -578,13 +590,14 @@ TEST_CASE("Operators are fitted to the eigenpairs that are given")
   Spectral_edge_collapse_options options;
   options.number_of_eigenvectors = 20;
   options.fit_operators = true;
-  const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+  const SG::Laplace_operator fine =
+      SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(fine, 20));
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
   REQUIRE(result.fitted);
-  const SG::Operator_fit_result direct = SG::fit_operators(SG::cotangent_laplacian(mesh, options.mass),
-                                                           result.restriction, fine, *options.eigenpairs);
+  const SG::Operator_fit_result direct = SG::fit_operators(
+      SG::cotangent_laplacian(mesh, options.mass), result.restriction, fine, *options.eigenpairs);
   CHECK((Eigen::MatrixXd(direct.op.L) - Eigen::MatrixXd(result.fitted->op.L)).norm() <
         1e-9 * direct.op.L.norm());
 }

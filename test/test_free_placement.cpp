@@ -20,7 +20,8 @@ namespace test_free_placement {
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 
-TEST_CASE("The quadric of a free placement has its least value at the minimiser, as far as the samples reach")
+TEST_CASE("The quadric of a free placement has its least value at the minimiser, as far as the "
+          "samples reach")
 {
   SMS::internal::Spectral_placement_quadric quadric;
   const Eigen::Vector3d u(1, 2, 3), v(1.5, 2, 2.5), normal(1, 3, -1);
@@ -34,10 +35,13 @@ TEST_CASE("The quadric of a free placement has its least value at the minimiser,
       quadric.point(5) - quadric.point(1);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto draw = [&] { return Eigen::Vector3d(uniform(random), uniform(random), uniform(random)); };
+  const auto draw = [&] {
+    return Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+  };
   int inside = 0;
   for(int i = 0; i < 40; ++i) {
-    Eigen::Matrix3d A = Eigen::Vector3d(1 + uniform(random), 1.2, i % 2 == 0 ? 0.9 : -0.7).asDiagonal();
+    Eigen::Matrix3d A =
+        Eigen::Vector3d(1 + uniform(random), 1.2, i % 2 == 0 ? 0.9 : -0.7).asDiagonal();
     A(0, 1) = A(1, 0) = 0.3 * uniform(random);
     A(1, 2) = A(2, 1) = 0.3 * uniform(random);
     const Eigen::Vector3d b = draw();
@@ -68,7 +72,8 @@ TEST_CASE("The quadric of a free placement has its least value at the minimiser,
   CHECK(inside > 5);
 }
 
-TEST_CASE("A free candidate is the best of ten samples around the edge, of those on it, and of their quadric")
+TEST_CASE("A free candidate is the best of ten samples around the edge, of those on it, and of "
+          "their quadric")
 {
   const shapes::Matrices input = wavy_grid_matrices(12, 11);
   const Basis basis = eigenbasis(input, GENERATE(0., 0.5), 8);

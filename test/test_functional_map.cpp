@@ -54,7 +54,8 @@ TEST_CASE("identity has the identity as functional map and both norms zero")
   for(const double theta : thetas) {
     const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3), theta);
     const Eigenpairs pairs = SG::eigenpairs(op, 45);
-    const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, pairs, op, pairs, injection(642, 642), 30);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(op, pairs, op, pairs, injection(642, 642), 30);
     CHECK(e.C.isIdentity(1e-10));
     CHECK(e.norm_L < 1e-7);
     CHECK(e.norm_D < 1e-10);
@@ -86,7 +87,8 @@ TEST_CASE("a permutation of the vertices loses nothing")
     const Laplace_operator A = laplace(fine, theta), B = laplace(coarse, theta);
     const SG::Spectral_evaluation e =
         SG::evaluate_spectrum(A, SG::eigenpairs(A, 25), B, SG::eigenpairs(B, 25), P, 25);
-    CHECK(e.C.cwiseAbs().isIdentity(1e-8)); // signs of eigenvectors depend on the order of the vertices
+    CHECK(e.C.cwiseAbs().isIdentity(
+        1e-8)); // signs of eigenvectors depend on the order of the vertices
     CHECK(e.norm_L < 1e-7);
     CHECK(e.norm_D < 1e-9);
   }
@@ -110,7 +112,8 @@ TEST_CASE("functional map between two tessellations of a sphere is block-diagona
     CHECK(off.cwiseAbs().maxCoeff() < 0.01);
   }
   CHECK(e.errors.max < 0.005);
-  // Five exact multiplicities, but nothing like a diagonal: the map is as good as the identity for both norms.
+  // Five exact multiplicities, but nothing like a diagonal: the map is as good as the identity for
+  // both norms.
   CHECK(e.norm_L < 3.);
   CHECK(e.norm_D < 0.2);
   CHECK((e.C - MatrixXd::Identity(25, 25)).norm() > 1.);
@@ -173,8 +176,10 @@ TEST_CASE("the metric is the commutativity plus what leaves the truncated basis"
       const MatrixXd weak = B.B * (P * Z) - B.L * (P * f.vectors);
       const double E_B = (weak.array() * MatrixXd(B.B).llt().solve(weak).array()).sum();
       CHECK(commutator.squaredNorm() == Approx(E_B).epsilon(1e-7));
-      const double norm_L = SG::laplacian_commutativity_norm(C.topRows(K), f.values, c.values.head(K));
-      CHECK(norm_L * norm_L * C.topRows(K).squaredNorm() + commutator.bottomRows(N - K).squaredNorm() ==
+      const double norm_L =
+          SG::laplacian_commutativity_norm(C.topRows(K), f.values, c.values.head(K));
+      CHECK(norm_L * norm_L * C.topRows(K).squaredNorm() +
+                commutator.bottomRows(N - K).squaredNorm() ==
             Approx(E_B).epsilon(1e-7));
       if(theta == 0.)
         CHECK(E == Approx(E_B).epsilon(1e-10));
@@ -215,9 +220,11 @@ TEST_CASE("relative errors skip the zeros and the modes that are not there")
 
 TEST_CASE("evaluation skips one zero for each component")
 {
-  const Laplace_operator op = laplace(shapes::components_matrices(shapes::bumpy_icosphere_matrices(2), 3));
+  const Laplace_operator op =
+      laplace(shapes::components_matrices(shapes::bumpy_icosphere_matrices(2), 3));
   const Eigenpairs pairs = SG::eigenpairs(op, 20);
-  const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, pairs, op, pairs, injection(486, 486), 20);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(op, pairs, op, pairs, injection(486, 486), 20);
   CHECK(e.fine_zeros == 3);
   CHECK(e.coarse_zeros == 3);
   CHECK(e.errors.modes == 17);
@@ -236,11 +243,13 @@ TEST_CASE("a coarse mesh with fewer vertices than K is judged with as many modes
   CHECK(e.extended_modes == 12);
   CHECK(e.errors.modes == 11);
   CHECK(std::isfinite(e.norm_L));
-  CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, B, SG::eigenpairs(B, 11), injection(12, 162), 20),
-                    ContainsSubstring("the coarse mesh has 11 eigenpairs, compute at least 12"));
+  CHECK_THROWS_WITH(
+      SG::evaluate_spectrum(A, fine, B, SG::eigenpairs(B, 11), injection(12, 162), 20),
+      ContainsSubstring("the coarse mesh has 11 eigenpairs, compute at least 12"));
   CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, A, fine, injection(162, 162), 21),
                     ContainsSubstring("the fine mesh has 20 eigenpairs"));
-  CHECK_THROWS_AS(SG::evaluate_spectrum(A, fine, A, fine, injection(162, 162), 0), std::invalid_argument);
+  CHECK_THROWS_AS(SG::evaluate_spectrum(A, fine, A, fine, injection(162, 162), 0),
+                  std::invalid_argument);
   CHECK_THROWS_WITH(SG::evaluate_spectrum(A, fine, A, fine, injection(12, 162), 10),
                     ContainsSubstring("rows of P"));
 }
@@ -251,7 +260,8 @@ TEST_CASE("modes that change places at K are lost for K coarse modes but not for
   const Eigenpairs fine = SG::eigenpairs(op, 11);
   Eigenpairs coarse = fine;
   coarse.vectors.col(9).swap(coarse.vectors.col(10));
-  const SG::Spectral_evaluation e = SG::evaluate_spectrum(op, fine, op, coarse, injection(162, 162), 10);
+  const SG::Spectral_evaluation e =
+      SG::evaluate_spectrum(op, fine, op, coarse, injection(162, 162), 10);
   CHECK(e.norm_D == Approx(1.));
   CHECK(e.norm_D_extended < 1e-10);
 }
@@ -282,14 +292,16 @@ TEST_CASE("floors are those of plane waves on the equilateral lattice")
         orthonormality += std::pow(B / M - 1., 2) / directions;
       }
     }
-    CHECK(SG::commutativity_floor(theta, K, N) == Approx(std::sqrt(commutativity / K)).epsilon(0.03));
+    CHECK(SG::commutativity_floor(theta, K, N) ==
+          Approx(std::sqrt(commutativity / K)).epsilon(0.03));
     CHECK(SG::orthonormality_floor(theta, K, N) == Approx(std::sqrt(orthonormality)).epsilon(0.03));
   }
 }
 
 TEST_CASE("a nested icosphere comes close to the floors")
 {
-  const shapes::Matrices fine = shapes::icosphere_matrices(5), coarse = shapes::icosphere_matrices(3);
+  const shapes::Matrices fine = shapes::icosphere_matrices(5),
+                         coarse = shapes::icosphere_matrices(3);
   const double norm_L[] = {71., 8.1}, norm_D[] = {0.13, 0.70};
   for(int i = 0; i < 2; ++i) {
     const Laplace_operator A = laplace(fine, thetas[i]), B = laplace(coarse, thetas[i]);

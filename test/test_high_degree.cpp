@@ -55,9 +55,9 @@ TEST_CASE("Costs are the change of the global E, whichever vertices are hubs")
   }
 }
 
-TEST_CASE(
-    "What becomes of discs and gears does not depend on what a hub is, and stays so while rings grow and "
-    "shrink; until its turn comes an edge at a hub is costed as if that stayed")
+TEST_CASE("What becomes of discs and gears does not depend on what a hub is, and stays so while "
+          "rings grow and "
+          "shrink; until its turn comes an edge at a hub is costed as if that stayed")
 {
   const bool closed = GENERATE(false, true);
   const double theta = GENERATE(0., 0.5);
@@ -116,7 +116,8 @@ TEST_CASE(
 
 TEST_CASE("Time and memory are linear in the degree")
 {
-  const int d = 4000; // were all triangles of a hub looked at for each of its edges: 4,000 times 4,000 rows
+  const int d =
+      4000; // were all triangles of a hub looked at for each of its edges: 4,000 times 4,000 rows
   const shapes::Matrices input = shapes::gear_matrices(d, 2);
   const Basis basis = smooth_basis(input, 0, 8);
   std::vector<Eigen::Vector3d> points;

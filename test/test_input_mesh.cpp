@@ -25,9 +25,9 @@ using Indices = std::vector<std::size_t>;
 
 namespace {
 
-const std::string path =
-    (std::filesystem::temp_directory_path() / ("spectral_input_" + std::to_string(getpid()) + ".obj"))
-        .string();
+const std::string path = (std::filesystem::temp_directory_path() /
+                          ("spectral_input_" + std::to_string(getpid()) + ".obj"))
+                             .string();
 
 Input_mesh read(const std::string& text, const Mending mending)
 {
@@ -59,7 +59,8 @@ void check_positions(const std::string& text, const Input_mesh& input)
     CHECK(input.mesh.point(v) == soup.points[input.numbering.file_vertex(v)]);
   for(std::size_t v = 0; v < soup.points.size(); ++v)
     if(input.numbering.mesh_vertex(v) != no_vertex)
-      CHECK(input.mesh.point(Mesh::Vertex_index(unsigned(input.numbering.mesh_vertex(v)))) == soup.points[v]);
+      CHECK(input.mesh.point(Mesh::Vertex_index(unsigned(input.numbering.mesh_vertex(v)))) ==
+            soup.points[v]);
 }
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -91,7 +92,8 @@ TEST_CASE("Isolated vertices are left out, and the others keep their numbers")
   }
 }
 
-TEST_CASE("Faces that are turned the other way than their neighbours are turned round, where all can agree")
+TEST_CASE("Faces that are turned the other way than their neighbours are turned round, where all "
+          "can agree")
 {
   const std::string text = square + "v 2 0 0\nv 2 1 0\nf 1 2 3\nf 1 4 3\nf 2 5 6\nf 2 6 3\n";
   CHECK_THROWS_WITH(read(text, Mending::none), ContainsSubstring("same direction"));
@@ -112,7 +114,8 @@ TEST_CASE("Degenerate faces that CGAL cannot remove stay, and are named")
 {
   const std::string text =
       "v 0 0 0\nv 1 0 0\nv 6.995005352750662e+22 1.8943159647675943e+23 1.9429936213942168e-19\n"
-      "v 4.7544791794160686e+30 4.5445114319081253e+30 7.760067092203218e+26\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+      "v 4.7544791794160686e+30 4.5445114319081253e+30 7.760067092203218e+26\nf 1 3 2\nf 1 2 4\nf "
+      "2 3 4\n";
   CHECK_THROWS_WITH(read(text, Mending::full), ContainsSubstring("--repair could not do"));
 }
 
@@ -125,12 +128,14 @@ TEST_CASE("Copies of faces go")
   CHECK(input.mesh.number_of_faces() == 2);
 }
 
-TEST_CASE(
-    "The full repair takes away fins, whose faces lie on each other, and keeps one side of larger sheets")
+TEST_CASE("The full repair takes away fins, whose faces lie on each other, and keeps one side of "
+          "larger sheets")
 {
   const std::string octahedron = "v 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
-  const std::string closed = "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
-  // A fin of two triangles on each other, and a second pair that hangs on it; as triangles, and as a quadrangle folded onto two.
+  const std::string closed =
+      "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 1 4 6\n";
+  // A fin of two triangles on each other, and a second pair that hangs on it; as triangles, and as
+  // a quadrangle folded onto two.
   const std::string small = octahedron + "v 0.5 0.01 0.51\nv 0.49 0.02 0.52\n" + closed;
   const std::string fins[] = {"f 1 5 7\nf 5 1 7\nf 5 8 7\nf 7 8 5\n", "f 1 5 8 7\nf 7 8 5 1\n"};
   for(const std::string& fin : fins) {
@@ -143,7 +148,8 @@ TEST_CASE(
                ContainsSubstring("faces removed that were folded onto each other"));
   }
   // A sheet of some size on a body, and a surface that is there twice: one side stays.
-  const Input_mesh sheet = read(octahedron + "v 1 1 1\n" + closed + "f 1 5 7\nf 5 1 7\n", Mending::full);
+  const Input_mesh sheet =
+      read(octahedron + "v 1 1 1\n" + closed + "f 1 5 7\nf 5 1 7\n", Mending::full);
   CHECK(sheet.mesh.number_of_faces() == 9);
   const Input_mesh twice = read(square + "f 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n", Mending::full);
   CHECK(twice.mesh.number_of_faces() == 2);
@@ -165,17 +171,20 @@ TEST_CASE("Edges without length are closed, and their ends share")
         (Eigen::RowVectorXd(5) << 0, 0, 0.5, 0, 0.5).finished());
   CHECK(Eigen::RowVectorXd(input.numbering.columns_of_file(P, true).row(0)) ==
         (Eigen::RowVectorXd(5) << 0, 0, 1, 0, 0).finished());
-  CHECK(input.numbering.rows_of_file(Eigen::VectorXd((Eigen::VectorXd(4) << 1, 2, 3, 4).finished())) ==
+  CHECK(input.numbering.rows_of_file(
+            Eigen::VectorXd((Eigen::VectorXd(4) << 1, 2, 3, 4).finished())) ==
         (Eigen::VectorXd(5) << 1, 2, 3, 4, 3).finished());
-  CHECK(input.numbering.rows_of_mesh(Eigen::VectorXd((Eigen::VectorXd(5) << 1, 2, 3, 4, 5).finished())) ==
+  CHECK(input.numbering.rows_of_mesh(
+            Eigen::VectorXd((Eigen::VectorXd(5) << 1, 2, 3, 4, 5).finished())) ==
         (Eigen::VectorXd(4) << 1, 2, 4, 4).finished());
 }
 
 TEST_CASE("The full repair numbers the vertices of the file")
 {
   // Two sheets that share a vertex, with a copy of it and one that nothing uses.
-  const std::string text = "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 1 0 0\nv 1 1 0\n"
-                           "f 2 3 4\nf 2 5 6\nf 4 7 8\n";
+  const std::string text =
+      "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nv 0 -1 0\nv 1 0 0\nv 1 1 0\n"
+      "f 2 3 4\nf 2 5 6\nf 4 7 8\n";
   const Input_mesh input = read(text, Mending::full);
   check_positions(text, input);
   CHECK(input.mesh.number_of_vertices() == 7);
@@ -203,7 +212,8 @@ TEST_CASE("The full repair closes cracks")
   CHECK(input.diagnosis.cracks.empty());
   CHECK(mesh_vertices(input.numbering) == Indices{0, 1, 2, 1, 2, 3});
   CHECK(input.mesh.point(Mesh::Vertex_index(1)) == Kernel::Point_3(1, 0, 0));
-  CHECK_THAT(input.changes_of("square"), ContainsSubstring("2 vertices of cracks moved onto others"));
+  CHECK_THAT(input.changes_of("square"),
+             ContainsSubstring("2 vertices of cracks moved onto others"));
 }
 
 TEST_CASE("The full repair finds no cracks in a thin tube whose faces have vertices of their own")
@@ -216,20 +226,23 @@ TEST_CASE("The full repair finds no cracks in a thin tube whose faces have verti
         const double angle = 2 * CGAL_PI * ((k + dk) % n) / n;
         std::ostringstream line;
         line.precision(17);
-        line << "v " << 1.5e-5 * std::cos(angle) << ' ' << 1.5e-5 * std::sin(angle) << ' ' << (r + dr) / 3.
-             << "\n";
+        line << "v " << 1.5e-5 * std::cos(angle) << ' ' << 1.5e-5 * std::sin(angle) << ' '
+             << (r + dr) / 3. << "\n";
         text += line.str();
       }
   for(int v = 1; v < 6 * n * (rings - 1); v += 3)
-    text += "f " + std::to_string(v) + ' ' + std::to_string(v + 1) + ' ' + std::to_string(v + 2) + '\n';
+    text +=
+        "f " + std::to_string(v) + ' ' + std::to_string(v + 1) + ' ' + std::to_string(v + 2) + '\n';
   const Input_mesh input = read(text, Mending::full);
   CHECK(input.mesh.number_of_vertices() == n * rings);
   CHECK(input.mesh.number_of_faces() == 2 * n * (rings - 1));
 }
 
-TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copies that arise are removed")
+TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copies that arise are "
+          "removed")
 {
-  // Two quadrangles with the same diagonal to each side of it, one of them with the triangle of the other.
+  // Two quadrangles with the same diagonal to each side of it, one of them with the triangle of the
+  // other.
   const std::string diagonal = square + "v 1 0 1\nf 1 2 3 4\nf 1 2 3\nf 1 3 5\n";
   CHECK(read(diagonal, Mending::full).diagnosis.obstacles().empty());
   // A pentagon that turns back on itself, far from any plane.
@@ -237,7 +250,8 @@ TEST_CASE("Polygons that are neither plane nor convex are triangulated, and copi
   const Input_mesh pentagon = read(bent, Mending::full);
   CHECK(pentagon.mesh.number_of_faces() == 3);
   // Its corners on a line, but for one.
-  const Input_mesh flat = read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4 5\n", Mending::full);
+  const Input_mesh flat =
+      read("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4 5\n", Mending::full);
   CHECK(flat.mesh.number_of_faces() == 3);
   // A corner on the edge of two others.
   const Input_mesh touching =

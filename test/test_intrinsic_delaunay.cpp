@@ -78,7 +78,8 @@ shapes::Matrices stretched_grid()
   shapes::Matrices mesh = shapes::irregular_grid_matrices(14, 10, 0.3);
   mesh.V.col(0) *= 20.;
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    const Vector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)), r = mesh.V.row(mesh.T(f, 2));
+    const Vector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
+                   r = mesh.V.row(mesh.T(f, 2));
     REQUIRE((q - p).cross(r - p).z() > 0.);
   }
   return mesh;
@@ -103,7 +104,8 @@ shapes::Matrices planar_delaunay(const shapes::Matrices& mesh)
   return result;
 }
 
-// Needles on the unit sphere: every third vertex or so goes most of the way to a neighbour, along the sphere.
+// Needles on the unit sphere: every third vertex or so goes most of the way to a neighbour, along
+// the sphere.
 shapes::Matrices needle_sphere(const int subdivisions, const double way)
 {
   shapes::Matrices mesh = shapes::icosphere_matrices(subdivisions);
@@ -122,7 +124,8 @@ shapes::Matrices needle_sphere(const int subdivisions, const double way)
   return mesh;
 }
 
-// A sphere turned about its axis, by an angle that grows along it: faces are sheared, vertices are as dense as before.
+// A sphere turned about its axis, by an angle that grows along it: faces are sheared, vertices are
+// as dense as before.
 shapes::Matrices twisted_sphere(const int subdivisions, const double turn)
 {
   shapes::Matrices mesh = shapes::icosphere_matrices(subdivisions);
@@ -158,8 +161,8 @@ std::vector<shapes::Matrices> closed_shapes()
           sheared_torus};
 }
 
-// Slow: lengths alone, angles by the law of cosines, any edge that has too large ones until there is none. Its L, and how many
-// sides have a vertex at both ends.
+// Slow: lengths alone, angles by the law of cosines, any edge that has too large ones until there
+// is none. Its L, and how many sides have a vertex at both ends.
 Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loops)
 {
   struct Corner
@@ -169,7 +172,9 @@ Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loop
   };
   std::vector<std::array<Corner, 3>> faces(std::size_t(mesh.T.rows()));
   const int m = int(faces.size());
-  const auto at = [&](int f, int k) -> Corner& { return faces[std::size_t(f)][std::size_t((k + 6) % 3)]; };
+  const auto at = [&](int f, int k) -> Corner& {
+    return faces[std::size_t(f)][std::size_t((k + 6) % 3)];
+  };
   for(int f = 0; f < m; ++f)
     for(int k = 0; k < 3; ++k) {
       const int i = mesh.T(f, (k + 1) % 3), j = mesh.T(f, (k + 2) % 3);
@@ -191,17 +196,22 @@ Eigen::MatrixXd slow_intrinsic_stiffness(const shapes::Matrices& mesh, int& loop
         if(g < 0 || angle_at(f, k) + angle_at(g, l) < shapes::pi + 1e-9)
           continue;
         REQUIRE(g != f);
-        const Corner c = at(f, k), i = at(f, k + 1), j = at(f, k + 2), d = at(g, l); // (c, i, j), (d, j, i)
+        const Corner c = at(f, k), i = at(f, k + 1), j = at(f, k + 2),
+                     d = at(g, l); // (c, i, j), (d, j, i)
         const Corner id = at(g, l + 1), dj = at(g, l + 2);
-        const double at_i = angle_at(f, k + 1) + angle_at(g, l + 2), ci = j.length, length_id = id.length;
-        const double cd = std::sqrt(ci * ci + length_id * length_id - 2 * ci * length_id * std::cos(at_i));
+        const double at_i = angle_at(f, k + 1) + angle_at(g, l + 2), ci = j.length,
+                     length_id = id.length;
+        const double cd =
+            std::sqrt(ci * ci + length_id * length_id - 2 * ci * length_id * std::cos(at_i));
         // Outer sides in their new places: f = (c, i, d), g = (d, j, c).
-        const std::array<Corner, 3> new_f = {
-            {{c.vertex, id.face, id.side, id.length}, {i.vertex, g, 1, cd}, {d.vertex, j.face, j.side, ci}}};
+        const std::array<Corner, 3> new_f = {{{c.vertex, id.face, id.side, id.length},
+                                              {i.vertex, g, 1, cd},
+                                              {d.vertex, j.face, j.side, ci}}};
         const std::array<Corner, 3> new_g = {{{d.vertex, i.face, i.side, i.length},
                                               {j.vertex, f, 1, cd},
                                               {c.vertex, dj.face, dj.side, dj.length}}};
-        const int old[4][2] = {{g, (l + 1) % 3}, {f, (k + 2) % 3}, {f, (k + 1) % 3}, {g, (l + 2) % 3}};
+        const int old[4][2] = {
+            {g, (l + 1) % 3}, {f, (k + 2) % 3}, {f, (k + 1) % 3}, {g, (l + 2) % 3}};
         const int now[4][2] = {{f, 0}, {f, 2}, {g, 0}, {g, 2}};
         faces[std::size_t(f)] = new_f;
         faces[std::size_t(g)] = new_g;
@@ -295,7 +305,8 @@ TEST_CASE("A flipped Laplacian has no positive weights, sums to zero and keeps t
 TEST_CASE("Flips lower the Dirichlet energy of every function")
 {
   for(const shapes::Matrices& mesh : closed_shapes()) {
-    const Eigen::MatrixXd decrease = Eigen::MatrixXd(plain(mesh).L) - Eigen::MatrixXd(intrinsic(mesh).L);
+    const Eigen::MatrixXd decrease =
+        Eigen::MatrixXd(plain(mesh).L) - Eigen::MatrixXd(intrinsic(mesh).L);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(decrease, Eigen::EigenvaluesOnly);
     CHECK(solver.eigenvalues()(0) > -1e-12 * solver.eigenvalues().maxCoeff());
     CHECK(solver.eigenvalues().maxCoeff() > 0.01);
@@ -315,12 +326,12 @@ TEST_CASE("Flips by lengths and angles in another order lead to the same stiffne
     V.col(0) *= 20.;
   }
   // On its way two opposite sides of two triangles are one edge, and these are flipped on.
-  meshes.push_back(shapes::matrices({{8638, 7, -15},   {-4954, -1, 27},  {-3904, -25, 18}, {2633, -26, 6},
-                                     {-6933, 5, 8},    {-896, -26, -3},  {-4900, -9, 10},  {1093, 27, 17},
-                                     {2630, -21, -24}, {-8080, 20, 38},  {-904, -18, 0},   {6370, -21, -35},
-                                     {-3550, 13, 29},  {5494, 38, -8},   {-2504, -1, -52}, {4460, -4, 48},
-                                     {344, 51, 38},    {-4918, -29, 23}, {-858, 8, -16},   {1531, 36, -40}},
-                                    {}));
+  meshes.push_back(shapes::matrices(
+      {{8638, 7, -15},  {-4954, -1, 27},  {-3904, -25, 18}, {2633, -26, 6},   {-6933, 5, 8},
+       {-896, -26, -3}, {-4900, -9, 10},  {1093, 27, 17},   {2630, -21, -24}, {-8080, 20, 38},
+       {-904, -18, 0},  {6370, -21, -35}, {-3550, 13, 29},  {5494, 38, -8},   {-2504, -1, -52},
+       {4460, -4, 48},  {344, 51, 38},    {-4918, -29, 23}, {-858, 8, -16},   {1531, 36, -40}},
+      {}));
   meshes.back().T = shapes::gear_matrices(3, 6).T;
   int loops = 0;
   for(const shapes::Matrices& mesh : meshes) {
@@ -356,17 +367,18 @@ TEST_CASE("Short edges beside a long one keep their digits when it is flipped")
 TEST_CASE("A mesh that is Delaunay keeps its operators")
 {
   // A flat triangle on a border cannot be flipped, and keeps its height.
-  const shapes::Matrices cap =
-      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0.5, -1e-7, 0.3}, {0.43, 1e-7, 0}}, {{0, 1, 3}, {2, 1, 0}});
+  const shapes::Matrices cap = shapes::matrices(
+      {{0, 0, 0}, {1, 0, 0}, {0.5, -1e-7, 0.3}, {0.43, 1e-7, 0}}, {{0, 1, 3}, {2, 1, 0}});
   const shapes::Matrices border_cap =
       shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0.43, 1e-7, 0.2e-7}}, {{0, 1, 2}});
   for(const shapes::Matrices& mesh :
-      {shapes::icosphere_matrices(2), shapes::equilateral_matrices(7), shapes::tetrahedron_matrices(),
-       shapes::grid_matrices(5, 4), border_cap})
+      {shapes::icosphere_matrices(2), shapes::equilateral_matrices(7),
+       shapes::tetrahedron_matrices(), shapes::grid_matrices(5, 4), border_cap})
     for(const Mass mass : masses) {
       CHECK(difference(intrinsic(mesh, mass).L, plain(mesh, mass).L) < 1e-14);
       CHECK(difference(intrinsic(mesh, mass).B, plain(mesh, mass).B) < 1e-14);
-      CHECK((intrinsic(mesh, mass).mass - plain(mesh, mass).mass).norm() < 1e-14 * plain(mesh).mass.norm());
+      CHECK((intrinsic(mesh, mass).mass - plain(mesh, mass).mass).norm() <
+            1e-14 * plain(mesh).mass.norm());
     }
   CHECK(difference(intrinsic(cap).L, plain(cap).L) > 0.1);
   CHECK(largest_off_diagonal(plain(cap)) > 1e5);
@@ -375,8 +387,10 @@ TEST_CASE("A mesh that is Delaunay keeps its operators")
 
 TEST_CASE("Neither scale nor motion changes a flipped Laplacian")
 {
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
-  for(const shapes::Matrices& mesh : {needle_sphere(2, 0.97), spindle(), shapes::bumpy_icosphere_matrices(2)})
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  for(const shapes::Matrices& mesh :
+      {needle_sphere(2, 0.97), spindle(), shapes::bumpy_icosphere_matrices(2)})
     for(const Mass mass : masses) {
       const Laplace_operator op = intrinsic(mesh, mass);
       for(const double scale : {1e-140, 1e-5, 1e7, 1e140}) {
@@ -384,7 +398,8 @@ TEST_CASE("Neither scale nor motion changes a flipped Laplacian")
         other.V *= scale;
         const Laplace_operator scaled = intrinsic(other, mass);
         CHECK(difference(scaled.L, op.L) < 1e-12);
-        CHECK((scaled.mass / scale / scale - op.mass).cwiseAbs().maxCoeff() < 1e-12 * op.mass.maxCoeff());
+        CHECK((scaled.mass / scale / scale - op.mass).cwiseAbs().maxCoeff() <
+              1e-12 * op.mass.maxCoeff());
       }
       shapes::Matrices moved = mesh;
       moved.V = (mesh.V * turn.transpose()).rowwise() + Eigen::RowVector3d(3, -1, 2);
@@ -405,8 +420,10 @@ TEST_CASE("A sphere of long thin faces has eigenvalues closer to l (l + 1)")
         sum += std::abs(values(k) / (l * (l + 1.)) - 1.);
     return sum / double(k - 1);
   };
-  // Sheared faces make eigenvalues too large, lumped masses too small: without flips these errors cancel in part.
-  CHECK(mean_error(intrinsic(mesh, Mass::averaged)) < 0.1 * mean_error(plain(mesh, Mass::averaged)));
+  // Sheared faces make eigenvalues too large, lumped masses too small: without flips these errors
+  // cancel in part.
+  CHECK(mean_error(intrinsic(mesh, Mass::averaged)) <
+        0.1 * mean_error(plain(mesh, Mass::averaged)));
   CHECK(mean_error(intrinsic(mesh, Mass::averaged)) < 0.002);
   for(const Mass mass : {Mass::lumped, Mass::voronoi})
     CHECK(mean_error(intrinsic(mesh, mass)) < 0.8 * mean_error(plain(mesh, mass)));
@@ -414,8 +431,10 @@ TEST_CASE("A sphere of long thin faces has eigenvalues closer to l (l + 1)")
 
 TEST_CASE("Edges from a vertex to itself: a triangle covered twice")
 {
-  // The edge beyond the obtuse corner 2 becomes a loop around it: the corners 0 and 1 are tips of cones.
-  const shapes::Matrices mesh = shapes::matrices({{0, 0, 0}, {3, 0, 0}, {1, 0.4, 0}}, {{0, 1, 2}, {0, 2, 1}});
+  // The edge beyond the obtuse corner 2 becomes a loop around it: the corners 0 and 1 are tips of
+  // cones.
+  const shapes::Matrices mesh =
+      shapes::matrices({{0, 0, 0}, {3, 0, 0}, {1, 0.4, 0}}, {{0, 1, 2}, {0, 2, 1}});
   const double at_0 = angle(mesh, 0, 1, 2), at_1 = angle(mesh, 1, 0, 2);
   for(const Mass mass : masses) {
     const Laplace_operator op = intrinsic(mesh, mass);
@@ -438,7 +457,8 @@ TEST_CASE("Edges from a vertex to itself and double edges: a thin tetrahedron")
 {
   const shapes::Matrices mesh = spindle();
   const Eigen::MatrixXd L = intrinsic(mesh).L, B = intrinsic(mesh, Mass::averaged).B;
-  // A tip lies within a loop about its neighbour: a triangle whose base angles are those the cone leaves.
+  // A tip lies within a loop about its neighbour: a triangle whose base angles are those the cone
+  // leaves.
   const double at_p = angle(mesh, 0, 1, 2) + angle(mesh, 0, 1, 3) + angle(mesh, 0, 2, 3);
   const double at_q = angle(mesh, 1, 0, 2) + angle(mesh, 1, 0, 3) + angle(mesh, 1, 2, 3);
   CHECK(L(0, 2) == Approx(-std::tan(at_p / 2)));
@@ -454,7 +474,8 @@ TEST_CASE("Edges from a vertex to itself and double edges: a thin tetrahedron")
 
 TEST_CASE("Borders and edges that are not manifold stay")
 {
-  const std::vector<Vector3d> points = {{0, 0, 0}, {1, 0, 0}, {0.4, 0.1, 0}, {0.6, -0.1, 0}, {0.5, 0, 0.1}};
+  const std::vector<Vector3d> points = {
+      {0, 0, 0}, {1, 0, 0}, {0.4, 0.1, 0}, {0.6, -0.1, 0}, {0.5, 0, 0.1}};
   const auto unchanged = [](const shapes::Matrices& mesh) {
     return difference(intrinsic(mesh, Mass::averaged).L, plain(mesh, Mass::averaged).L) < 1e-14 &&
            difference(intrinsic(mesh, Mass::averaged).B, plain(mesh, Mass::averaged).B) < 1e-14;
@@ -483,8 +504,9 @@ TEST_CASE("Borders and edges that are not manifold stay")
 TEST_CASE("A face without area whose corner lies between the others is flipped away")
 {
   // A square with a vertex on its diagonal, on one side alone.
-  shapes::Matrices mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
-                                           {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
+  shapes::Matrices mesh =
+      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                       {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
   shapes::Matrices split = mesh;
   split.T << 0, 1, 4, 1, 2, 4, 0, 4, 3, 4, 2, 3;
   for(const Mass mass : masses) {
@@ -516,9 +538,11 @@ TEST_CASE("Flips end, whatever is degenerate")
                                                   {-1, 0.014567406497764232, -1},
                                                   {-1, -0.014567406497764241, 1}},
                                                  {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}});
-  CHECK_THROWS_WITH(intrinsic(line), ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
+  CHECK_THROWS_WITH(intrinsic(line),
+                    ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
 
-  // Vertices on few points of a grid: faces without area or on top of each other, edges without length.
+  // Vertices on few points of a grid: faces without area or on top of each other, edges without
+  // length.
   std::mt19937 random(1);
   int refused = 0, accepted = 0;
   for(int run = 0; run < 300; ++run) {
@@ -529,8 +553,8 @@ TEST_CASE("Flips end, whatever is degenerate")
                  noise = run % 2 ? 0. : std::pow(10., -int(random() % 12) - 6);
     for(Eigen::Index v = 0; v < mesh.V.rows(); ++v)
       for(int c = 0; c < 3; ++c)
-        mesh.V(v, c) =
-            cell * std::round(mesh.V(v, c) / cell) + noise * (double(random()) / double(random.max()) - 0.5);
+        mesh.V(v, c) = cell * std::round(mesh.V(v, c) / cell) +
+                       noise * (double(random()) / double(random.max()) - 0.5);
     try {
       const Laplace_operator op = intrinsic(mesh, masses[run % 3]);
       ++accepted;
@@ -567,21 +591,26 @@ TEST_CASE("Bad meshes are refused by the name of the first offender, before and 
   {
     mesh.V.conservativeResize(26, 3);
     mesh.V.row(25).setConstant(0.5);
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
+    CHECK_THROWS_WITH(intrinsic(mesh),
+                      ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
   }
   SECTION("only faces without area")
   {
     mesh.V.col(0) = mesh.V.col(1);
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
+    CHECK_THROWS_WITH(intrinsic(mesh),
+                      ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
     mesh.V.setZero();
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
+    CHECK_THROWS_WITH(intrinsic(mesh),
+                      ContainsSubstring("vertex 0 ") && ContainsSubstring("zero area"));
   }
   SECTION("a needle on a border, where nothing can be flipped")
   {
     mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0.5, -1e-13, 0}}, {{0, 2, 1}});
-    CHECK_THROWS_WITH(intrinsic(mesh), ContainsSubstring("0, 2 and 1 ") && ContainsSubstring("needle"));
+    CHECK_THROWS_WITH(intrinsic(mesh),
+                      ContainsSubstring("0, 2 and 1 ") && ContainsSubstring("needle"));
     // With a face beyond its longest edge it is gone.
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}},
+                            {{0, 1, 2}, {0, 3, 1}});
     CHECK_THROWS_WITH(plain(mesh), ContainsSubstring("needle"));
     CHECK(intrinsic(mesh).L.coeff(2, 3) == Approx(-0.5)); // right at 0, an eighth of a turn at 1
   }

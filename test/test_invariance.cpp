@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The same shape in another place, at another scale, in another order is simplified alike; what a mesh consists of stays.
+// The same shape in another place, at another scale, in another order is simplified alike; what a
+// mesh consists of stays.
 
 #include "catch.h"
 #include "collapse_helpers.h"
@@ -51,9 +52,10 @@ double share_of_common_vertices(const Eigen::MatrixXd& V, const Eigen::MatrixXd&
   return double(common) / double(V.rows());
 }
 
-// The same shape, differently given, and how its points are brought back. To the last bit costs differ, and there
-// are exact ties (an ear or a vertex of valence three can be collapsed along any of its edges), after which the
-// order of collapses may go another way. So the first collapses must be the same, and E near at the end.
+// The same shape, differently given, and how its points are brought back. To the last bit costs
+// differ, and there are exact ties (an ear or a vertex of valence three can be collapsed along any
+// of its edges), after which the order of collapses may go another way. So the first collapses must
+// be the same, and E near at the end.
 template <class Back>
 void check_alike(const shapes::Matrices& input, const shapes::Matrices& other,
                  const Spectral_options& options, const Back& back)
@@ -90,8 +92,9 @@ TEST_CASE("A mesh that was turned and moved is collapsed in the same places")
   const Eigen::RowVector3d offset(2., -3., 0.7);
   shapes::Matrices moved = input;
   moved.V = (input.V * R.transpose()).rowwise() + offset;
-  check_alike(input, moved, options,
-              [&](const Eigen::MatrixXd& V) -> Eigen::MatrixXd { return (V.rowwise() - offset) * R; });
+  check_alike(input, moved, options, [&](const Eigen::MatrixXd& V) -> Eigen::MatrixXd {
+    return (V.rowwise() - offset) * R;
+  });
 }
 
 TEST_CASE("A millionth of the scale or a million times it give the same collapses")
@@ -168,7 +171,8 @@ TEST_CASE("Components, handles and border curves are kept")
     expected = {2, 2, 2};
     N = 6;
   }
-  for(const Eigen::Index K : {Eigen::Index(1), Eigen::Index(2), Eigen::Index(15), input.V.rows() - 1}) {
+  for(const Eigen::Index K :
+      {Eigen::Index(1), Eigen::Index(2), Eigen::Index(15), input.V.rows() - 1}) {
     CAPTURE(K);
     Mesh mesh = make_mesh(input);
     const Policies policies(mesh, options_with(K));

@@ -30,12 +30,14 @@ TEST_CASE("Vertices to keep survive with their position and their values")
 {
   const bool bordered = GENERATE(false, true);
   Spectral_edge_collapse_options options = options_with(10);
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
   options.preserve_border = bordered;
   const bool as_map = GENERATE(false, true);
   CAPTURE(bordered, int(options.placement), options.binary, as_map);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3);
   const std::vector<std::size_t> kept = every(17, input.V.rows(), 3);
   Mesh mesh = make_mesh(input);
 
@@ -70,7 +72,8 @@ TEST_CASE("A second run keeps the vertices of the first")
   for(const std::size_t N : {300, 100}) {
     collapse(mesh, policies, N);
     mesh.collect_garbage();
-    CHECK(survivors(options.kept_vertices, input, mesh, policies.restriction(), policies.vertex_map()) == 33);
+    CHECK(survivors(options.kept_vertices, input, mesh, policies.restriction(),
+                    policies.vertex_map()) == 33);
   }
 }
 
@@ -110,8 +113,8 @@ TEST_CASE("Vertices to keep and edge constraints hold at the same time, in one s
   const auto last = std::unique(options.kept_vertices.begin(), options.kept_vertices.end());
   options.kept_vertices.erase(last, options.kept_vertices.end());
 
-  const Result result =
-      SMS::spectral_edge_collapse(mesh, 10, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  const Result result = SMS::spectral_edge_collapse(
+      mesh, 10, options, CGAL::parameters::edge_is_constrained_map(constraints));
   CHECK(fault_of_result(mesh, result.restriction, result.vertex_map, input) == "");
   CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
   CHECK(result.output_vertices < 200);
@@ -138,7 +141,8 @@ TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of 
     options.kept_vertices = {one};
     const Result result = SMS::spectral_edge_collapse(mesh, 50, options);
     CHECK(survivors({one}, input, mesh, result.restriction, result.vertex_map) == 1);
-    CHECK(positions(mesh).row(Eigen::Index(result.vertex_map[one])) == input.V.row(Eigen::Index(one)));
+    CHECK(positions(mesh).row(Eigen::Index(result.vertex_map[one])) ==
+          input.V.row(Eigen::Index(one)));
   }
   SECTION("two, with a third between them")
   {
@@ -155,7 +159,8 @@ TEST_CASE("A vertex to keep that coincides with a neighbour takes it in; two of 
   {
     options.kept_vertices = {7, 162};
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 50, options), std::invalid_argument);
-    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring("vertex 162"));
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options),
+                      ContainsSubstring("vertex 162"));
     CHECK(positions(mesh) == input.V);
   }
 }
@@ -172,8 +177,8 @@ TEST_CASE("Pre-simplification never merges a vertex to keep with the end of a co
   auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
   for(const auto e : edges(mesh))
     constraints[e] = constrained && is_border(e, mesh);
-  const Result result =
-      SMS::spectral_edge_collapse(mesh, 4, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  const Result result = SMS::spectral_edge_collapse(
+      mesh, 4, options, CGAL::parameters::edge_is_constrained_map(constraints));
   CHECK(result.pre_simplified_vertices == (constrained ? 13 : 4));
   CHECK(survivors({0}, input, mesh, result.restriction, result.vertex_map) == 1);
 }
@@ -220,8 +225,8 @@ TEST_CASE("Borders, sharp edges and corners of a bent sheet are features, and st
   for(const auto v : vertices(mesh))
     if(get(features, v))
       points.push_back(mesh.point(v));
-  const Result result =
-      SMS::spectral_edge_collapse(mesh, 70, options, CGAL::parameters::vertex_is_constrained_map(features));
+  const Result result = SMS::spectral_edge_collapse(
+      mesh, 70, options, CGAL::parameters::vertex_is_constrained_map(features));
   CHECK(result.output_vertices == 70);
   std::set<Kernel::Point_3> left;
   for(const auto v : vertices(mesh))

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The local cost without a mesh type: Spectral_collapse_core on rings that are made here, against a mesh that is
-// a list of triangles and recomputes E globally.
+// The local cost without a mesh type: Spectral_collapse_core on rings that are made here, against a
+// mesh that is a list of triangles and recomputes E globally.
 
 #include "catch.h"
 #include "core_helpers.h"
@@ -21,8 +21,8 @@ namespace test_kernel {
 using namespace spectral_test;
 using SMS::Spectral_placement_strategy;
 
-TEST_CASE(
-    "The local cost of a collapse is the change of the global E, for every mass, point and kind of edge")
+TEST_CASE("The local cost of a collapse is the change of the global E, for every mass, point and "
+          "kind of edge")
 {
   const bool bordered = GENERATE(false, true);
   const double theta = GENERATE(0., 0.5, 0.3);
@@ -46,7 +46,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("The local cost is as exact beside a cap, whose cotangents square to more than doubles hold")
+TEST_CASE(
+    "The local cost is as exact beside a cap, whose cotangents square to more than doubles hold")
 {
   const double theta = GENERATE(0., 0.5), height = GENERATE(1e-4, 1e-7, 1e-9);
   CAPTURE(theta, height);
@@ -70,7 +71,8 @@ TEST_CASE("Costs after many collapses are those of a state built afresh from the
   const bool bordered = GENERATE(false, true);
   const double theta = GENERATE(0., 0.5);
   CAPTURE(bordered, theta);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(18, 16) : shapes::bumpy_icosphere_matrices(2);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(18, 16) : shapes::bumpy_icosphere_matrices(2);
   Basis basis = eigenbasis(input, theta, 10);
   Slow_mesh mesh(input, basis);
   Core core = make_core(mesh, basis);
@@ -103,7 +105,8 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
       GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint,
                Spectral_placement_strategy::free);
   CAPTURE(bordered, theta, binary, int(placement));
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(16, 14) : shapes::bumpy_icosphere_matrices(2);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(16, 14) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, 9);
   Slow_mesh mesh(input, basis);
   Parameters parameters = Parameters::paper();
@@ -127,8 +130,8 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
     const Eigen::RowVectorXd f = tracked_signals(core.fields(), slots[i]);
     worst_f = (std::max)(worst_f, (PF.row(i) - f).cwiseAbs().maxCoeff());
     worst_slow = (std::max)(worst_slow, (mesh.F.row(slots[i]) - f).cwiseAbs().maxCoeff());
-    worst_v =
-        (std::max)(worst_v, (PV.row(i) - core.fields().points[slots[i]].transpose()).cwiseAbs().maxCoeff());
+    worst_v = (std::max)(
+        worst_v, (PV.row(i) - core.fields().points[slots[i]].transpose()).cwiseAbs().maxCoeff());
   }
   CHECK(worst_f < 1e-12);
   CHECK(worst_slow < 1e-12);
@@ -136,7 +139,8 @@ TEST_CASE("E, F and P follow the mesh through collapses in either direction")
     CHECK(worst_v < 1e-12);
 }
 
-TEST_CASE("A candidate on the edge is the best of three samples and the minimiser of their parabola")
+TEST_CASE(
+    "A candidate on the edge is the best of three samples and the minimiser of their parabola")
 {
   const shapes::Matrices input = wavy_grid_matrices(12, 11);
   const Basis basis = eigenbasis(input, 0.5, 8);
@@ -262,7 +266,8 @@ TEST_CASE("A constant signal costs nothing, nor does a linear one inside a plane
 
 TEST_CASE("Costs are accurate on a mesh that is fine for its signals")
 {
-  // A patch of a mesh of 40,000 vertices and unit area. The cost is the change of a small difference of large terms.
+  // A patch of a mesh of 40,000 vertices and unit area. The cost is the change of a small
+  // difference of large terms.
   const double theta = GENERATE(0., 0.5);
   const int wave = GENERATE(0, 1, 3, 10);
   const bool steep = GENERATE(false, true);
@@ -274,8 +279,8 @@ TEST_CASE("Costs are accurate on a mesh that is fine for its signals")
   const double pi = shapes::pi;
   basis.F.resize(input.V.rows(), 2);
   basis.F.col(0) = std::sqrt(2.) * (pi * wave * input.V.col(0).array() + 0.4).cos();
-  basis.F.col(1) =
-      2. * (pi * wave * input.V.col(0).array()).cos() * (pi * (wave + 1) * input.V.col(1).array() + 1).cos();
+  basis.F.col(1) = 2. * (pi * wave * input.V.col(0).array()).cos() *
+                   (pi * (wave + 1) * input.V.col(1).array() + 1).cos();
   basis.lambda = pi * pi * Eigen::Vector2d(wave * wave, wave * wave + (wave + 1) * (wave + 1));
   basis.Z = basis.F * basis.lambda.asDiagonal();
   const Slow_mesh mesh(input, basis);
@@ -292,7 +297,8 @@ TEST_CASE("Costs are accurate on a mesh that is fine for its signals")
   CHECK(worst < 1e-6);
 }
 
-TEST_CASE("Weights are projections on the edge, cut off at its ends, and 1/2 where it has no length")
+TEST_CASE(
+    "Weights are projections on the edge, cut off at its ends, and 1/2 where it has no length")
 {
   shapes::Matrices input = shapes::grid_matrices(4, 4);
   const Basis basis = eigenbasis(input, 0, 3);
@@ -305,7 +311,8 @@ TEST_CASE("Weights are projections on the edge, cut off at its ends, and 1/2 whe
   CHECK(core.projected_weight(12, 13, Eigen::Vector3d(2, 0, 0)) == 0.5);
 }
 
-TEST_CASE("Binary weights round to the nearer end; a tie keeps the larger mass, then the smaller index")
+TEST_CASE(
+    "Binary weights round to the nearer end; a tie keeps the larger mass, then the smaller index")
 {
   const shapes::Matrices input = wavy_grid_matrices(9, 8);
   const Basis basis = eigenbasis(input, 0.5, 7);
@@ -327,7 +334,8 @@ TEST_CASE("Binary weights round to the nearer end; a tie keeps the larger mass, 
     if(std::abs(alpha - 0.5) > 1e-9)
       CHECK(c.weight == (alpha < 0.5 ? 0. : 1.));
     inner += alpha > 0.01 && alpha < 0.99;
-    CHECK(relative_difference(c.cost, mesh.energy_after(e, c.weight, c.point) - mesh.energy()) < 1e-9);
+    CHECK(relative_difference(c.cost, mesh.energy_after(e, c.weight, c.point) - mesh.energy()) <
+          1e-9);
     CHECK(m.weight == (mass(v) > mass(u) ? 1. : 0.));
     CHECK(core.projected_weight(u, v, on_edge(mesh, e, 0.3)) == 0.);
     CHECK(core.projected_weight(v, u, on_edge(mesh, e, 0.3)) == 1.);
@@ -369,7 +377,8 @@ TEST_CASE("preserve_border keeps the border vertex of an edge that has one, whol
     if(kind == one_border_vertex) {
       CHECK(c.weight == (mesh.on_border(e.second, faces) ? 1. : 0.));
       CHECK(c.point == on_edge(mesh, e, c.weight));
-      CHECK(relative_difference(c.cost, mesh.energy_after(e, c.weight, c.point) - mesh.energy()) < 1e-9);
+      CHECK(relative_difference(c.cost, mesh.energy_after(e, c.weight, c.point) - mesh.energy()) <
+            1e-9);
     } else if(kind == border_edge && placement == Spectral_placement_strategy::free) {
       CHECK((c.point - on_edge(mesh, e, c.weight)).norm() < 1e-14);
     } else
@@ -394,15 +403,17 @@ TEST_CASE("A cost does not depend on the direction in which its edge is presente
     CHECK(relative_difference(core.cost_at(u, v, c.point), c.cost) < 1e-9);
     const Eigen::Vector3d point = on_edge(mesh, e, 0.3);
     CHECK(relative_difference(core.cost_at(u, v, point), core.cost_at(v, u, point)) < 1e-9);
-    CHECK(relative_difference(core.change_at(u, v, 0.3, point), core.change_at(v, u, 0.7, point)) < 1e-9);
+    CHECK(relative_difference(core.change_at(u, v, 0.3, point), core.change_at(v, u, 0.7, point)) <
+          1e-9);
   }
 }
 
-TEST_CASE(
-    "An evaluation changes nothing: another one, or that of the edge whose turn has come, finds the same")
+TEST_CASE("An evaluation changes nothing: another one, or that of the edge whose turn has come, "
+          "finds the same")
 {
   const bool bordered = GENERATE(false, true);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, 0.5, 10);
   Slow_mesh mesh(input, basis);
   Core core = make_core(mesh, basis);
@@ -461,8 +472,9 @@ TEST_CASE("A point that makes a triangle without area has an infinite cost")
   const shapes::Matrices input = shapes::grid_matrices(4, 4);
   const Basis basis = eigenbasis(input, 0, 3);
   Core core = make_core(Slow_mesh(input, basis), basis);
-  CHECK(core.cost_at(12, 13, Eigen::Vector3d(0.25, 0.375, 0)) == infinity); // on the line of a link edge
-  CHECK(core.cost_at(12, 13, input.V.row(7)) == infinity);                  // on a link vertex
+  CHECK(core.cost_at(12, 13, Eigen::Vector3d(0.25, 0.375, 0)) ==
+        infinity);                                         // on the line of a link edge
+  CHECK(core.cost_at(12, 13, input.V.row(7)) == infinity); // on a link vertex
   CHECK(core.cost_at(12, 13, Eigen::Vector3d(0.6, 0.5, 0)) < infinity);
 }
 
@@ -481,7 +493,8 @@ TEST_CASE("A face without area contributes nothing to a cost")
   const Edge sorted = std::minmax(flat.first, flat.second);
   const Eigen::Vector3d point = input.V.row(flat.second);
   const double slow = mesh.energy_after(sorted, 0.5, point) - mesh.energy();
-  CHECK(relative_difference(core.cost_at(Slot(sorted.first), Slot(sorted.second), point), slow) < 1e-9);
+  CHECK(relative_difference(core.cost_at(Slot(sorted.first), Slot(sorted.second), point), slow) <
+        1e-9);
   int tested = 0;
   for(const Edge& e : mesh.edge_list()) {
     if(e == sorted || !mesh.link_condition(e))

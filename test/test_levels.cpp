@@ -45,10 +45,11 @@ TEST_CASE("A level replayed from the log is what a direct run to it gives: mesh 
 {
   const bool bordered = GENERATE(false, true);
   Spectral_edge_collapse_options options = options_with(10);
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
-  const shapes::Matrices input =
-      with_zero_length_edges(bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3));
+  const shapes::Matrices input = with_zero_length_edges(
+      bordered ? wavy_grid_matrices(20, 18) : shapes::bumpy_icosphere_matrices(3));
   const Mesh fine = make_mesh(input);
   Mesh mesh = fine, copy = fine;
   const Result result = SMS::spectral_edge_collapse(mesh, 40, options);
@@ -137,7 +138,8 @@ TEST_CASE("Garbage may be collected between two levels, and another mesh type re
   SMS::Collapse_replay<Polyhedron> on_polyhedron(polyhedron, result.log);
   on_polyhedron.collapse_to(60);
   CHECK(CGAL::is_valid_polygon_mesh(polyhedron));
-  CHECK(position_error(on_polyhedron.restriction(), input.V, SG::mesh_matrices(polyhedron).V) < 1e-12);
+  CHECK(position_error(on_polyhedron.restriction(), input.V, SG::mesh_matrices(polyhedron).V) <
+        1e-12);
   const auto sorted = [](const Eigen::MatrixXd& V) {
     std::vector<std::array<double, 3>> points;
     for(Eigen::Index i = 0; i < V.rows(); ++i)

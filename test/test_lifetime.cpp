@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What lives how long: policies and their mesh, logs, handles; exceptions and threads. To be run under AddressSanitizer, too.
+// What lives how long: policies and their mesh, logs, handles; exceptions and threads. To be run
+// under AddressSanitizer, too.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
@@ -111,7 +112,8 @@ TEST_CASE("Handles that stand for nothing say so")
 
 TEST_CASE("A temporary is refused where it would have to live on")
 {
-  CHECK_FALSE(std::is_constructible<SMS::Vertex_count_stop_predicate<Mesh>, std::size_t, Mesh&&>::value);
+  CHECK_FALSE(
+      std::is_constructible<SMS::Vertex_count_stop_predicate<Mesh>, std::size_t, Mesh&&>::value);
   CHECK_FALSE(std::is_constructible<Policies, Mesh&&>::value);
   CHECK_FALSE(std::is_constructible<SMS::Restriction_visitor<Mesh>, Mesh&&>::value);
   CHECK(std::is_constructible<SMS::Collapse_replay<Mesh>, Mesh&, SMS::Collapse_log&&>::value);
@@ -124,8 +126,8 @@ TEST_CASE("A second run with a predicate that was cancelled or has reached its t
   auto options = options_with(4);
   options.cancel = &cancel;
   options.progress = [&](const SMS::Spectral_progress& p) {
-    cancel = cancel ||
-             (p.phase == SMS::Spectral_phase::collapses && p.fraction > 0.5 && p.number_of_vertices > 100);
+    cancel = cancel || (p.phase == SMS::Spectral_phase::collapses && p.fraction > 0.5 &&
+                        p.number_of_vertices > 100);
     return true;
   };
   cancel = false;
@@ -170,7 +172,8 @@ TEST_CASE("What a call of the pool throws reaches the caller, and the pool goes 
   }
 }
 
-TEST_CASE("Where a worker is held up the caller does the next calls alone, and is helped again afterwards")
+TEST_CASE("Where a worker is held up the caller does the next calls alone, and is helped again "
+          "afterwards")
 {
   struct Scratch
   {};
@@ -193,7 +196,9 @@ TEST_CASE("Where a worker is held up the caller does the next calls alone, and i
   };
   REQUIRE(worker_comes(50));
   std::atomic<int> by_worker{0};
-  const auto count = [&](std::size_t, Scratch&) { by_worker += std::this_thread::get_id() != caller; };
+  const auto count = [&](std::size_t, Scratch&) {
+    by_worker += std::this_thread::get_id() != caller;
+  };
   for(int loop = 0; loop < 50; ++loop)
     pool.for_each(64, 1, count);
   CHECK(by_worker == 0);
@@ -216,7 +221,8 @@ TEST_CASE("A pool does with the threads it gets, and ends them if its constructi
     };
   };
   left = 2;
-  CHECK(Pool(6, start(std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again))))
+  CHECK(Pool(6, start(std::system_error(
+                    std::make_error_code(std::errc::resource_unavailable_try_again))))
             .number_of_threads() == 3);
   left = 1;
   CHECK(Pool(6, start(std::bad_alloc())).number_of_threads() == 2);

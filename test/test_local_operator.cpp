@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Operators with coefficients and masses of other kinds: against slow assembly, closed forms, and the global E.
+// Operators with coefficients and masses of other kinds: against slow assembly, closed forms, and
+// the global E.
 
 #include "catch.h"
 #include "core_helpers.h"
@@ -47,7 +48,8 @@ Eigen::MatrixXd tensors(const Eigen::MatrixXd& V)
   Eigen::MatrixXd D(V.rows(), 6);
   for(Eigen::Index v = 0; v < V.rows(); ++v) {
     const Eigen::Vector3d axis =
-        Eigen::Vector3d(std::sin(2 * V(v, 0) + 1), std::cos(3 * V(v, 1)), 0.5 + V(v, 2)).normalized();
+        Eigen::Vector3d(std::sin(2 * V(v, 0) + 1), std::cos(3 * V(v, 1)), 0.5 + V(v, 2))
+            .normalized();
     const Eigen::Matrix3d d = 0.5 * Eigen::Matrix3d::Identity() + 2.5 * axis * axis.transpose();
     D.row(v) << d(0, 0), d(0, 1), d(0, 2), d(1, 1), d(1, 2), d(2, 2);
   }
@@ -56,7 +58,8 @@ Eigen::MatrixXd tensors(const Eigen::MatrixXd& V)
 
 enum class Kind_of_operator { voronoi, weighted, anisotropic, anisotropic_voronoi, dirichlet };
 
-SG::Local_operator operator_on(const Eigen::MatrixXd& V, const Kind_of_operator kind, const SG::Mass mass)
+SG::Local_operator operator_on(const Eigen::MatrixXd& V, const Kind_of_operator kind,
+                               const SG::Mass mass)
 {
   const Eigen::VectorXd density = bumps(V, 0.3);
   switch(kind) {
@@ -67,7 +70,8 @@ SG::Local_operator operator_on(const Eigen::MatrixXd& V, const Kind_of_operator 
   case Kind_of_operator::anisotropic:
     return {mass, SG::anisotropic_coefficients(tensors(V), density)};
   case Kind_of_operator::dirichlet:
-    return {mass, SG::weighted_coefficients(density, bumps(V, 2)), SG::Boundary_condition::dirichlet};
+    return {mass, SG::weighted_coefficients(density, bumps(V, 2)),
+            SG::Boundary_condition::dirichlet};
   default:
     return {SG::Mass::voronoi, SG::anisotropic_coefficients(tensors(V), density)};
   }
@@ -93,19 +97,24 @@ Slow_operator slow_operator(const shapes::Matrices& mesh, const SG::Local_operat
     double density = 1;
     if(op.coefficients.rows() != 0) {
       const Eigen::VectorXd c =
-          (op.coefficients.row(t(0)) + op.coefficients.row(t(1)) + op.coefficients.row(t(2))).transpose() / 3;
+          (op.coefficients.row(t(0)) + op.coefficients.row(t(1)) + op.coefficients.row(t(2)))
+              .transpose() /
+          3;
       D << c(1), c(2), c(3), c(2), c(4), c(5), c(3), c(5), c(6);
       density = c(0);
     }
-    for(int k = 0; k < 3; ++k) { // the rise of the hat at corner k along two edges, and none along the normal
-      const Eigen::Vector3d rise(double(k == 1) - double(k == 0), double(k == 2) - double(k == 0), 0);
+    for(int k = 0; k < 3;
+        ++k) { // the rise of the hat at corner k along two edges, and none along the normal
+      const Eigen::Vector3d rise(double(k == 1) - double(k == 0), double(k == 2) - double(k == 0),
+                                 0);
       gradient.col(k) = frame.fullPivLu().solve(rise);
     }
     for(int i = 0; i < 3; ++i)
       for(int j = 0; j < 3; ++j) {
         result.L(t(i), t(j)) += area * gradient.col(i).dot(D * gradient.col(j));
         result.B(t(i), t(j)) +=
-            density * area * (op.theta * (i == j ? 2. : 1.) / 12 + (i == j ? (1 - op.theta) / 3 : 0.));
+            density * area *
+            (op.theta * (i == j ? 2. : 1.) / 12 + (i == j ? (1 - op.theta) / 3 : 0.));
       }
   }
   return result;
@@ -114,9 +123,8 @@ Slow_operator slow_operator(const shapes::Matrices& mesh, const SG::Local_operat
 // The parts of a triangle nearest to each corner, cut out by the bisectors of its edges.
 Eigen::Vector3d areas_by_bisectors(const Eigen::Vector3d (&p)[3])
 {
-  const auto area = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-    return (b - a).cross(c - a).norm() / 2;
-  };
+  const auto area = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                       const Eigen::Vector3d& c) { return (b - a).cross(c - a).norm() / 2; };
   for(int k = 0; k < 3; ++k)
     if((p[(k + 1) % 3] - p[k]).dot(p[(k + 2) % 3] - p[k]) < 0) {
       Eigen::Vector3d result = Eigen::Vector3d::Constant(area(p[0], p[1], p[2]) / 4);
@@ -128,8 +136,8 @@ Eigen::Vector3d areas_by_bisectors(const Eigen::Vector3d (&p)[3])
       p[0] + (a.squaredNorm() * b.cross(n) + b.squaredNorm() * n.cross(a)) / (2 * n.squaredNorm());
   Eigen::Vector3d result;
   for(int k = 0; k < 3; ++k)
-    result(k) =
-        area(p[k], (p[k] + p[(k + 1) % 3]) / 2, centre) + area(p[k], centre, (p[k] + p[(k + 2) % 3]) / 2);
+    result(k) = area(p[k], (p[k] + p[(k + 1) % 3]) / 2, centre) +
+                area(p[k], centre, (p[k] + p[(k + 2) % 3]) / 2);
   return result;
 }
 
@@ -161,7 +169,8 @@ TEST_CASE("Stiffness and mass with coefficients are the integrals of hat functio
   const auto kind = GENERATE(Kind_of_operator::weighted, Kind_of_operator::anisotropic);
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   CAPTURE(int(kind), SG::mass_name(mass));
-  for(const shapes::Matrices& mesh : {shapes::bumpy_icosphere_matrices(1), wavy_grid_matrices(9, 8)}) {
+  for(const shapes::Matrices& mesh :
+      {shapes::bumpy_icosphere_matrices(1), wavy_grid_matrices(9, 8)}) {
     const SG::Local_operator local = operator_on(mesh.V, kind, mass);
     const SG::Laplace_operator op = SG::laplace_operator(mesh.V, mesh.T, local);
     const Slow_operator slow = slow_operator(mesh, local);
@@ -173,14 +182,15 @@ TEST_CASE("Stiffness and mass with coefficients are the integrals of hat functio
   for(const double unit : {1e-120, 1e13}) { // which is no needle, and no singular tensor
     const shapes::Matrices grid = wavy_grid_matrices(5, 5);
     const Eigen::VectorXd c = Eigen::VectorXd::Constant(grid.V.rows(), unit);
-    CHECK(SG::laplace_operator(grid.V, grid.T, {mass, SG::weighted_coefficients({}, c)}).L.norm() > unit);
+    CHECK(SG::laplace_operator(grid.V, grid.T, {mass, SG::weighted_coefficients({}, c)}).L.norm() >
+          unit);
   }
   // A conductivity of one number is that number times the cotangents.
   const shapes::Matrices mesh = wavy_grid_matrices(9, 8);
   const Eigen::VectorXd three = Eigen::VectorXd::Constant(mesh.V.rows(), 3.);
   const SG::Laplace_operator plain = SG::laplace_operator(mesh.V, mesh.T, mass),
-                             scaled_op = SG::laplace_operator(mesh.V, mesh.T,
-                                                              {mass, SG::weighted_coefficients({}, three)});
+                             scaled_op = SG::laplace_operator(
+                                 mesh.V, mesh.T, {mass, SG::weighted_coefficients({}, three)});
   CHECK((scaled_op.L - 3 * plain.L).norm() < 1e-13 * plain.L.norm());
   CHECK((scaled_op.B - plain.B).norm() < 1e-15);
 }
@@ -216,8 +226,8 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
     const double a = 1.5;
     const shapes::Matrices mesh = shapes::grid_matrices(60, 60);
     const Eigen::VectorXd weight = (2 * a * mesh.V.col(0)).array().exp();
-    const SG::Laplace_operator op =
-        SG::laplace_operator(mesh.V, mesh.T, {SG::Mass::averaged, SG::weighted_coefficients(weight, weight)});
+    const SG::Laplace_operator op = SG::laplace_operator(
+        mesh.V, mesh.T, {SG::Mass::averaged, SG::weighted_coefficients(weight, weight)});
     std::vector<double> expected;
     for(int k = 0; k < 5; ++k)
       for(int m = 0; m < 5; ++m)
@@ -246,9 +256,11 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
       density(v) = 1 / growth;
     }
     const auto values = [&](const SG::Operator_coefficients& c) {
-      return SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, {SG::Mass::averaged, c}), 16).values;
+      return SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, {SG::Mass::averaged, c}), 16)
+          .values;
     };
-    const Eigen::VectorXd undone = values(SG::anisotropic_coefficients(D, density)), stretched = values({});
+    const Eigen::VectorXd undone = values(SG::anisotropic_coefficients(D, density)),
+                          stretched = values({});
     for(int k = 1; k < 16; ++k) {
       const int l = k < 4 ? 1 : k < 9 ? 2 : 3;
       CHECK(relative_difference(undone(k), l * (l + 1.)) < 0.01);
@@ -258,7 +270,8 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
   SECTION("motion and scale, with the axes of the tensors")
   {
     const shapes::Matrices mesh = wavy_grid_matrices(12, 10);
-    const SG::Local_operator local = operator_on(mesh.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
+    const SG::Local_operator local =
+        operator_on(mesh.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
     SG::Local_operator moved = local;
@@ -276,18 +289,21 @@ TEST_CASE("Eigenvalues with coefficients are those of closed forms")
   SECTION("units")
   {
     const shapes::Matrices mesh = wavy_grid_matrices(12, 10);
-    const SG::Local_operator local = operator_on(mesh.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
+    const SG::Local_operator local =
+        operator_on(mesh.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
     SG::Local_operator other = local;
     other.coefficients.rightCols<6>() *= 1e5;
     other.coefficients.col(0) *= 10;
-    const Eigen::VectorXd one = SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, local), 10).values;
-    const Eigen::VectorXd two = SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, other), 10).values;
+    const Eigen::VectorXd one =
+        SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, local), 10).values;
+    const Eigen::VectorXd two =
+        SG::eigenpairs(SG::laplace_operator(mesh.V, mesh.T, other), 10).values;
     CHECK((two / 1e4 - one).norm() < 1e-8 * one.norm());
   }
 }
 
-TEST_CASE(
-    "With the Dirichlet condition functions vanish on the border, of the input and of what is left of it")
+TEST_CASE("With the Dirichlet condition functions vanish on the border, of the input and of what "
+          "is left of it")
 {
   const SG::Boundary_condition dirichlet = SG::Boundary_condition::dirichlet;
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
@@ -330,15 +346,17 @@ TEST_CASE(
 
   CHECK_THROWS_WITH(SG::eigenpairs(op, 39 * 39 + 1),
                     ContainsSubstring("only 1521 vertices are off the border"));
-  CHECK(SG::eigenpairs(coarse_op, coarse_op.L.rows() - coarse_op.vanishing).values.tail(1)(0) < 1e6);
+  CHECK(SG::eigenpairs(coarse_op, coarse_op.L.rows() - coarse_op.vanishing).values.tail(1)(0) <
+        1e6);
   CHECK_THROWS_WITH(SG::fit_operators(coarse_op, result.restriction, op, pairs),
                     ContainsSubstring("Dirichlet"));
 
   options.pre_simplify = 800; // the first stage keeps the border apart as well
   Mesh twice = make_mesh(input);
-  const Eigen::SparseMatrix<double> P = SMS::spectral_edge_collapse(twice, 150, options).restriction;
-  const std::vector<char> last_border =
-      SG::internal::border_vertices(SG::mesh_matrices(twice).T, Eigen::Index(twice.number_of_vertices()));
+  const Eigen::SparseMatrix<double> P =
+      SMS::spectral_edge_collapse(twice, 150, options).restriction;
+  const std::vector<char> last_border = SG::internal::border_vertices(
+      SG::mesh_matrices(twice).T, Eigen::Index(twice.number_of_vertices()));
   const Eigen::MatrixXd PF = P * pairs.vectors;
   for(Eigen::Index v = 0; v < PF.rows(); ++v)
     if(last_border[std::size_t(v)])
@@ -351,7 +369,8 @@ TEST_CASE(
                     ContainsSubstring("only 1521 vertices are off the border"));
   options.number_of_eigenvectors = 11;
   options.fit_operators = true;
-  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options), ContainsSubstring("Dirichlet"));
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
+                    ContainsSubstring("Dirichlet"));
   options.fit_operators = false;
   options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
@@ -387,7 +406,8 @@ TEST_CASE("With any operator the local cost of a collapse is the change of the g
   const bool bordered = GENERATE(false, true);
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const std::size_t largest_ring = GENERATE(256, 5); // without hubs, and with
-  const bool by_name = kind == Kind_of_operator::voronoi || kind == Kind_of_operator::anisotropic_voronoi;
+  const bool by_name =
+      kind == Kind_of_operator::voronoi || kind == Kind_of_operator::anisotropic_voronoi;
   if(by_name && mass == SG::Mass::averaged)
     return; // Voronoi is a mass itself
   CAPTURE(int(kind), bordered, SG::mass_name(mass), largest_ring);
@@ -408,10 +428,11 @@ TEST_CASE("With any operator the local cost of a collapse is the change of the g
   CHECK((core.fields().E - E).cwiseAbs().maxCoeff() < 1e-9 * E.sum());
 }
 
-TEST_CASE("A run with an operator reports its E and carries its coefficients, whatever follows the collapses")
+TEST_CASE("A run with an operator reports its E and carries its coefficients, whatever follows the "
+          "collapses")
 {
-  const auto kind =
-      GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted, Kind_of_operator::anisotropic);
+  const auto kind = GENERATE(Kind_of_operator::voronoi, Kind_of_operator::weighted,
+                             Kind_of_operator::anisotropic);
   const bool pre_simplify = GENERATE(false, true);
   CAPTURE(int(kind), pre_simplify);
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
@@ -438,7 +459,8 @@ TEST_CASE("A run with an operator reports its E and carries its coefficients, wh
   CHECK(relative_difference(E, result.E) < 1e-6);
 }
 
-TEST_CASE("The metric that knows the operator keeps its spectrum better than that of the cotangent Laplacian")
+TEST_CASE("The metric that knows the operator keeps its spectrum better than that of the cotangent "
+          "Laplacian")
 {
   const auto kind = GENERATE(Kind_of_operator::weighted, Kind_of_operator::anisotropic);
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
@@ -460,7 +482,8 @@ TEST_CASE("The metric that knows the operator keeps its spectrum better than tha
 TEST_CASE("A run does not depend on the unit of the coefficients")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  const SG::Local_operator local = operator_on(input.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
+  const SG::Local_operator local =
+      operator_on(input.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
   std::vector<double> errors, fitted;
   for(const double unit : {1., 1e-8, 1e8}) {
     SMS::Spectral_edge_collapse_options options = options_of(local, SG::Mass::averaged, 15);
@@ -472,7 +495,8 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
     errors.push_back(result.relative_error);
     fitted.push_back(SG::eigenpairs(result.fitted->op, 15).values(14) / std::sqrt(unit));
   }
-  // The unit moves eigenvectors by rounding, which a greedy order amplifies; a bound in a wrong unit is off by orders of magnitude.
+  // The unit moves eigenvectors by rounding, which a greedy order amplifies; a bound in a wrong
+  // unit is off by orders of magnitude.
   for(const std::vector<double>& x : {errors, fitted})
     for(const int i : {1, 2})
       CHECK(relative_difference(x[i], x[0]) < 5e-2);
@@ -491,11 +515,12 @@ TEST_CASE("Energies of relocation with an operator are those of its matrices, gr
   Eigen::SparseMatrix<double> P = s->P;
   if(kind == Kind_of_operator::dirichlet) {
     const std::vector<char> border = SG::internal::border_vertices(s->coarse.T, s->coarse.V.rows());
-    P.prune([&](const Eigen::Index row, Eigen::Index, double) { return !border[std::size_t(row)]; });
+    P.prune(
+        [&](const Eigen::Index row, Eigen::Index, double) { return !border[std::size_t(row)]; });
   }
   const Eigen::MatrixXd F = P * s->F(), Z = P * s->Z();
-  const double slow =
-      SG::restriction_energy(SG::laplace_operator(s->coarse.V, s->coarse.T, local), P, s->F(), s->Z());
+  const double slow = SG::restriction_energy(SG::laplace_operator(s->coarse.V, s->coarse.T, local),
+                                             P, s->F(), s->Z());
   SG::Relocation_energy energy(s->coarse.T, F, Z, local);
   CHECK(relative_difference(energy.value(s->coarse.V), slow) < 1e-10);
   SG::Relocation_energy smoothed(s->coarse.T, F, Z, local, 0.01, 0.3);
@@ -507,7 +532,8 @@ TEST_CASE("Energies of relocation with an operator are those of its matrices, gr
     for(Eigen::Index i = 0; i < direction.size(); ++i)
       direction.data()[i] = std::sin(17. * double(i) * (trial + 1) + trial);
   };
-  // Where a triangle of the grid is left that is right in the metric, the shares of the Voronoi regions have a kink.
+  // Where a triangle of the grid is left that is right in the metric, the shares of the Voronoi
+  // regions have a kink.
   set_direction(4);
   V += 1e-3 * direction;
   energy.value_and_gradient(V, gradient);
@@ -554,9 +580,11 @@ TEST_CASE("What is wrong with coefficients is said of the first vertex")
   bad(4) = 0;
   bad(9) = -1;
   CHECK_THROWS_WITH(SG::weighted_coefficients(bad, ones), ContainsSubstring("density of vertex 4"));
-  CHECK_THROWS_WITH(SG::weighted_coefficients(ones, bad), ContainsSubstring("conductivity of vertex 4"));
+  CHECK_THROWS_WITH(SG::weighted_coefficients(ones, bad),
+                    ContainsSubstring("conductivity of vertex 4"));
   bad(4) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH(SG::weighted_coefficients(ones, bad), ContainsSubstring("conductivity of vertex 4"));
+  CHECK_THROWS_WITH(SG::weighted_coefficients(ones, bad),
+                    ContainsSubstring("conductivity of vertex 4"));
   CHECK_THROWS_WITH(SG::weighted_coefficients(ones.head(3), ones), ContainsSubstring("entries"));
   CHECK_THROWS_WITH(SG::anisotropic_coefficients(Eigen::MatrixXd::Ones(n, 6)),
                     ContainsSubstring("vertex 0") && ContainsSubstring("positive definite"));

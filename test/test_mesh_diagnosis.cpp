@@ -74,8 +74,9 @@ std::string obstacle(const Soup& soup)
 
 TEST_CASE("Nothing is found in sound meshes but their components")
 {
-  for(const shapes::Matrices& mesh : {shapes::tetrahedron_matrices(), shapes::bumpy_icosphere_matrices(2),
-                                      shapes::torus_matrices(8, 6), shapes::grid_matrices(5, 4)}) {
+  for(const shapes::Matrices& mesh :
+      {shapes::tetrahedron_matrices(), shapes::bumpy_icosphere_matrices(2),
+       shapes::torus_matrices(8, 6), shapes::grid_matrices(5, 4)}) {
     const SG::Mesh_diagnosis d = soup_of(mesh).diagnosis();
     CHECK(d.usable());
     CHECK(d.obstacles().empty());
@@ -97,7 +98,8 @@ TEST_CASE("Each obstacle is counted, and the first offender named")
     soup.V(3, 1) = std::numeric_limits<double>::quiet_NaN();
     soup.V(7, 2) = std::numeric_limits<double>::infinity();
     CHECK(is(soup.diagnosis().non_finite_vertices, 2, 3));
-    CHECK_THAT(obstacle(soup), ContainsSubstring("2 of 9 vertices") && ContainsSubstring("vertex 3 "));
+    CHECK_THAT(obstacle(soup),
+               ContainsSubstring("2 of 9 vertices") && ContainsSubstring("vertex 3 "));
   }
   SECTION("indices")
   {
@@ -118,7 +120,8 @@ TEST_CASE("Each obstacle is counted, and the first offender named")
     soup.polygons.erase(soup.polygons.begin() + 7);
     soup.polygons[6] = {4, 5, 8, 7};
     CHECK(is(soup.diagnosis().polygons, 1, 6, 4));
-    CHECK_THAT(obstacle(soup), ContainsSubstring("face 6 (counted from 0) has 4 vertices: triangulate"));
+    CHECK_THAT(obstacle(soup),
+               ContainsSubstring("face 6 (counted from 0) has 4 vertices: triangulate"));
   }
   SECTION("isolated vertices")
   {
@@ -175,7 +178,8 @@ TEST_CASE("Each obstacle is counted, and the first offender named")
     REQUIRE(soup.diagnosis().obstacles().size() == 2);
     CHECK(soup.diagnosis().out_of_scale());
     CHECK_THAT(soup.diagnosis().obstacles()[0],
-               ContainsSubstring("above 1e50") && ContainsSubstring("scale the mesh to another unit"));
+               ContainsSubstring("above 1e50") &&
+                   ContainsSubstring("scale the mesh to another unit"));
     CHECK_THAT(soup.diagnosis().obstacles()[1],
                ContainsSubstring("8 of 8 faces") && ContainsSubstring("rescale"));
   }
@@ -231,7 +235,8 @@ TEST_CASE("What is handled is remarked upon, not refused")
     CHECK(d.least_vertices() == 6);
     REQUIRE(d.remarks().size() == 2);
     CHECK_THAT(d.remarks()[0], ContainsSubstring("stitched"));
-    CHECK_THAT(d.remarks()[1], ContainsSubstring("2 components, the smallest of 6 vertices around vertex 0"));
+    CHECK_THAT(d.remarks()[1],
+               ContainsSubstring("2 components, the smallest of 6 vertices around vertex 0"));
     REQUIRE(d.warnings(3, 9).size() == 1);
     CHECK_THAT(d.warnings(3, 9)[0],
                ContainsSubstring("3 border vertices that lie on another, the first is vertex 9 "
@@ -303,8 +308,10 @@ TEST_CASE("A mesh is examined in the order of its vertices and faces, through it
   CHECK(d.number_of_faces == 11);
   CHECK(d.number_of_vertices == n);
   auto flat =
-      mesh.add_property_map<Mesh::Vertex_index, CGAL::Simple_cartesian<double>::Point_3>("v:flat").first;
-  CHECK(SG::diagnose_mesh(mesh, CGAL::parameters::vertex_point_map(flat)).zero_area_faces.count == 11);
+      mesh.add_property_map<Mesh::Vertex_index, CGAL::Simple_cartesian<double>::Point_3>("v:flat")
+          .first;
+  CHECK(SG::diagnose_mesh(mesh, CGAL::parameters::vertex_point_map(flat)).zero_area_faces.count ==
+        11);
 }
 
 } // namespace test_mesh_diagnosis

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Random mixtures of the signals in place of the signals: what they estimate, how well, and when there are none.
+// Random mixtures of the signals in place of the signals: what they estimate, how well, and when
+// there are none.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -71,10 +72,11 @@ Eigen::MatrixXd random_rotation(const Eigen::Index n)
   return Eigen::HouseholderQR<Eigen::MatrixXd>(A).householderQ();
 }
 
-Core mixed_core(const Slow_mesh& mesh, const shapes::Matrices& input, const Spectral_options& options)
+Core mixed_core(const Slow_mesh& mesh, const shapes::Matrices& input,
+                const Spectral_options& options)
 {
-  return make_core(mesh, spectral_basis(input.V, input.T, options), SMS::internal::local_operator(options),
-                   options);
+  return make_core(mesh, spectral_basis(input.V, input.T, options),
+                   SMS::internal::local_operator(options), options);
 }
 
 // F, or its mixtures, as a matrix.
@@ -132,7 +134,8 @@ Mesh simplified(const shapes::Matrices& input, const Spectral_edge_collapse_opti
 
 } // namespace
 
-TEST_CASE("The columns of mixtures are orthogonal, of one length, and the same for the same seed everywhere")
+TEST_CASE("The columns of mixtures are orthogonal, of one length, and the same for the same seed "
+          "everywhere")
 {
   const Eigen::Index r = GENERATE(1, 4, 16);
   const Eigen::MatrixXd R = random_mixtures(20, r, 5);
@@ -157,7 +160,8 @@ TEST_CASE("Mixtures estimate a squared norm without bias, with the variance that
   else if(spectrum == decaying)
     singular = Eigen::VectorXd::LinSpaced(n, 0, -2).array().exp();
   else
-    singular.head(spectrum == rank_one ? 1 : 2) = Eigen::Vector2d(3, 1).head(spectrum == rank_one ? 1 : 2);
+    singular.head(spectrum == rank_one ? 1 : 2) =
+        Eigen::Vector2d(3, 1).head(spectrum == rank_one ? 1 : 2);
   const Eigen::MatrixXd AF = singular.asDiagonal() * random_rotation(n);
 
   Sample_moments estimates;
@@ -171,7 +175,8 @@ TEST_CASE("Mixtures estimate a squared norm without bias, with the variance that
   const double trace = singular.squaredNorm(), squares = singular.cwiseAbs2().squaredNorm();
   const double variance =
       2. * double(n - r) / double(r * (n - 1) * (n + 2)) * (double(n) * squares - trace * trace);
-  CHECK(std::abs(estimates.mean() - trace) <= deviations * std::sqrt(variance / seeds) + 1e-12 * trace);
+  CHECK(std::abs(estimates.mean() - trace) <=
+        deviations * std::sqrt(variance / seeds) + 1e-12 * trace);
   CHECK(std::abs(estimates.variance() - variance) <=
         deviations * estimates.error_of_variance() + 1e-12 * trace * trace);
   CHECK(estimates.variance() < 2. / double(r) * squares);
@@ -232,7 +237,8 @@ TEST_CASE("Mixtures of a rotated basis give costs of the same mean and variance"
   CHECK(compared > 10);
 }
 
-TEST_CASE("Costs and E of mixtures estimate those of all signals without bias, before and after collapses")
+TEST_CASE("Costs and E of mixtures estimate those of all signals without bias, before and after "
+          "collapses")
 {
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
@@ -312,7 +318,8 @@ TEST_CASE("The same seed gives the same mesh on any number of threads, another o
   CHECK_FALSE(identical(first, simplified(input, options)));
 }
 
-TEST_CASE("No more signals than the mixtures asked for are not mixed, those of eigenvalue 0 not counted")
+TEST_CASE(
+    "No more signals than the mixtures asked for are not mixed, those of eigenvalue 0 not counted")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Spectral_edge_collapse_options options;
@@ -328,7 +335,8 @@ TEST_CASE("No more signals than the mixtures asked for are not mixed, those of e
   CHECK(identical(mixed, simplified(input, options)) == few);
 }
 
-TEST_CASE("Signals of the user's beyond the mixtures asked for are mixed, each with its weight or not at all")
+TEST_CASE("Signals of the user's beyond the mixtures asked for are mixed, each with its weight or "
+          "not at all")
 {
   const shapes::Matrices input = wavy_grid_matrices(9, 8);
   const Eigen::Index K = 20, r = 6;
@@ -355,14 +363,16 @@ TEST_CASE("Signals of the user's beyond the mixtures asked for are mixed, each w
   // Whatever is mixed, E at its worst is that of all signals.
   const Basis whole = signal_basis(input, SG::mass_blend(options.mass),
                                    options.signals * options.weights.cwiseSqrt().asDiagonal());
-  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
+  const SG::Laplace_operator op =
+      SG::laplace_operator(input.V, input.T, SG::mass_blend(options.mass));
   const double lost = whole.Z.cwiseProduct(op.B * whole.Z).sum() / whole.area;
   CHECK(relative_difference(basis.sum_of_squares, lost) < 1e-9);
 }
 
 TEST_CASE("Eigenvectors of eigenvalue 0, one for each component, are left out of the metric")
 {
-  const shapes::Matrices input = shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), 2);
+  const shapes::Matrices input =
+      shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), 2);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, 0.5);
   Spectral_options options;
   options.number_of_mixtures = 16;

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// spectral_edge_collapse(): its result, its named parameters, progress and cancelling, what it refuses.
+// spectral_edge_collapse(): its result, its named parameters, progress and cancelling, what it
+// refuses.
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -50,12 +51,14 @@ std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes
   if(!CGAL::is_valid_polygon_mesh(mesh))
     return "the mesh is not valid";
   const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-  if(result.output_vertices != std::size_t(coarse.V.rows()) || result.restriction.rows() != coarse.V.rows())
+  if(result.output_vertices != std::size_t(coarse.V.rows()) ||
+     result.restriction.rows() != coarse.V.rows())
     return "the number of vertices";
   if(result.input_vertices != std::size_t(input.V.rows()) ||
      result.collapses != result.input_vertices - result.output_vertices)
     return "the number of collapses";
-  const std::string fault = fault_of_restriction(result.restriction, result.vertex_map, options.binary);
+  const std::string fault =
+      fault_of_restriction(result.restriction, result.vertex_map, options.binary);
   if(!fault.empty())
     return fault;
   if(position_error(result.restriction, input.V, coarse.V) > 1e-12)
@@ -63,7 +66,8 @@ std::string fault_of_result(const Mesh& mesh, const Result& result, const shapes
   const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
   if(relative_difference(energy(coarse, basis, result.restriction), result.E) > 1e-8)
     return "E";
-  if(relative_difference(std::sqrt(result.E / basis.lambda.squaredNorm()), result.relative_error) > 1e-8)
+  if(relative_difference(std::sqrt(result.E / basis.lambda.squaredNorm()), result.relative_error) >
+     1e-8)
     return "the relative error";
   return "";
 }
@@ -106,7 +110,8 @@ TEST_CASE("The one call returns what the policies give, and counts, times and re
   CHECK(second.E > 0);
 }
 
-TEST_CASE("Below 3 K vertices the metric sees N / 4 of the eigenvectors, unless it is told how many")
+TEST_CASE(
+    "Below 3 K vertices the metric sees N / 4 of the eigenvectors, unless it is told how many")
 {
   const shapes::Matrices input = wavy_grid_matrices(20, 18);
   Spectral_edge_collapse_options options = options_with(10);
@@ -174,7 +179,8 @@ TEST_CASE("The one call hands named parameters on: constraints, filter, visitor,
   Mesh mesh = make_mesh(input);
   SECTION("constrained edges, and the points of their ends, stay")
   {
-    const auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+    const auto constraints =
+        mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
     std::vector<Point> ends;
     for(const auto e : edges(mesh))
       if(e.idx() % 31 == 0) {
@@ -183,10 +189,11 @@ TEST_CASE("The one call hands named parameters on: constraints, filter, visitor,
         ends.push_back(mesh.point(target(e, mesh)));
       }
     Counting_visitor visitor;
-    const Result result = SMS::spectral_edge_collapse(mesh, 150, options,
-                                                      CGAL::parameters::edge_is_constrained_map(constraints)
-                                                          .visitor(std::ref(visitor))
-                                                          .filter(SMS::Bounded_normal_change_filter<>()));
+    const Result result =
+        SMS::spectral_edge_collapse(mesh, 150, options,
+                                    CGAL::parameters::edge_is_constrained_map(constraints)
+                                        .visitor(std::ref(visitor))
+                                        .filter(SMS::Bounded_normal_change_filter<>()));
     CHECK(visitor.collapsed == result.collapses);
     CHECK(fault_of_result(mesh, result, input, options) == "");
     std::vector<Point> after;
@@ -201,9 +208,10 @@ TEST_CASE("The one call hands named parameters on: constraints, filter, visitor,
   }
   SECTION("a visitor by copy, a filter")
   {
-    const Result result = SMS::spectral_edge_collapse(
-        mesh, 150, options,
-        CGAL::parameters::visitor(Counting_visitor()).filter(SMS::Bounded_normal_change_filter<>()));
+    const Result result =
+        SMS::spectral_edge_collapse(mesh, 150, options,
+                                    CGAL::parameters::visitor(Counting_visitor())
+                                        .filter(SMS::Bounded_normal_change_filter<>()));
     CHECK(fault_of_result(mesh, result, input, options) == "");
     CHECK(result.output_vertices == 150);
   }
@@ -247,8 +255,9 @@ TEST_CASE("Where the target cannot be reached the result says why")
     CHECK(result.stop_reason_name() == std::string("no collapsible edge left"));
     CHECK(result.output_vertices >= 12);
     CHECK(result.output_vertices < 126);
-    CHECK_THAT(result.explanation, ContainsSubstring("instead of 5") && ContainsSubstring("3 components") &&
-                                       ContainsSubstring("topology") && ContainsSubstring(" 0 border edges"));
+    CHECK_THAT(result.explanation,
+               ContainsSubstring("instead of 5") && ContainsSubstring("3 components") &&
+                   ContainsSubstring("topology") && ContainsSubstring(" 0 border edges"));
     CHECK(result.refusals.topology > 0);
     CHECK(fault_of_restriction(result.restriction, result.vertex_map) == "");
   }
@@ -268,14 +277,16 @@ TEST_CASE("Where the target cannot be reached the result says why")
     options.number_of_eigenvectors = 2;
     const Result result = SMS::spectral_edge_collapse(mesh, 1, options);
     CHECK(result.output_vertices == 3);
-    CHECK_THAT(result.explanation, ContainsSubstring("1 component,") && ContainsSubstring("3 border edges"));
+    CHECK_THAT(result.explanation,
+               ContainsSubstring("1 component,") && ContainsSubstring("3 border edges"));
   }
   SECTION("every edge constrained")
   {
     Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1));
-    const auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", true).first;
-    const Result result = SMS::spectral_edge_collapse(mesh, 20, options,
-                                                      CGAL::parameters::edge_is_constrained_map(constraints));
+    const auto constraints =
+        mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", true).first;
+    const Result result = SMS::spectral_edge_collapse(
+        mesh, 20, options, CGAL::parameters::edge_is_constrained_map(constraints));
     CHECK(result.output_vertices == 42);
     CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
     CHECK_THAT(result.explanation, ContainsSubstring("constrained"));
@@ -362,7 +373,9 @@ TEST_CASE("A run can be cancelled in every phase")
   Spectral_edge_collapse_options options = options_with(20);
   Spectral_phase phase = Spectral_phase::eigenpairs;
   double fraction = 0;
-  options.progress = [&](const Spectral_progress& p) { return p.phase != phase || p.fraction < fraction; };
+  options.progress = [&](const Spectral_progress& p) {
+    return p.phase != phase || p.fraction < fraction;
+  };
   Mesh mesh = make_mesh(input);
   SECTION("while the eigenpairs are computed: the mesh is untouched")
   {
@@ -402,7 +415,8 @@ TEST_CASE("Edges without length are among the collapses that are counted")
   const std::size_t N = GENERATE(640, 639, 100);
   const Result result = SMS::spectral_edge_collapse(mesh, N, options);
   CHECK(result.stop_reason == Result::Stop_reason::target_reached);
-  CHECK(result.output_vertices == (std::min)(N, std::size_t(639))); // they are merged before anybody asks
+  CHECK(result.output_vertices ==
+        (std::min)(N, std::size_t(639))); // they are merged before anybody asks
   CHECK(result.explanation == "");
   CHECK(fault_of_result(mesh, result, input, options) == "");
 }
@@ -450,11 +464,12 @@ TEST_CASE("E is that of the P that is returned where a vertex to keep has the po
   for(const std::size_t v : options.kept_vertices)
     CHECK(result.restriction.coeff(Eigen::Index(result.vertex_map[v]), Eigen::Index(v)) == 1);
   const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
-  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) < 1e-8);
+  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) <
+        1e-8);
 }
 
-TEST_CASE(
-    "A face without area in the result is warned of where relocation was asked for, the collapses are kept")
+TEST_CASE("A face without area in the result is warned of where relocation was asked for, the "
+          "collapses are kept")
 {
   shapes::Matrices input = shapes::grid_matrices(4, 4);
   input.V.row(6) = 0.5 * (input.V.row(5) + input.V.row(11)); // the corner opposite to a diagonal
@@ -465,7 +480,8 @@ TEST_CASE(
   CHECK(result.stop_reason == Result::Stop_reason::target_reached);
   CHECK(result.relocation.moved_vertices == 0);
   REQUIRE_FALSE(result.warnings.empty());
-  CHECK_THAT(result.warnings.back(), ContainsSubstring("not relocated") && ContainsSubstring("has no area"));
+  CHECK_THAT(result.warnings.back(),
+             ContainsSubstring("not relocated") && ContainsSubstring("has no area"));
 }
 
 TEST_CASE("Rough eigenpairs have one E, in the collapses and for matrices")
@@ -480,7 +496,8 @@ TEST_CASE("Rough eigenpairs have one E, in the collapses and for matrices")
   basis.Z = signal_basis(input, 0, basis.F).Z;
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
-  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) < 1e-8);
+  CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) <
+        1e-8);
 }
 
 TEST_CASE("Of one eigenvector of a mesh with needles there is nothing to lose but rounding")
@@ -498,7 +515,8 @@ TEST_CASE("Of one eigenvector of a mesh with needles there is nothing to lose bu
   CHECK(result.relative_error == 0);
 }
 
-TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplification or by the collapses")
+TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplification or by the "
+          "collapses")
 {
   shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
   Spectral_edge_collapse_options options = options_with(8);

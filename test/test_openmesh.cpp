@@ -28,7 +28,8 @@ TEST_CASE("OpenMesh is simplified as other meshes are, with points in single pre
   using Open_mesh = OpenMesh::TriMesh_ArrayKernelT<>;
   const bool bordered = GENERATE(false, true);
   Open_mesh mesh;
-  shapes::make_mesh(mesh, bordered ? wavy_grid_matrices(14, 13) : shapes::bumpy_icosphere_matrices(3));
+  shapes::make_mesh(mesh,
+                    bordered ? wavy_grid_matrices(14, 13) : shapes::bumpy_icosphere_matrices(3));
   const shapes::Matrices input = SG::mesh_matrices(mesh); // its points are floats
   const SMS::Spectral_policies policies(mesh, options_with(10));
   collapse(mesh, policies, 80);

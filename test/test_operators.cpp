@@ -58,7 +58,8 @@ TEST_CASE("The Laplacian is symmetric, semidefinite and its rows sum to zero")
     const Laplace_operator op = laplace(mesh);
     const Eigen::MatrixXd L = op.L;
     CHECK(L == L.transpose());
-    CHECK((op.L * Eigen::VectorXd::Ones(L.rows())).cwiseAbs().maxCoeff() < 1e-12 * L.cwiseAbs().maxCoeff());
+    CHECK((op.L * Eigen::VectorXd::Ones(L.rows())).cwiseAbs().maxCoeff() <
+          1e-12 * L.cwiseAbs().maxCoeff());
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(L);
     CHECK(solver.eigenvalues()(0) > -1e-12);
     CHECK(solver.eigenvalues()(1) > 1e-3); // connected: one constant only
@@ -86,7 +87,8 @@ TEST_CASE("Linear functions are harmonic in the interior of a planar mesh")
   }
 }
 
-TEST_CASE("The Dirichlet energy of a linear function on a square is its area times the squared slope")
+TEST_CASE(
+    "The Dirichlet energy of a linear function on a square is its area times the squared slope")
 {
   const shapes::Matrices mesh = shapes::irregular_grid_matrices(8, 8);
   const Eigen::VectorXd f = 3. * mesh.V.col(0) - 4. * mesh.V.col(1);
@@ -131,7 +133,8 @@ TEST_CASE("Another lumping is a choice of corner masses")
                     ContainsSubstring("corner masses"));
 }
 
-TEST_CASE("The Laplacian does not depend on scale, the mass is an area, at any magnitude of coordinates")
+TEST_CASE(
+    "The Laplacian does not depend on scale, the mass is an area, at any magnitude of coordinates")
 {
   const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
   const Laplace_operator op = laplace(mesh);
@@ -151,8 +154,9 @@ TEST_CASE("The Laplacian does not depend on scale, the mass is an area, at any m
 TEST_CASE("Zero-area faces contribute nothing, exact or degenerate to rounding")
 {
   // A square of two triangles, one diagonal of which is doubled by a face without area.
-  shapes::Matrices mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
-                                           {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
+  shapes::Matrices mesh =
+      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 0}},
+                       {{0, 1, 2}, {0, 4, 3}, {4, 2, 3}, {0, 2, 4}});
   shapes::Matrices without = mesh;
   without.T.conservativeResize(3, 3);
   CHECK((Eigen::MatrixXd(laplace(mesh).L) - Eigen::MatrixXd(laplace(without).L)).norm() == 0.);
@@ -178,8 +182,10 @@ TEST_CASE("A mesh and its matrices give the same operators, for every mesh type 
   CHECK(SG::mesh_matrices(polyhedron).V == mesh.V);
   CHECK(SG::mesh_matrices(exact).V == mesh.V);
   const Eigen::MatrixXd L = laplace(mesh, 0.5).L, B = laplace(mesh, 0.5).B;
-  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(surface_mesh, SG::Mass::averaged).L).isApprox(L, 1e-14));
-  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(polyhedron, SG::Mass::averaged).L).isApprox(L, 1e-14));
+  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(surface_mesh, SG::Mass::averaged).L)
+            .isApprox(L, 1e-14));
+  CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(polyhedron, SG::Mass::averaged).L)
+            .isApprox(L, 1e-14));
   CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(exact, SG::Mass::averaged).B).isApprox(B, 1e-14));
 }
 
@@ -222,17 +228,20 @@ TEST_CASE("Bad meshes are refused by the name of the first offender")
   {
     mesh.V.conservativeResize(26, 3);
     mesh.V.row(25).setConstant(0.5);
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
+    CHECK_THROWS_WITH(laplace(mesh),
+                      ContainsSubstring("vertex 25 ") && ContainsSubstring("isolated"));
   }
   SECTION("a vertex with only zero-area faces")
   {
     mesh.T(0, 1) = mesh.T(0, 0) = 0;
     mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}}, {{0, 1, 2}, {0, 3, 1}});
-    CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("vertex 3 ") && ContainsSubstring("zero area"));
+    CHECK_THROWS_WITH(laplace(mesh),
+                      ContainsSubstring("vertex 3 ") && ContainsSubstring("zero area"));
   }
   SECTION("a needle")
   {
-    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}}, {{0, 1, 2}, {0, 3, 1}});
+    mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, -1e-13, 0}},
+                            {{0, 1, 2}, {0, 3, 1}});
     CHECK_THROWS_WITH(laplace(mesh), ContainsSubstring("face 1 ") && ContainsSubstring("needle"));
   }
   SECTION("an area that overflows")

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What a run of edge_collapse() with the policies returns: E, P, the spectrum; options; reproducibility.
+// What a run of edge_collapse() with the policies returns: E, P, the spectrum; options;
+// reproducibility.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
@@ -40,7 +41,8 @@ struct Outcome
 
   bool operator==(const Outcome& other) const
   {
-    return V == other.V && T == other.T && E == other.E && Eigen::MatrixXd(P) == Eigen::MatrixXd(other.P);
+    return V == other.V && T == other.T && E == other.E &&
+           Eigen::MatrixXd(P) == Eigen::MatrixXd(other.P);
   }
 };
 
@@ -50,7 +52,8 @@ Outcome outcome(const Mesh& mesh, const Policies& policies)
   return {coarse.V, coarse.T, policies.restriction(), policies.error()};
 }
 
-Outcome outcome_of_run(const shapes::Matrices& input, const Spectral_options& options, const std::size_t N)
+Outcome outcome_of_run(const shapes::Matrices& input, const Spectral_options& options,
+                       const std::size_t N)
 {
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
@@ -90,10 +93,12 @@ TEST_CASE("After thousands of collapses the tracked E, P and F are those recompu
   const bool bordered = GENERATE(false, true);
   Spectral_options options = options_with(20);
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::midpoint);
   options.binary = GENERATE(false, true);
   CAPTURE(bordered, SG::mass_name(options.mass), int(options.placement), options.binary);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(50, 44) : shapes::bumpy_icosphere_matrices(4);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(50, 44) : shapes::bumpy_icosphere_matrices(4);
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
   CHECK(policies.error() == 0);
@@ -112,7 +117,8 @@ TEST_CASE("After thousands of collapses the tracked E, P and F are those recompu
   CHECK(fault_of_run(mesh, policies, fine, check) == "");
 }
 
-TEST_CASE("A simplification to the same number of vertices is the identity: C = I and both norms are 0")
+TEST_CASE(
+    "A simplification to the same number of vertices is the identity: C = I and both norms are 0")
 {
   const SG::Mass mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
@@ -175,7 +181,8 @@ TEST_CASE("The functional map of a symmetric shape is block-diagonal")
   for(int l = 0; l < 4; ++l) { // spherical harmonics of degree l: 2 l + 1 of them
     const Eigen::MatrixXd block = e.C.block(l * l, l * l, 2 * l + 1, 2 * l + 1);
     off -= block.squaredNorm();
-    CHECK((block.transpose() * block - Eigen::MatrixXd::Identity(2 * l + 1, 2 * l + 1)).norm() < 0.3);
+    CHECK((block.transpose() * block - Eigen::MatrixXd::Identity(2 * l + 1, 2 * l + 1)).norm() <
+          0.3);
   }
   CHECK(off < 1e-3 * e.C.squaredNorm());
 }
@@ -183,7 +190,8 @@ TEST_CASE("The functional map of a symmetric shape is block-diagonal")
 TEST_CASE("The same input gives the same result, on any number of threads")
 {
   const bool bordered = GENERATE(false, true);
-  shapes::Matrices input = bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
+  shapes::Matrices input =
+      bordered ? wavy_grid_matrices(24, 22) : shapes::bumpy_icosphere_matrices(3);
   const bool zero_length = GENERATE(false, true);
   if(zero_length)
     for(const int f : {20, 200, 400, 700})
@@ -198,7 +206,8 @@ TEST_CASE("The same input gives the same result, on any number of threads")
   }
 }
 
-TEST_CASE("Copies of the policies and of their handles behave as the original, which need not outlive them")
+TEST_CASE("Copies of the policies and of their handles behave as the original, which need not "
+          "outlive them")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const Outcome expected = outcome_of_run(input, options_with(12), 150);
@@ -209,8 +218,9 @@ TEST_CASE("Copies of the policies and of their handles behave as the original, w
   const Policies::Get_placement placement = copy.get_placement();
   const auto visitor = original->visitor();
   original.reset();
-  SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<Mesh>(150, mesh),
-                     CGAL::parameters::get_cost(cost_copy).get_placement(placement).visitor(visitor));
+  SMS::edge_collapse(
+      mesh, SMS::Vertex_count_stop_predicate<Mesh>(150, mesh),
+      CGAL::parameters::get_cost(cost_copy).get_placement(placement).visitor(visitor));
   CHECK(outcome(mesh, copy) == expected);
 }
 
@@ -376,7 +386,8 @@ TEST_CASE("To judge a pre-simplified run takes what the eigenpairs of the whole 
   CHECK(evaluation > 3. * 8. * 4e6 * 100);
   CHECK(SMS::estimated_evaluation_memory(4000000, 1000, 100, {}, true) < 0.5 * evaluation);
   // a coarse mesh of few vertices with many pairs is solved densely beside the pairs of the input
-  CHECK(SMS::estimated_evaluation_memory(50000, 5000, 3000, {}, true) > 8. * (5e4 * 3000 + 5. * 5000 * 5000));
+  CHECK(SMS::estimated_evaluation_memory(50000, 5000, 3000, {}, true) >
+        8. * (5e4 * 3000 + 5. * 5000 * 5000));
 }
 
 TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")
@@ -428,7 +439,8 @@ TEST_CASE("A rotation of the signals within their span leaves every cost as it i
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(pairs);
   const std::vector<double> expected = costs(input, options);
   options.eigenpairs.reset();
-  // Signals are taken as they are: eigenvectors normalised at unit area are sqrt(area) times longer.
+  // Signals are taken as they are: eigenvectors normalised at unit area are sqrt(area) times
+  // longer.
   options.signals = std::sqrt(op.mass.sum()) * pairs.vectors;
   CHECK(largest_relative_difference(costs(input, options), expected) < 1e-7);
   options.signals *= rotation;

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Collapses by quadrics, of a first stage or ahead of the spectral cost: their order against all costs computed anew, what they
-// keep, and what follows them.
+// Collapses by quadrics, of a first stage or ahead of the spectral cost: their order against all
+// costs computed anew, what they keep, and what follows them.
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -32,9 +32,11 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target, const std::vector<char>& fixed = {})
+SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target,
+                              const std::vector<char>& fixed = {})
 {
-  SMS::internal::Triangle_arrays arrays = SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh));
+  SMS::internal::Triangle_arrays arrays =
+      SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh));
   arrays.fixed = fixed;
   return SMS::internal::quadric_collapses(std::move(arrays), false, target, [](std::size_t) {});
 }
@@ -45,7 +47,8 @@ Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
   return mesh;
 }
 
-// The expected squared distance to the planes of a vertex, as a matrix in homogeneous coordinates: from the definition.
+// The expected squared distance to the planes of a vertex, as a matrix in homogeneous coordinates:
+// from the definition.
 using Quadric = Eigen::Matrix4d;
 
 Quadric plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& p, const double weight)
@@ -76,7 +79,8 @@ double least_value(const Quadric& q, Eigen::Vector3d& x)
   return x.homogeneous().dot(q * x.homogeneous());
 }
 
-// Whether the faces at u that do not contain v turn by more than 78 degrees or become needles when u moves to x.
+// Whether the faces at u that do not contain v turn by more than 78 degrees or become needles when
+// u moves to x.
 bool spoils_faces(const Mesh& mesh, const Mesh::Vertex_index u, const Mesh::Vertex_index v,
                   const Eigen::Vector3d& x)
 {
@@ -87,8 +91,10 @@ bool spoils_faces(const Mesh& mesh, const Mesh::Vertex_index u, const Mesh::Vert
     const auto a = source(h, mesh), b = target(next(h, mesh), mesh);
     if(is_border(h, mesh) || a == v || b == v)
       continue;
-    const Eigen::Vector3d before = (at(b) - at(u)).cross(at(a) - at(u)), after = (at(b) - x).cross(at(a) - x);
-    const double longest = (std::max)({(at(a) - x).norm(), (at(b) - x).norm(), (at(a) - at(b)).norm()});
+    const Eigen::Vector3d before = (at(b) - at(u)).cross(at(a) - at(u)),
+                          after = (at(b) - x).cross(at(a) - x);
+    const double longest =
+        (std::max)({(at(a) - x).norm(), (at(b) - x).norm(), (at(a) - at(b)).norm()});
     if(before.normalized().dot(after.normalized()) < 0.2 + 1e-9 ||
        after.norm() < 1.0001e-3 * longest * longest)
       return true;
@@ -117,8 +123,8 @@ TEST_CASE("Each collapse is the cheapest that is possible, with all costs comput
     for(const auto e : mesh.edges()) {
       const auto u = source(e, mesh), v = target(e, mesh);
       Eigen::Vector3d x;
-      const double cost =
-          least_value(quadrics[std::size_t(slot_of[u.idx()])] + quadrics[std::size_t(slot_of[v.idx()])], x);
+      const double cost = least_value(
+          quadrics[std::size_t(slot_of[u.idx()])] + quadrics[std::size_t(slot_of[v.idx()])], x);
       if(cost < cheapest && CGAL::Euler::does_satisfy_link_condition(e, mesh) &&
          !spoils_faces(mesh, u, v, x) && !spoils_faces(mesh, v, u, x))
         cheapest = cost;
@@ -137,17 +143,19 @@ TEST_CASE("Each collapse is the cheapest that is possible, with all costs comput
 TEST_CASE("The first stage keeps a manifold what it is, its border and its parts")
 {
   const bool hub = GENERATE(false, true);
-  shapes::Matrices input = hub ? shapes::gear_matrices(600, 3)
-                               : GENERATE(wavy_grid_matrices(24, 20), shapes::torus_matrices(24, 12),
-                                          shapes::components_matrices(shapes::tetrahedron_matrices(), 5),
-                                          shapes::components_matrices(shapes::icosphere_matrices(1), 3));
+  shapes::Matrices input =
+      hub ? shapes::gear_matrices(600, 3)
+          : GENERATE(wavy_grid_matrices(24, 20), shapes::torus_matrices(24, 12),
+                     shapes::components_matrices(shapes::tetrahedron_matrices(), 5),
+                     shapes::components_matrices(shapes::icosphere_matrices(1), 3));
   CAPTURE(hub, input.V.rows());
   const Mesh mesh = make_mesh(input);
   const SMS::Collapse_log log = quadric_log(mesh, 1);
   const Mesh coarse = replayed(mesh, log, log.number_of_vertices_left());
   CHECK(CGAL::is_valid_polygon_mesh(coarse));
   CHECK(topology(coarse) == topology(mesh));
-  CHECK(log.number_of_vertices_left() < (std::max)(std::size_t(26), std::size_t(input.V.rows()) / 10));
+  CHECK(log.number_of_vertices_left() <
+        (std::max)(std::size_t(26), std::size_t(input.V.rows()) / 10));
 }
 
 TEST_CASE("Edges without length go first, and faces without area are no obstacle")
@@ -159,11 +167,13 @@ TEST_CASE("Edges without length go first, and faces without area are no obstacle
   const Mesh mesh = make_mesh(input);
   const SMS::Collapse_log log = quadric_log(mesh, 60);
   REQUIRE(log.number_of_vertices_left() == 60);
-  const Mesh first = replayed(mesh, log, log.number_of_vertices() - 3), last = replayed(mesh, log, 60);
+  const Mesh first = replayed(mesh, log, log.number_of_vertices() - 3),
+             last = replayed(mesh, log, 60);
   const auto shortest = [](const Mesh& m) {
     double length = std::numeric_limits<double>::infinity();
     for(const auto e : m.edges())
-      length = (std::min)(length, CGAL::squared_distance(m.point(source(e, m)), m.point(target(e, m))));
+      length =
+          (std::min)(length, CGAL::squared_distance(m.point(source(e, m)), m.point(target(e, m))));
     return length;
   };
   CHECK(shortest(mesh) == 0);
@@ -271,8 +281,8 @@ TEST_CASE("quadric_edge_collapse() is the first stage on its own")
   REQUIRE(count_vertices(mesh) == 100);
   CHECK((CGAL::is_valid_polygon_mesh(mesh) && CGAL::is_closed(mesh)));
   REQUIRE((result.restriction.rows() == 100 && std::size_t(result.restriction.cols()) == n));
-  CHECK((result.restriction * Eigen::VectorXd::Ones(Eigen::Index(n)) - Eigen::VectorXd::Ones(100)).norm() <
-        1e-12);
+  CHECK((result.restriction * Eigen::VectorXd::Ones(Eigen::Index(n)) - Eigen::VectorXd::Ones(100))
+            .norm() < 1e-12);
   const Eigen::MatrixXd V = positions(mesh), fine = positions(input);
   for(std::size_t v = 0; v < n; v += 17) {
     const Eigen::Index row = Eigen::Index(result.vertex_map[v]);
@@ -294,8 +304,9 @@ TEST_CASE("quadric_edge_collapse() that is cancelled or refused leaves the mesh 
 {
   const Mesh input = make_mesh(shapes::bumpy_icosphere_matrices(2));
   Mesh mesh = input;
-  CHECK_THROWS_AS(SMS::quadric_edge_collapse(mesh, 20, [](const double fraction) { return fraction < 0.5; }),
-                  SG::Cancelled);
+  CHECK_THROWS_AS(
+      SMS::quadric_edge_collapse(mesh, 20, [](const double fraction) { return fraction < 0.5; }),
+      SG::Cancelled);
   CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 163),
                     ContainsSubstring("the target is 163 vertices, but the mesh has 162"));
   CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 0), ContainsSubstring("from 1 to 162"));
@@ -342,7 +353,8 @@ TEST_CASE("F, Z and P follow collapses by quadrics ahead of the spectral cost")
   REQUIRE(bool(result.eigenpairs) == !own);
   const Eigen::MatrixXd& F = own ? options.signals : result.eigenpairs->vectors;
   const Eigen::MatrixXd Z = SMS::internal::spectral_z(fine_op, F);
-  const double E = SG::restriction_energy(coarse_op, result.restriction, F, Z) * area * (own ? 1. : area);
+  const double E =
+      SG::restriction_energy(coarse_op, result.restriction, F, Z) * area * (own ? 1. : area);
   CHECK(std::abs(result.E / E - 1) < 1e-6);
 
   // The quadrics come first, and the level where they end is theirs.
@@ -364,8 +376,8 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   SMS::Spectral_policies<Polyhedron, Kernel> policies(mesh, options);
   SMS::Collapse_log log;
   policies.state().collapse_by_others([&] {
-    auto done = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {}, options,
-                                                    CGAL::parameters::default_values());
+    auto done = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {},
+                                                    options, CGAL::parameters::default_values());
     log = done.first;
     return done;
   });
@@ -404,13 +416,14 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   REQUIRE((P.rows() == 60 && P.cols() == input.V.rows()));
   const shapes::Matrices coarse = SG::mesh_matrices(mesh);
   const auto pairs = policies.eigenpairs();
-  const double E = SG::restriction_energy(SG::laplace_operator(coarse.V, coarse.T, options.mass), P,
-                                          pairs->vectors, pairs->vectors * pairs->values.asDiagonal());
+  const double E =
+      SG::restriction_energy(SG::laplace_operator(coarse.V, coarse.T, options.mass), P,
+                             pairs->vectors, pairs->vectors * pairs->values.asDiagonal());
   CHECK(std::abs(policies.error() / (E * area * area) - 1) < 1e-6);
 }
 
-TEST_CASE(
-    "Kept vertices and constrained edges stay, and edges without length are merged, when quadrics come first")
+TEST_CASE("Kept vertices and constrained edges stay, and edges without length are merged, when "
+          "quadrics come first")
 {
   shapes::Matrices input = wavy_grid_matrices(40, 40);
   if(GENERATE(false, true))
@@ -428,9 +441,10 @@ TEST_CASE(
       constrained[e] = true;
       ends.emplace_back(mesh.vertex(e, 0).idx(), mesh.vertex(e, 1).idx());
     }
-  const auto result =
-      SMS::spectral_edge_collapse(mesh, 80, options, CGAL::parameters::edge_is_constrained_map(constrained));
-  CHECK(result.quadric_collapses == std::size_t(input.V.rows() - Eigen::Index(80 * options.quadrics_above)));
+  const auto result = SMS::spectral_edge_collapse(
+      mesh, 80, options, CGAL::parameters::edge_is_constrained_map(constrained));
+  CHECK(result.quadric_collapses ==
+        std::size_t(input.V.rows() - Eigen::Index(80 * options.quadrics_above)));
   CHECK(fault_of_result(mesh, result.restriction, result.vertex_map, input) == "");
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) ==
         options.kept_vertices.size());
@@ -441,8 +455,8 @@ TEST_CASE(
            V.row(Eigen::Index(result.vertex_map[std::size_t(v)])) == input.V.row(v)));
 }
 
-TEST_CASE(
-    "Quadrics are passed over where not all that was asked for could be kept, and when they are told to be")
+TEST_CASE("Quadrics are passed over where not all that was asked for could be kept, and when they "
+          "are told to be")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   SMS::Spectral_edge_collapse_options options = ahead_options();
@@ -475,19 +489,22 @@ TEST_CASE("What cannot be times the target is refused")
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
   SMS::Spectral_edge_collapse_options options = ahead_options();
   options.quadrics_above = GENERATE(0.5, -1., std::numeric_limits<double>::quiet_NaN());
-  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options), ContainsSubstring("quadrics_above"));
+  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 50, options),
+                    ContainsSubstring("quadrics_above"));
   CHECK(count_vertices(mesh) == 162);
 }
 
-TEST_CASE(
-    "A run that is cancelled while quadrics come first leaves the mesh as it was, later what they have made")
+TEST_CASE("A run that is cancelled while quadrics come first leaves the mesh as it was, later what "
+          "they have made")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   Mesh mesh = make_mesh(input);
   SMS::Spectral_edge_collapse_options options = ahead_options();
   const SMS::Spectral_phase phase =
       GENERATE(SMS::Spectral_phase::pre_simplification, SMS::Spectral_phase::first_costs);
-  options.progress = [&](const SMS::Spectral_progress& p) { return p.phase != phase || p.fraction < 0.5; };
+  options.progress = [&](const SMS::Spectral_progress& p) {
+    return p.phase != phase || p.fraction < 0.5;
+  };
   if(phase == SMS::Spectral_phase::pre_simplification) {
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The readers of the programs, and what they say of files that are damaged; what they write, and what they show.
+// The readers of the programs, and what they say of files that are damaged; what they write, and
+// what they show.
 
 #include "../examples/programs/io/index_reader.h"
 #include "../examples/programs/io/machine_memory.h"
@@ -37,7 +38,8 @@ class File
 {
 public:
   explicit File(const std::string& bytes)
-    : m_path(std::filesystem::temp_directory_path() / ("spectral_readers_" + std::to_string(getpid())))
+    : m_path(std::filesystem::temp_directory_path() /
+             ("spectral_readers_" + std::to_string(getpid())))
   {
     std::ofstream(m_path, std::ios::binary) << bytes;
   }
@@ -69,7 +71,8 @@ std::string raw(const std::vector<Number>& numbers, const bool reversed = false)
 std::string npy(const std::string& type, const std::string& order, const std::string& shape,
                 const std::string& data, const int version = 1)
 {
-  std::string text = "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
+  std::string text =
+      "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
   text.append(117 - text.size(), ' ');
   text += '\n';
   std::string bytes = "\x93NUMPY";
@@ -132,14 +135,18 @@ TEST_CASE("Files that are no such array are refused in a sentence")
   CHECK_THROWS_WITH(read(good.substr(0, good.size() - 1)), ContainsSubstring("but it holds 5"));
   CHECK_THROWS_WITH(read(good + "x"), ContainsSubstring("3 x 2"));
   CHECK_THROWS_WITH(read(npy("<i8", "False", "3, 2", raw(numbers))), ContainsSubstring("'<i8'"));
-  CHECK_THROWS_WITH(read(npy("<c16", "False", "3,", raw(numbers))), ContainsSubstring("float64 or float32"));
-  CHECK_THROWS_WITH(read(npy("<f8", "False", "1, 3, 2", raw(numbers))), ContainsSubstring("3 dimensions"));
+  CHECK_THROWS_WITH(read(npy("<c16", "False", "3,", raw(numbers))),
+                    ContainsSubstring("float64 or float32"));
+  CHECK_THROWS_WITH(read(npy("<f8", "False", "1, 3, 2", raw(numbers))),
+                    ContainsSubstring("3 dimensions"));
   CHECK_THROWS_WITH(read(npy("<f8", "False", "", raw(numbers))), ContainsSubstring("0 dimensions"));
   CHECK_THROWS_WITH(read(npy("<f8", "False", "3, -2", raw(numbers))), ContainsSubstring("shape"));
-  CHECK_THROWS_WITH(read(npy("<f8", "False", "3, \x1b[2J", raw(numbers))), ContainsSubstring("'3, ?[2J'"));
+  CHECK_THROWS_WITH(read(npy("<f8", "False", "3, \x1b[2J", raw(numbers))),
+                    ContainsSubstring("'3, ?[2J'"));
   CHECK_THROWS_WITH(read(npy("<\n8", "False", "3, 2", raw(numbers))), ContainsSubstring("'<?8'"));
   CHECK_THROWS_WITH(read(npy("<f8", "Maybe", "3, 2", raw(numbers))), ContainsSubstring("damaged"));
-  CHECK_THROWS_WITH(read(npy("<f8", "False", "3, 2", raw(numbers), 9)), ContainsSubstring("version 9"));
+  CHECK_THROWS_WITH(read(npy("<f8", "False", "3, 2", raw(numbers), 9)),
+                    ContainsSubstring("version 9"));
   // A promise of more than any memory.
   CHECK_THROWS_WITH(read(npy("<f8", "False", "999999999999999, 999999999999999", raw(numbers))),
                     ContainsSubstring("it holds 6"));
@@ -174,7 +181,8 @@ TEST_CASE("Indices are read one per line, and a bad line is named")
   CHECK_THROWS_WITH(indices("3\n\nfour\n"), ContainsSubstring("line 3 "));
   CHECK_THROWS_WITH(indices("-1\n"), ContainsSubstring("line 1 "));
   CHECK_THROWS_WITH(indices("1.5\n"), ContainsSubstring("line 1 "));
-  CHECK_THROWS_WITH(indices("3\n100\n"), ContainsSubstring("line 2 ") && ContainsSubstring("0 to 99"));
+  CHECK_THROWS_WITH(indices("3\n100\n"),
+                    ContainsSubstring("line 2 ") && ContainsSubstring("0 to 99"));
   CHECK_THROWS_WITH(indices("99999999999999999999999\n"), ContainsSubstring("100 vertices"));
   CHECK_THROWS_WITH(indices("\n\n"), ContainsSubstring("names no vertex"));
   CHECK(indices("\xEF\xBB\xBF# kept\r\n3 # one\r\n0\r\n") == std::vector<std::size_t>({3, 0}));
@@ -185,8 +193,8 @@ TEST_CASE("Indices are read one per line, and a bad line is named")
   CHECK_THROWS_WITH(read_indices("/no/such/list.txt", 5), ContainsSubstring("No such file"));
 }
 
-TEST_CASE(
-    "Headers of Matrix Market are read in any case, and their promises are judged before memory is taken")
+TEST_CASE("Headers of Matrix Market are read in any case, and their promises are judged before "
+          "memory is taken")
 {
   const std::string rest = " matrix coordinate Real General\n2 3 2\n1 1 0.5\n2 3 -2\n";
   const auto no_objection = [](long long, long long, long long) { return std::string(); };
@@ -196,7 +204,8 @@ TEST_CASE(
     CHECK(matrix.rows() == 2);
     CHECK(matrix.coeff(1, 2) == -2);
   }
-  const File file("%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
+  const File file(
+      "%%MatrixMarket matrix coordinate real general\n2000000000 2000000000 1\n1 1 1\n");
   const auto objection = [](long long rows, long long columns, long long nonzeros) {
     CHECK(rows == 2000000000);
     CHECK(columns == 2000000000);
@@ -210,10 +219,12 @@ TEST_CASE("A symmetric matrix of Matrix Market is square")
 {
   const auto read = [](const std::string& sizes) {
     const File file("%%MatrixMarket matrix coordinate real symmetric\n" + sizes);
-    return read_matrix_market(file.path(), [](long long, long long, long long) { return std::string(); });
+    return read_matrix_market(file.path(),
+                              [](long long, long long, long long) { return std::string(); });
   };
   CHECK(read("5 5 1\n5 1 2\n").coeff(0, 4) == 2);
-  CHECK_THROWS_WITH(read("2 5 1\n1 5 2\n"), ContainsSubstring("line 2 ") && ContainsSubstring("not square"));
+  CHECK_THROWS_WITH(read("2 5 1\n1 5 2\n"),
+                    ContainsSubstring("line 2 ") && ContainsSubstring("not square"));
 }
 
 TEST_CASE("OFF files may have several vertices and faces on a line")
@@ -223,9 +234,10 @@ TEST_CASE("OFF files may have several vertices and faces on a line")
     return read_off(file.path());
   };
   const Polygon_soup square = off("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
-  for(const std::string text : {"OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2 3\n",
-                                "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",
-                                "4OFF\n4 2\n0 0 0 2 1 0 0 1 1 1\n0 1 0 1 0 1 3 0 1 2\n3 0\n2 3\n"}) {
+  for(const std::string text :
+      {"OFF\n4 2 0\n0 0 0 1 0 0\n1 1 0 0 1 0\n3 0 1 2\n3 0 2 3\n",
+       "OFF 4 2 0 0 0 0 1 0 0 1 1 0 0 1 0 3 0 1 2 3 0 2 3",
+       "4OFF\n4 2\n0 0 0 2 1 0 0 1 1 1\n0 1 0 1 0 1 3 0 1 2\n3 0\n2 3\n"}) {
     const Polygon_soup soup = off(text);
     CHECK(soup.polygons == square.polygons);
     CHECK(soup.points == square.points);
@@ -328,7 +340,8 @@ TEST_CASE("No output replaces an input, unless it may")
 TEST_CASE("The memory that is left is within the limits of control groups")
 {
   const Folder folder;
-  folder.put("proc/meminfo", "MemTotal: 8000000 kB\nMemAvailable: 4000000 kB\nSwapFree: 1000000 kB\n");
+  folder.put("proc/meminfo",
+             "MemTotal: 8000000 kB\nMemAvailable: 4000000 kB\nSwapFree: 1000000 kB\n");
   CHECK(available_memory(folder.path) == 1024 * 5e6);
   SECTION("of version 2")
   {
@@ -338,7 +351,8 @@ TEST_CASE("The memory that is left is within the limits of control groups")
     CHECK(available_memory(folder.path) == 1024 * 5e6);
     folder.put("sys/fs/cgroup/outer/memory.max", "1000000000\n");
     folder.put("sys/fs/cgroup/outer/memory.current", "400000000\n");
-    folder.put("sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 100000000\nactive_file 7\n");
+    folder.put("sys/fs/cgroup/outer/memory.stat",
+               "anon 5\ninactive_file 100000000\nactive_file 7\n");
     CHECK(available_memory(folder.path) == 7e8);
   }
   SECTION("of version 1, in a container that does not see its group's path")
@@ -346,7 +360,8 @@ TEST_CASE("The memory that is left is within the limits of control groups")
     folder.put("proc/self/cgroup", "3:cpuset:/\n4:cpu,memory:/docker/0123\n0::/\n");
     folder.put("sys/fs/cgroup/memory/memory.limit_in_bytes", "2000000000\n");
     folder.put("sys/fs/cgroup/memory/memory.usage_in_bytes", "500000000\n");
-    folder.put("sys/fs/cgroup/memory/memory.stat", "inactive_file 1\ntotal_inactive_file 250000000\n");
+    folder.put("sys/fs/cgroup/memory/memory.stat",
+               "inactive_file 1\ntotal_inactive_file 250000000\n");
     CHECK(available_memory(folder.path) == 1.75e9);
   }
 }

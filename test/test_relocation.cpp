@@ -38,7 +38,8 @@ using Signals = SG::Relocation_options::Signals;
 namespace {
 
 Eigen::MatrixXd relocated(const Simplified_mesh& s, SG::Relocation_result& result,
-                          const SG::Relocation_options& options = {}, const std::vector<bool>& fixed = {})
+                          const SG::Relocation_options& options = {},
+                          const std::vector<bool>& fixed = {})
 {
   Eigen::MatrixXd V = s.coarse.V;
   result = SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, fixed, options);
@@ -60,7 +61,8 @@ Eigen::SparseMatrix<double> sampled(const Simplified_mesh& s, const Eigen::Matri
 
 double smallest_angle(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Index f)
 {
-  const SG::Triangle_cotangents t = SG::triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
+  const SG::Triangle_cotangents t =
+      SG::triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2)));
   return std::atan2(1., t.cot.maxCoeff());
 }
 
@@ -84,7 +86,8 @@ std::string broken_guard(const Simplified_mesh& s, const Eigen::MatrixXd& V,
   for(Eigen::Index f = 0; f < T.rows(); ++f) {
     if(normal(V, T, f).dot(normal(s.coarse.V, T, f)) < std::cos(options.largest_turn) - 1e-9)
       return "a triangle has turned";
-    if(smallest_angle(V, T, f) < (options.smallest_angle_ratio - 1e-6) * smallest_angle(s.coarse.V, T, f))
+    if(smallest_angle(V, T, f) <
+       (options.smallest_angle_ratio - 1e-6) * smallest_angle(s.coarse.V, T, f))
       return "an angle has become too small";
   }
   const auto area = [](const Eigen::MatrixXd& W, const Eigen::MatrixXi& F) {
@@ -129,8 +132,8 @@ TEST_CASE("relocation lowers the commutativity with either restriction and keeps
   }
   const Simplified_mesh& s = closed_example();
   SG::Relocation_result result;
-  const double after = volume(relocated(s, result), s.coarse.T), before = volume(s.coarse.V, s.coarse.T),
-               fine = volume(s.fine.V, s.fine.T);
+  const double after = volume(relocated(s, result), s.coarse.T),
+               before = volume(s.coarse.V, s.coarse.T), fine = volume(s.fine.V, s.fine.T);
   REQUIRE(before < fine);
   CHECK(after >= 0.97 * before);
   CHECK(after <= fine + 0.03 * before);
@@ -141,7 +144,8 @@ TEST_CASE("the eigenvalues beyond K do not fall in the mean, and would without t
   const Simplified_mesh& s = closed_example();
   const auto beyond = [&](const Eigen::MatrixXd& V) {
     const SG::Laplace_operator op = SG::laplace_operator(V, s.coarse.T, 0.5);
-    return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 3 * s.K / 2).values.tail(s.K / 2).array());
+    return Eigen::ArrayXd(op.mass.sum() *
+                          SG::eigenpairs(op, 3 * s.K / 2).values.tail(s.K / 2).array());
   };
   const Eigen::ArrayXd start = beyond(s.coarse.V);
   SG::Relocation_options options;
@@ -178,7 +182,8 @@ TEST_CASE("relocation does not depend on the number of threads")
   CHECK(three.objective_after == one.objective_after);
   CHECK(one.moved_vertices > 0);
   options.threads = 0;
-  CHECK_THROWS_WITH(relocated(s, three, options), ContainsSubstring("threads") && ContainsSubstring("0"));
+  CHECK_THROWS_WITH(relocated(s, three, options),
+                    ContainsSubstring("threads") && ContainsSubstring("0"));
 }
 
 TEST_CASE("the plain metric alone falls monotonically")
@@ -188,13 +193,15 @@ TEST_CASE("the plain metric alone falls monotonically")
   options.signals = Signals::carried;
   options.smoothing = 0;
   options.beyond = 0;
-  double last = SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
+  double last =
+      SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
   for(const int steps : {1, 5, 20}) {
     options.maximum_steps = steps;
     SG::Relocation_result result;
     const Eigen::MatrixXd V = relocated(s, result, options);
     CHECK(result.steps == steps);
-    const double E = SG::restriction_energy(SG::laplace_operator(V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
+    const double E =
+        SG::restriction_energy(SG::laplace_operator(V, s.coarse.T, 0.5), s.P, s.F(), s.Z());
     CHECK(relative_difference(E, result.E_after) < 1e-9);
     CHECK(E < last);
     last = E;
@@ -238,7 +245,8 @@ TEST_CASE("guards without room end the descent")
       const Eigen::MatrixXd V = relocated(*s, result, options);
       CHECK(V.allFinite());
       for(Eigen::Index f = 0; f < s->coarse.T.rows(); ++f)
-        CHECK(normal(V, s->coarse.T, f).dot(normal(s->coarse.V, s->coarse.T, f)) > std::cos(turn) - 1e-11);
+        CHECK(normal(V, s->coarse.T, f).dot(normal(s->coarse.V, s->coarse.T, f)) >
+              std::cos(turn) - 1e-11);
     }
 }
 
@@ -312,7 +320,8 @@ TEST_CASE("two sheets that nearly touch do not pass through each other")
   SG::relocate_positions(free, T, P, fine, F, Z, 0.5, fixed, options);
   REQUIRE(!SG::internal::self_intersecting_faces(free, T).empty());
   options.keep_free_of_self_intersections = true;
-  const SG::Relocation_result result = SG::relocate_positions(guarded, T, P, fine, F, Z, 0.5, fixed, options);
+  const SG::Relocation_result result =
+      SG::relocate_positions(guarded, T, P, fine, F, Z, 0.5, fixed, options);
   CHECK(SG::internal::self_intersecting_faces(guarded, T).empty());
   CHECK(result.reverted_vertices > 0);
   const bool gains = result.stop_reason != SG::Relocation_result::Stop_reason::no_gain;
@@ -329,16 +338,19 @@ TEST_CASE("a cancelled relocation leaves the positions, a spent budget ends it")
     CHECK((fraction >= 0 && fraction <= 1));
     return ++calls < 4;
   };
-  CHECK_THROWS_AS(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options),
-                  SG::Cancelled);
+  CHECK_THROWS_AS(
+      SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options),
+      SG::Cancelled);
   CHECK(V == s.coarse.V);
   CHECK(calls == 4);
   options.progress = nullptr;
   options.maximum_seconds = 0;
-  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps == 0);
+  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps ==
+        0);
   options.maximum_seconds = 1e9;
   options.relative_decrease = 0.9;
-  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps == 10);
+  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps ==
+        10);
 }
 
 TEST_CASE("relocation refuses what does not belong together")
@@ -375,8 +387,8 @@ TEST_CASE("a remeshed start: any mesh of the surface with its closest-point rest
 {
   const Simplified_mesh& made = closed_example();
   Simplified_mesh s = made;
-  s.coarse =
-      shapes::bumpy_icosphere_matrices(2); // 162 vertices that no collapse chose, and somewhat disordered
+  s.coarse = shapes::bumpy_icosphere_matrices(
+      2); // 162 vertices that no collapse chose, and somewhat disordered
   for(Eigen::Index i = 0; i < s.coarse.V.size(); ++i)
     s.coarse.V.data()[i] += 0.05 * std::sin(12.9898 * double(i));
   s.coarse.V = sampled(s, s.coarse.V) * s.fine.V;
@@ -390,7 +402,8 @@ TEST_CASE("a remeshed start: any mesh of the surface with its closest-point rest
   CHECK(broken_guard(s, V) == "");
 }
 
-TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, constrained edges in place")
+TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, constrained edges "
+          "in place")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   SMS::Spectral_edge_collapse_options options = options_with(20);
@@ -415,7 +428,8 @@ TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, 
   CHECK(after.relocation.moved_vertices > 100);
   const Basis basis = eigen_input(input, options.mass, *after.eigenpairs).basis;
   CHECK(relative_difference(energy(b, basis, after.restriction), after.E) < 1e-8);
-  CHECK(relative_difference(std::sqrt(after.E / basis.lambda.squaredNorm()), after.relative_error) < 1e-8);
+  CHECK(relative_difference(std::sqrt(after.E / basis.lambda.squaredNorm()), after.relative_error) <
+        1e-8);
 
   Mesh held = make_mesh(input);
   constraints = held.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
@@ -427,7 +441,8 @@ TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, 
       ends.insert(held.point(source(e, held)));
       ends.insert(held.point(target(e, held)));
     }
-  SMS::spectral_edge_collapse(held, 300, options, CGAL::parameters::edge_is_constrained_map(constraints));
+  SMS::spectral_edge_collapse(held, 300, options,
+                              CGAL::parameters::edge_is_constrained_map(constraints));
   for(const auto v : vertices(held))
     ends.erase(held.point(v));
   CHECK(ends.empty());
@@ -454,7 +469,8 @@ TEST_CASE("closest points are those of the same component, whichever lies in the
   const Eigen::VectorXd share = result.restriction * is_small;
   int mixed = 0, of_small = 0;
   for(std::size_t v = 0; v < std::size_t(input.V.rows()); ++v) {
-    const double expected = v < std::size_t(n) ? 0 : 1, found = share(Eigen::Index(result.vertex_map[v]));
+    const double expected = v < std::size_t(n) ? 0 : 1,
+                 found = share(Eigen::Index(result.vertex_map[v]));
     mixed += std::abs(found - expected) > 1e-12;
     of_small += found > 0.5;
   }
@@ -462,7 +478,8 @@ TEST_CASE("closest points are those of the same component, whichever lies in the
   CHECK(of_small > 0);
 }
 
-TEST_CASE("no row of P comes from the limb beside that of its vertex, and relocation leaves no worse norm")
+TEST_CASE("no row of P comes from the limb beside that of its vertex, and relocation leaves no "
+          "worse norm")
 {
   const shapes::Matrices input = shapes::folded_limb_matrices(200, 16, 0.062);
   SMS::Spectral_edge_collapse_options options;
@@ -475,11 +492,12 @@ TEST_CASE("no row of P comes from the limb beside that of its vertex, and reloca
   CHECK(SG::rows_off_their_part(coarse, input, result.restriction).empty());
   // There is something to tell apart.
   CHECK_FALSE(
-      SG::rows_off_their_part(coarse, input, SG::closest_point_interpolation(coarse.V, input)).empty());
+      SG::rows_off_their_part(coarse, input, SG::closest_point_interpolation(coarse.V, input))
+          .empty());
   const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, SG::Mass::averaged),
                              op = SG::laplace_operator(coarse.V, coarse.T, SG::Mass::averaged);
-  const SG::Spectral_evaluation e =
-      SG::evaluate_spectrum(fine_op, *result.eigenpairs, op, SG::eigenpairs(op, 30), result.restriction, 30);
+  const SG::Spectral_evaluation e = SG::evaluate_spectrum(
+      fine_op, *result.eigenpairs, op, SG::eigenpairs(op, 30), result.restriction, 30);
   CHECK(relative_difference(e.norm_L, result.relocation.norm_after) < 0.02);
 }
 
@@ -490,7 +508,8 @@ TEST_CASE("a mesh whose norm relocation would raise is returned as it was")
   shapes::Matrices coarse = shapes::bumpy_icosphere_matrices(2);
   Eigen::SparseMatrix<double> P = SG::closest_point_interpolation(coarse.V, fine);
   REQUIRE(P.nonZeros() == P.rows());
-  coarse.V = (coarse.V * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix()).eval();
+  coarse.V =
+      (coarse.V * Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix()).eval();
   const SG::Eigenpairs pairs =
       SG::eigenpairs(SG::laplace_operator(coarse.V, coarse.T, SG::Mass::averaged), 20);
   Eigen::MatrixXd F(fine.V.rows(), 20);
@@ -498,15 +517,16 @@ TEST_CASE("a mesh whose norm relocation would raise is returned as it was")
     F.data()[i] = std::sin(17. * double(i));
   Eigen::MatrixXd Z = 30 * F;
   const double scale = pairs.vectors.col(1).cwiseAbs().maxCoeff();
-  const double ratio =
-      SG::laplace_operator(coarse.V, coarse.T).mass.sum() / SG::laplace_operator(fine.V, fine.T).mass.sum();
+  const double ratio = SG::laplace_operator(coarse.V, coarse.T).mass.sum() /
+                       SG::laplace_operator(fine.V, fine.T).mass.sum();
   for(Eigen::Index j = 0; j < P.cols(); ++j)
     for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it) {
       F.row(j) = pairs.vectors.row(it.row()) / scale;
       Z.row(j) = ratio * F.row(j) * pairs.values.asDiagonal();
     }
   Eigen::MatrixXd V = coarse.V;
-  const SG::Relocation_result result = SG::relocate_positions(V, coarse.T, P, fine, F, Z, SG::Mass::averaged);
+  const SG::Relocation_result result =
+      SG::relocate_positions(V, coarse.T, P, fine, F, Z, SG::Mass::averaged);
   CHECK(result.stop_reason == SG::Relocation_result::Stop_reason::no_gain);
   CHECK(V == coarse.V);
   CHECK(result.moved_vertices == 0);
@@ -531,7 +551,8 @@ TEST_CASE("a vertex of the border stays on that of its own component, whichever 
   options.number_of_eigenvectors = 20;
   options.relocation.signals =
       GENERATE(SG::Relocation_options::Signals::carried, SG::Relocation_options::Signals::sampled);
-  // Vertices of the border, and those of them that are as far from their own as the other one is: some by chance.
+  // Vertices of the border, and those of them that are as far from their own as the other one is:
+  // some by chance.
   const auto on_border_and_strayed = [&] {
     Mesh mesh = make_mesh(input);
     const auto result = SMS::spectral_edge_collapse(mesh, 120, options);

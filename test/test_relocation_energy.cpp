@@ -95,8 +95,8 @@ TEST_CASE("without a first term it is E, as the assembled matrices give it")
   for(const double theta : {0., 0.5, 1.}) {
     CAPTURE(theta);
     SG::Relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), theta);
-    const double slow =
-        SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, theta), s.P, s.F(), s.Z());
+    const double slow = SG::restriction_energy(SG::laplace_operator(s.coarse.V, s.coarse.T, theta),
+                                               s.P, s.F(), s.Z());
     CHECK(relative_difference(energy.value(s.coarse.V), slow) < 1e-10);
     CHECK(energy.smoothed_part() == 0);
   }
@@ -132,12 +132,14 @@ TEST_CASE("gradients agree with finite differences, in every mass, with a bounda
       Polynomial_signals moving;
       SG::Relocation_energy both(s->coarse.T, F, Z, theta, 0.02, 0.5, &moving);
       CHECK(gradient_error(both, V) < 1e-6);
-      SG::Relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0., &moving);
+      SG::Relocation_energy moving_alone(s->coarse.T, F.leftCols(0), Z.leftCols(0), theta, 0.02, 0.,
+                                         &moving);
       CHECK(gradient_error(moving_alone, V) < 1e-6);
     }
 }
 
-TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, and its gradient is right")
+TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, and its gradient "
+          "is right")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
     const Positions V = s->coarse.V;
@@ -177,10 +179,11 @@ TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, 
   }
 }
 
-TEST_CASE(
-    "the guard of the spectrum compares with the start, also where it has to find the eigenvectors again")
+TEST_CASE("the guard of the spectrum compares with the start, also where it has to find the "
+          "eigenvectors again")
 {
-  // A needle in a component whose mass is below the rounding of its cotangents: some of these matrices have no Cholesky factor.
+  // A needle in a component whose mass is below the rounding of its cotangents: some of these
+  // matrices have no Cholesky factor.
   const shapes::Matrices sphere = shapes::bumpy_icosphere_matrices(2);
   const int n = int(sphere.V.rows());
   Eigen::MatrixXi T(sphere.T.rows() + 4, 3);
@@ -215,7 +218,8 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
                0.003 * normal(fine.V, fine.T, 5 * i + 3).transpose();
   }
   const SG::Mesh_matrices coarse{V, Eigen::MatrixXi(0, 3)};
-  const SG::internal::Surface_regions regions(coarse, fine, SG::closest_point_interpolation(V, fine));
+  const SG::internal::Surface_regions regions(coarse, fine,
+                                              SG::closest_point_interpolation(V, fine));
   SG::internal::Surface_signals signals(closest, regions, fine.T, F, Z, GENERATE(1, 3));
   const auto value = [&](const Positions& at) {
     Rows f, z;

@@ -96,11 +96,12 @@ std::vector<std::uint32_t> array_on_page(const std::string& html, const std::str
   return result;
 }
 
-// A mesh of 642 vertices and one of the first 162 of them in another unit, which values at unit area do not see, whose
-// eigenvectors have the other sign.
+// A mesh of 642 vertices and one of the first 162 of them in another unit, which values at unit
+// area do not see, whose eigenvectors have the other sign.
 struct Two_meshes
 {
-  shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3), coarse = shapes::bumpy_icosphere_matrices(2);
+  shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3),
+                   coarse = shapes::bumpy_icosphere_matrices(2);
   CGAL::Spectral_geometry::Eigenpairs fine_pairs, coarse_pairs;
   CGAL::Spectral_geometry::Spectral_evaluation evaluation;
 
@@ -146,9 +147,10 @@ void check_mesh(const std::string& html, const std::string& name, const shapes::
         .norm();
   };
   for(std::size_t v = 2; v < n; ++v)
-    CHECK(length(v) / length(1) == Approx((mesh.V.row(static_cast<Eigen::Index>(v)) - mesh.V.row(0)).norm() /
-                                          (mesh.V.row(1) - mesh.V.row(0)).norm())
-                                       .epsilon(0.001));
+    CHECK(length(v) / length(1) ==
+          Approx((mesh.V.row(static_cast<Eigen::Index>(v)) - mesh.V.row(0)).norm() /
+                 (mesh.V.row(1) - mesh.V.row(0)).norm())
+              .epsilon(0.001));
 }
 
 } // namespace
@@ -240,7 +242,8 @@ TEST_CASE("The page holds every number, escapes names and needs nothing else")
   const std::string html = html_report(c);
   for(const Simplified& s : c.results) {
     CHECK(count(html, "<td>" + formatted(s.judgements[0].norms().norm_L) + "</td>") +
-              count(html, "<td class='best'>" + formatted(s.judgements[0].norms().norm_L) + "</td>") >=
+              count(html,
+                    "<td class='best'>" + formatted(s.judgements[0].norms().norm_L) + "</td>") >=
           1);
     CHECK(count(html, ">" + formatted(s.judgements[0].norms().norm_D) + "</td>") >= 1);
   }
@@ -323,7 +326,8 @@ TEST_CASE("Indices beyond 65,536 vertices have 32 bits")
 {
   const shapes::Matrices mesh = shapes::grid_matrices(256, 256);
   REQUIRE(mesh.V.rows() > 65536);
-  const std::string data = shape_view_internal::mesh_data("fine", mesh, screen_frame(mesh.V), 2, {}).dump();
+  const std::string data =
+      shape_view_internal::mesh_data("fine", mesh, screen_frame(mesh.V), 2, {}).dump();
   CHECK(count(data, "\"wide\":true") == 1);
   const auto triangles = array_on_page(data, "fine", "triangles", 4);
   REQUIRE(triangles.size() == static_cast<std::size_t>(mesh.T.size()));
@@ -348,7 +352,9 @@ TEST_CASE("Sentences say what the figures say")
   j.error_max = 0.07;
   j.error_low_mean = 0.05;
   words = plain_words(c, "mass");
-  CHECK(count(words, "The first 4 eigenvalues are off by 2.00 % in the mean and by 7.00 % at worst.") == 1);
+  CHECK(count(words,
+              "The first 4 eigenvalues are off by 2.00 % in the mean and by 7.00 % at worst.") ==
+        1);
   CHECK(count(words, "less well, to 5.00 %: limbs may have lost their tips.") == 1);
   CHECK(count(words, "The mass is") == 1);
   j.error_low_mean = 0.021;

@@ -55,7 +55,8 @@ Merge_forest random_forest(Index n, Index left, unsigned seed, Weights weights)
 }
 
 // P = Q_m ... Q_2 Q_1 by sparse products, one matrix with one row less for each merge.
-Sparse product_of_merges(const Merge_forest& forest, Index number_of_merges, std::vector<Index>& slots)
+Sparse product_of_merges(const Merge_forest& forest, Index number_of_merges,
+                         std::vector<Index>& slots)
 {
   slots = first_indices(forest.number_of_slots());
   Sparse P(forest.number_of_slots(), forest.number_of_slots());
@@ -66,7 +67,8 @@ Sparse product_of_merges(const Merge_forest& forest, Index number_of_merges, std
     std::vector<Index> left;
     for(Index w = 0; w < static_cast<Index>(slots.size()); ++w)
       if(slots[w] != merge.removed) {
-        Q.insert(static_cast<Index>(left.size()), w) = slots[w] == merge.kept ? 1. - merge.alpha : 1.;
+        Q.insert(static_cast<Index>(left.size()), w) =
+            slots[w] == merge.kept ? 1. - merge.alpha : 1.;
         if(slots[w] == merge.kept) {
           const auto v = std::find(slots.begin(), slots.end(), merge.removed) - slots.begin();
           Q.insert(static_cast<Index>(left.size()), v) = merge.alpha;
@@ -133,7 +135,8 @@ TEST_CASE("vertex map is total, agrees with the restriction, and binary rows hol
     for(Index column = 0; column < P.cols(); ++column)
       for(Sparse::InnerIterator it(P, column); it; ++it)
         CHECK(it.row() == Index(map[column]));
-    CHECK(P.nonZeros() < 200); // merges with alpha 0 or 1 leave empty columns, but no hole in the map
+    CHECK(P.nonZeros() <
+          200); // merges with alpha 0 or 1 leave empty columns, but no hole in the map
     if(weights == Weights::binary) {
       CHECK(P.nonZeros() == P.rows());
       CHECK((MatrixXd(P).rowwise().maxCoeff().array() == 1.).all());
@@ -163,7 +166,8 @@ TEST_CASE("merge forest rejects nonsense and stays as it was")
   CHECK_THROWS_WITH(forest.merge(4, 2, 0.5), ContainsSubstring("slot 4 is not one of the 4"));
   CHECK_THROWS_AS(forest.merge(2, -1, 0.5), std::invalid_argument);
   CHECK_THROWS_AS(forest.merge(2, 3, 1.5), std::invalid_argument);
-  CHECK_THROWS_AS(forest.merge(2, 3, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
+  CHECK_THROWS_AS(forest.merge(2, 3, std::numeric_limits<double>::quiet_NaN()),
+                  std::invalid_argument);
   CHECK(forest.number_of_merges() == 1);
   CHECK(forest.is_alive(2));
   CHECK_FALSE(forest.is_alive(1));

@@ -36,7 +36,8 @@ using Visitor = SMS::Restriction_visitor<Mesh>;
 namespace {
 
 template <class M, class Cost, class Placement, class V>
-void collapse_to(M& mesh, const std::size_t N, const Cost& cost, const Placement& placement, const V& visitor)
+void collapse_to(M& mesh, const std::size_t N, const Cost& cost, const Placement& placement,
+                 const V& visitor)
 {
   SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate<M>(N, mesh),
                      CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
@@ -53,7 +54,8 @@ shapes::Matrices grid_with_zero_length_edges()
 
 struct Counts
 {
-  int started = 0, finished = 0, collapsing = 0, collapsed = 0, selected = 0, collected = 0, stopped = 0;
+  int started = 0, finished = 0, collapsing = 0, collapsed = 0, selected = 0, collected = 0,
+      stopped = 0;
 };
 
 struct Counting_visitor : SMS::internal::Dummy_visitor
@@ -102,7 +104,8 @@ TEST_CASE("Without a collapse P is the identity")
 TEST_CASE("P is a restriction under Garland-Heckbert, Lindstrom-Turk and edge length")
 {
   const bool bordered = GENERATE(false, true);
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(20, 20) : shapes::bumpy_icosphere_matrices(3);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(20, 20) : shapes::bumpy_icosphere_matrices(3);
   Mesh mesh = make_mesh(input);
   const Visitor visitor(mesh);
   const std::size_t N = 100;
@@ -113,7 +116,8 @@ TEST_CASE("P is a restriction under Garland-Heckbert, Lindstrom-Turk and edge le
   }
   SECTION("Lindstrom-Turk")
   {
-    collapse_to(mesh, N, SMS::LindstromTurk_cost<Mesh>(), SMS::LindstromTurk_placement<Mesh>(), visitor);
+    collapse_to(mesh, N, SMS::LindstromTurk_cost<Mesh>(), SMS::LindstromTurk_placement<Mesh>(),
+                visitor);
   }
   SECTION("edge length, midpoint: P carries the positions as well")
   {
@@ -129,9 +133,10 @@ TEST_CASE("P agrees with that of the spectral policies, run side by side")
 {
   SMS::Spectral_options options = options_with(8);
   options.placement =
-      GENERATE(SMS::Spectral_placement_strategy::midpoint, SMS::Spectral_placement_strategy::on_edge,
-               SMS::Spectral_placement_strategy::free);
-  const shapes::Matrices input = GENERATE(shapes::bumpy_icosphere_matrices(3), grid_with_zero_length_edges());
+      GENERATE(SMS::Spectral_placement_strategy::midpoint,
+               SMS::Spectral_placement_strategy::on_edge, SMS::Spectral_placement_strategy::free);
+  const shapes::Matrices input =
+      GENERATE(shapes::bumpy_icosphere_matrices(3), grid_with_zero_length_edges());
   Mesh mesh = make_mesh(input);
   const Visitor visitor(mesh);
   const SMS::Spectral_policies<Mesh, Kernel> policies(mesh, options);
@@ -163,8 +168,8 @@ TEST_CASE("Edges without length are merged half and half")
     shapes::make_mesh(mesh, input);
     CGAL::set_halfedgeds_items_id(mesh);
     const SMS::Restriction_visitor<Polyhedron> visitor(mesh);
-    collapse_to(mesh, 80, SMS::Edge_length_cost<Polyhedron>(), SMS::Midpoint_placement<Polyhedron>(),
-                visitor);
+    collapse_to(mesh, 80, SMS::Edge_length_cost<Polyhedron>(),
+                SMS::Midpoint_placement<Polyhedron>(), visitor);
     REQUIRE(count_vertices(mesh) == 80);
     CHECK(fault_of_restriction(visitor.restriction(), visitor.vertex_map()) == "");
     CHECK(position_error(visitor.restriction(), input.V, positions(mesh)) < 1e-12);
@@ -175,7 +180,8 @@ TEST_CASE("A constrained edge decides which vertex is kept, and P follows")
 {
   const shapes::Matrices input = wavy_grid_matrices(16, 16);
   Mesh mesh = make_mesh(input);
-  const auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  const auto constraints =
+      mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
   for(const auto e : edges(mesh))
     constraints[e] = e.idx() % 5 == 0;
   const Visitor visitor(mesh);
@@ -183,9 +189,9 @@ TEST_CASE("A constrained edge decides which vertex is kept, and P follows")
   SMS::edge_collapse(
       mesh, SMS::Vertex_count_stop_predicate<Mesh>(120, mesh),
       CGAL::parameters::get_cost(SMS::Edge_length_cost<Mesh>())
-          .get_placement(
-              SMS::Constrained_placement<SMS::Midpoint_placement<Mesh>, std::decay_t<decltype(constraints)>>(
-                  constraints, midpoint))
+          .get_placement(SMS::Constrained_placement<SMS::Midpoint_placement<Mesh>,
+                                                    std::decay_t<decltype(constraints)>>(
+              constraints, midpoint))
           .edge_is_constrained_map(constraints)
           .visitor(visitor));
   CHECK(visitor.forest().number_of_merges() > 20);
@@ -219,11 +225,12 @@ TEST_CASE("A user's visitor gets every call, copied or by reference")
   const SMS::Edge_length_cost<Mesh> cost;
   const SMS::Midpoint_placement<Mesh> midpoint;
   if(by_reference)
-    collapse_to(
-        mesh, 100, cost, midpoint,
-        SMS::Restriction_visitor<Mesh, std::reference_wrapper<Counting_visitor>>(mesh, std::ref(counting)));
+    collapse_to(mesh, 100, cost, midpoint,
+                SMS::Restriction_visitor<Mesh, std::reference_wrapper<Counting_visitor>>(
+                    mesh, std::ref(counting)));
   else
-    collapse_to(mesh, 100, cost, midpoint, SMS::Restriction_visitor<Mesh, Counting_visitor>(mesh, counting));
+    collapse_to(mesh, 100, cost, midpoint,
+                SMS::Restriction_visitor<Mesh, Counting_visitor>(mesh, counting));
   CHECK(counts.started == 1);
   CHECK(counts.finished == 1);
   CHECK(counts.stopped == 1);
@@ -237,9 +244,9 @@ TEST_CASE("Another mesh is refused")
 {
   Mesh mesh = make_mesh(shapes::icosphere_matrices(1)), other = mesh;
   const Visitor visitor(mesh);
-  CHECK_THROWS_WITH(
-      collapse_to(other, 20, SMS::Edge_length_cost<Mesh>(), SMS::Midpoint_placement<Mesh>(), visitor),
-      Catch::Matchers::ContainsSubstring("another mesh"));
+  CHECK_THROWS_WITH(collapse_to(other, 20, SMS::Edge_length_cost<Mesh>(),
+                                SMS::Midpoint_placement<Mesh>(), visitor),
+                    Catch::Matchers::ContainsSubstring("another mesh"));
   CHECK(count_vertices(other) == 42);
 }
 

@@ -96,8 +96,9 @@ Simplified_shape simplified(const shapes::Matrices& matrices, std::size_t N, Ind
   return s;
 }
 
-// Carries the known map (for each vertex of Y one of X) to the coarse meshes and lifts it back; returns the mean distance of where the
-// vertices of Y end on X from where they belong, in square roots of the area.
+// Carries the known map (for each vertex of Y one of X) to the coarse meshes and lifts it back;
+// returns the mean distance of where the vertices of Y end on X from where they belong, in square
+// roots of the area.
 double error_of_lift(const shapes::Matrices& X, const shapes::Matrices& Y, const Map& truth)
 {
   const Index K = 30;
@@ -105,10 +106,10 @@ double error_of_lift(const shapes::Matrices& X, const shapes::Matrices& Y, const
   Map coarse(static_cast<std::size_t>(y.P.rows()));
   for(Index j = 0; j < y.P.cols(); ++j)
     for(Eigen::SparseMatrix<double>::InnerIterator it(y.P, j); it; ++it)
-      coarse[static_cast<std::size_t>(it.row())] =
-          static_cast<Index>(x.vertex_map[static_cast<std::size_t>(truth[static_cast<std::size_t>(j)])]);
-  const Eigen::MatrixXd C =
-      SG::functional_map_of_vertex_map(x.coarse.pairs.vectors, y.coarse.pairs.vectors, y.coarse.op.B, coarse);
+      coarse[static_cast<std::size_t>(it.row())] = static_cast<Index>(
+          x.vertex_map[static_cast<std::size_t>(truth[static_cast<std::size_t>(j)])]);
+  const Eigen::MatrixXd C = SG::functional_map_of_vertex_map(
+      x.coarse.pairs.vectors, y.coarse.pairs.vectors, y.coarse.op.B, coarse);
   const SG::Lifted_functional_map lifted = SG::lift_functional_map(x.C, C, y.C);
   CHECK(lifted.rank == K);
   CHECK(lifted.condition < 2);
@@ -117,7 +118,8 @@ double error_of_lift(const shapes::Matrices& X, const shapes::Matrices& Y, const
   double sum = 0;
   for(std::size_t i = 0; i < truth.size(); ++i)
     sum += (X.V.row(found[i]) - X.V.row(truth[i])).norm();
-  return sum / static_cast<double>(truth.size()) / std::sqrt(SG::laplace_operator(X.V, X.T).mass.sum());
+  return sum / static_cast<double>(truth.size()) /
+         std::sqrt(SG::laplace_operator(X.V, X.T).mass.sum());
 }
 
 Map identity(Index n)
@@ -171,7 +173,8 @@ TEST_CASE("Nearest rows are those of a search through all of them")
   const Map found = SG::nearest_rows(points, queries);
   for(Index i = 0; i < queries.rows(); ++i) {
     const double least = (points.rowwise() - queries.row(i)).rowwise().squaredNorm().minCoeff();
-    CHECK((points.row(found[static_cast<std::size_t>(i)]) - queries.row(i)).squaredNorm() == Approx(least));
+    CHECK((points.row(found[static_cast<std::size_t>(i)]) - queries.row(i)).squaredNorm() ==
+          Approx(least));
   }
   CHECK(SG::nearest_rows(points, queries, 3) == found);
   CHECK(SG::nearest_rows(points, queries.topRows(2), 5) == Map(found.begin(), found.begin() + 2));
@@ -180,8 +183,8 @@ TEST_CASE("Nearest rows are those of a search through all of them")
   CHECK_THROWS_AS(SG::nearest_rows(points, queries, 0), std::invalid_argument);
 }
 
-TEST_CASE(
-    "Nearest rows in many dimensions: the first of those that are equally near, whatever was found before")
+TEST_CASE("Nearest rows in many dimensions: the first of those that are equally near, whatever was "
+          "found before")
 {
   // A curve, as eigenvectors of low frequency embed it, in noise; every point twice.
   const Index n = 700, dimension = 60;
@@ -214,9 +217,11 @@ TEST_CASE("A permutation goes through its functional map and back")
   const shapes::Matrices X = shapes::pebble_matrices(shapes::icosphere_matrices(3));
   const Map p = random_permutation(X.V.rows(), 7);
   const SG::Spectral_shape x = shape_of(X, 40), y = shape_of(shapes::permuted(X, p), 40);
-  const Eigen::MatrixXd C = SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, p);
+  const Eigen::MatrixXd C =
+      SG::functional_map_of_vertex_map(x.pairs.vectors, y.pairs.vectors, y.op.B, p);
   CHECK((C.transpose() * C - Eigen::MatrixXd::Identity(40, 40)).norm() < 1e-7);
-  CHECK(SG::laplacian_commutativity_norm(C, x.pairs.values, y.pairs.values) < 1e-5 * x.pairs.values(39));
+  CHECK(SG::laplacian_commutativity_norm(C, x.pairs.values, y.pairs.values) <
+        1e-5 * x.pairs.values(39));
   CHECK(SG::target_to_source_map(C, x.pairs.vectors, y.pairs.vectors) == p);
   Map inverse(p.size());
   for(std::size_t i = 0; i < p.size(); ++i)
@@ -231,8 +236,8 @@ TEST_CASE("A permutation goes through its functional map and back")
 
   const Eigen::SparseMatrix<double> points =
       SG::target_to_source_points(C, x.pairs.vectors, x.T, y.pairs.vectors);
-  CHECK((points * Eigen::VectorXd::Ones(points.cols()) - Eigen::VectorXd::Ones(points.rows())).norm() <
-        1e-10);
+  CHECK((points * Eigen::VectorXd::Ones(points.cols()) - Eigen::VectorXd::Ones(points.rows()))
+            .norm() < 1e-10);
   // An embedded vertex may lie closer to a face through rounding only.
   CHECK((points * X.V - shapes::permuted(X, p).V).cwiseAbs().maxCoeff() < 1e-6);
 }
@@ -248,7 +253,8 @@ TEST_CASE("Points of faces are closer than vertices")
   const Eigen::MatrixXd from_X = C.transpose();
   const auto points = SG::target_to_source_points(from_X, x.pairs.vectors, x.T, y.pairs.vectors);
   const Map vertices = SG::target_to_source_map(from_X, x.pairs.vectors, y.pairs.vectors);
-  // No point of the face, and no vertex, is closer to the query: the way there begins with a step that does not come closer.
+  // No point of the face, and no vertex, is closer to the query: the way there begins with a step
+  // that does not come closer.
   const Eigen::MatrixXd embedded = x.pairs.vectors * from_X.transpose(),
                         nearest = points * embedded - y.pairs.vectors;
   for(Index i = 0; i < Y.V.rows(); ++i) {
@@ -258,7 +264,8 @@ TEST_CASE("Points of faces are closer than vertices")
         CHECK(std::abs((embedded.row(v).transpose() - from).dot(away)) <
               1e-10 * embedded.row(v).squaredNorm());
     CHECK(away.squaredNorm() <=
-          (embedded.rowwise() - y.pairs.vectors.row(i)).rowwise().squaredNorm().minCoeff() * (1 + 1e-12));
+          (embedded.rowwise() - y.pairs.vectors.row(i)).rowwise().squaredNorm().minCoeff() *
+              (1 + 1e-12));
   }
   double of_points = 0, of_vertices = 0;
   const Eigen::MatrixXd placed = points * X.V;
@@ -316,7 +323,8 @@ TEST_CASE("The orientation operator turns with the orientation")
   Eigen::MatrixXi mirrored = X.T;
   mirrored.col(0).swap(mirrored.col(1));
   CHECK((SG::orientation_operator(mirrored, x.pairs.vectors, f) + O).norm() < 1e-12 * O.norm());
-  CHECK(SG::orientation_operator(X.T, x.pairs.vectors, Eigen::VectorXd::Ones(f.size())).norm() < 1e-12);
+  CHECK(SG::orientation_operator(X.T, x.pairs.vectors, Eigen::VectorXd::Ones(f.size())).norm() <
+        1e-12);
 
   // On a flat square n . (grad x cross grad y) = 1.
   const shapes::Matrices square = shapes::grid_matrices(4, 4);
@@ -344,16 +352,19 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
   CHECK(SG::target_to_source_map(refined, x.pairs.vectors, y.pairs.vectors) == p);
   CHECK_THROWS_AS(SG::zoom_out(C, x, y, 41), std::invalid_argument);
   CHECK_THROWS_AS(SG::zoom_out(C, x, y, 11), std::invalid_argument);
-  CHECK_THROWS_AS(SG::functional_map_of_descriptors(x, y, f, g.leftCols(9), 12), std::invalid_argument);
+  CHECK_THROWS_AS(SG::functional_map_of_descriptors(x, y, f, g.leftCols(9), 12),
+                  std::invalid_argument);
 
   // Constants say nothing of the other modes, and commutativity nothing of equal eigenvalues.
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(f.rows(), 1);
   CHECK_THROWS_WITH(SG::functional_map_of_descriptors(x, y, ones, ones, 12),
                     ContainsSubstring("do not determine"));
-  CHECK_THROWS_WITH(SG::functional_map_of_descriptors(x, y, f.leftCols(0), g.leftCols(0), 12, {0.1, 0., 0.}),
-                    ContainsSubstring("do not determine"));
+  CHECK_THROWS_WITH(
+      SG::functional_map_of_descriptors(x, y, f.leftCols(0), g.leftCols(0), 12, {0.1, 0., 0.}),
+      ContainsSubstring("do not determine"));
 
-  // One descriptor of different size on the two shapes, nothing else but a little commutativity: the minimum by hand.
+  // One descriptor of different size on the two shapes, nothing else but a little commutativity:
+  // the minimum by hand.
   const SG::Functional_map_weights weights{1e-2, 0., 0.};
   const Eigen::MatrixXd two = f.leftCols(4) * Eigen::Vector4d(1., 2., 3., 4.).asDiagonal();
   Eigen::MatrixXd other = 3. * g.leftCols(4);
@@ -375,7 +386,8 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
     for(Index l = 0; l < 3; ++l) {
       Eigen::MatrixXd step = Eigen::MatrixXd::Zero(3, 3);
       step(j, l) = 1e-3;
-      CHECK(objective(D + step) == Approx(objective(D - step)).epsilon(1e-6)); // a parabola about its minimum
+      CHECK(objective(D + step) ==
+            Approx(objective(D - step)).epsilon(1e-6)); // a parabola about its minimum
     }
 
   // The scores from their definition, with the kernels written out.

@@ -97,7 +97,8 @@ double furthest(const shapes::Matrices& fine, const shapes::Matrices& coarse)
   const SG::internal::Closest_point_query closest(coarse);
   double result = 0;
   for(Eigen::Index v = 0; v < fine.V.rows(); ++v)
-    result = (std::max)(result, (closest(fine.V.row(v)).point - Eigen::Vector3d(fine.V.row(v))).norm());
+    result =
+        (std::max)(result, (closest(fine.V.row(v)).point - Eigen::Vector3d(fine.V.row(v))).norm());
   return result;
 }
 
@@ -130,12 +131,14 @@ struct At_first_costs : SMS::internal::Dummy_visitor
 TEST_CASE("A cost with a shape term is that of whole matrices and of all planes that were merged")
 {
   const bool closed = GENERATE(true, false);
-  const shapes::Matrices input = closed ? shapes::bumpy_icosphere_matrices(2) : wavy_grid_matrices(12, 11);
+  const shapes::Matrices input =
+      closed ? shapes::bumpy_icosphere_matrices(2) : wavy_grid_matrices(12, 11);
   const Basis basis = eigenbasis(input, GENERATE(0., 0.5), 8);
   Slow_mesh mesh(input, basis);
   std::vector<Planes> planes = planes_of(input);
   Parameters parameters = Parameters::paper();
-  parameters.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
+  parameters.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
   parameters.shape = GENERATE(0.5, 300.);
   const double sum_of_squares = basis.lambda.squaredNorm();
   Core core = make_core(mesh, basis, parameters);
@@ -153,27 +156,32 @@ TEST_CASE("A cost with a shape term is that of whole matrices and of all planes 
         continue;
       const Eigen::Vector3d x = candidate.point;
       const Planes &at_u = planes[std::size_t(e.first)], &at_v = planes[std::size_t(e.second)];
-      const double change = quadric(at_u, x) + quadric(at_v, x) - quadric(at_u, on_edge(mesh, e, 0)) -
-                            quadric(at_v, on_edge(mesh, e, 1));
+      const double change = quadric(at_u, x) + quadric(at_v, x) -
+                            quadric(at_u, on_edge(mesh, e, 0)) - quadric(at_v, on_edge(mesh, e, 1));
       const double loss =
           mesh.energy_after(e, core.projected_weight(Slot(e.first), Slot(e.second), x), x) - before;
-      const double bound = 10 * sum_of_squares *
-                           (vertex_mass(mesh, e.first, basis.area) + vertex_mass(mesh, e.second, basis.area));
-      const double slow = (std::min)(loss, bound) +
-                          parameters.shape * sum_of_squares * double(n) * change / (basis.area * basis.area);
+      const double bound =
+          10 * sum_of_squares *
+          (vertex_mass(mesh, e.first, basis.area) + vertex_mass(mesh, e.second, basis.area));
+      const double slow = (std::min)(loss, bound) + parameters.shape * sum_of_squares * double(n) *
+                                                        change / (basis.area * basis.area);
       ++counts[loss > bound];
       CHECK(std::abs(candidate.cost - slow) < 1e-8 * (std::abs(slow) + before + std::abs(loss)));
       if(parameters.placement == Spectral_placement_strategy::free) {
         // The least quadric within reach, or the cheapest of the ends and the middle.
         const Eigen::Vector3d middle = on_edge(mesh, e, 0.5);
-        const double radius = (on_edge(mesh, e, 1) - on_edge(mesh, e, 0)).norm(), reach = (x - middle).norm();
+        const double radius = (on_edge(mesh, e, 1) - on_edge(mesh, e, 0)).norm(),
+                     reach = (x - middle).norm();
         const bool at_sample = x == on_edge(mesh, e, 0) || x == middle || x == on_edge(mesh, e, 1);
-        const auto both = [&](const Eigen::Vector3d& y) { return quadric(at_u, y) + quadric(at_v, y); };
+        const auto both = [&](const Eigen::Vector3d& y) {
+          return quadric(at_u, y) + quadric(at_v, y);
+        };
         ++at_minimum[at_sample];
         CHECK(reach < radius * (1 + 1e-12));
         for(const double alpha : {0., 0.5, 1.})
-          CHECK(candidate.cost <= core.cost_at(Slot(e.first), Slot(e.second), on_edge(mesh, e, alpha)) +
-                                      1e-12 * (std::abs(slow) + before + std::abs(loss)));
+          CHECK(candidate.cost <=
+                core.cost_at(Slot(e.first), Slot(e.second), on_edge(mesh, e, alpha)) +
+                    1e-12 * (std::abs(slow) + before + std::abs(loss)));
         for(int axis = 0; axis < 6 && !at_sample && reach < 0.99 * radius; ++axis) {
           const Eigen::Vector3d step =
               (axis % 2 == 0 ? 1e-3 : -1e-3) * radius * Eigen::Vector3d::Unit(axis / 2);
@@ -225,11 +233,13 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
       const Kernel::Point_3 x = place(profile, i);
       costs.push_back(*quadrics(profile, SMS::internal::Spectral_optional<Kernel::Point_3>(x)));
       // There planes of a face go through one of its corners, here through the vertex itself.
-      for(const auto& [v, p] : {std::pair{profile.v0(), profile.p0()}, std::pair{profile.v1(), profile.p1()}})
+      for(const auto& [v, p] :
+          {std::pair{profile.v0(), profile.p0()}, std::pair{profile.v1(), profile.p1()}})
         for(const auto f : faces_around_target(halfedge(v, theirs), theirs))
           costs.back() +=
-              variance * (CGAL::squared_distance(x, p) -
-                          CGAL::squared_distance(x, theirs.point(source(halfedge(f, theirs), theirs))));
+              variance *
+              (CGAL::squared_distance(x, p) -
+               CGAL::squared_distance(x, theirs.point(source(halfedge(f, theirs), theirs))));
     }
   };
   // By itself: what its get_cost() returns is of another type where variances are given (CGAL 5.5).
@@ -239,8 +249,8 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
   std::size_t compared = 0;
   const auto compare = [&](const auto& profile) {
     for(int i = 0; i < 3; ++i) {
-      const double own =
-          *policies.get_cost()(profile, SMS::internal::Spectral_optional<Kernel::Point_3>(place(profile, i)));
+      const double own = *policies.get_cost()(
+          profile, SMS::internal::Spectral_optional<Kernel::Point_3>(place(profile, i)));
       CHECK(own == Catch::Approx(unit * costs.at(compared++)).epsilon(1e-10));
     }
   };
@@ -248,7 +258,8 @@ TEST_CASE("Where signals are constant the cost is CGAL's probabilistic plane qua
   CHECK(compared == 90);
 }
 
-TEST_CASE("Without signals that tell anything the shape term simplifies as well as CGAL's quadrics do")
+TEST_CASE(
+    "Without signals that tell anything the shape term simplifies as well as CGAL's quadrics do")
 {
   const shapes::Matrices input = scaled(shapes::bumpy_icosphere_matrices(4), 50);
   Mesh ours = make_mesh(input), theirs = make_mesh(input);
@@ -257,9 +268,11 @@ TEST_CASE("Without signals that tell anything the shape term simplifies as well 
   options.relocate = false;
   SMS::spectral_edge_collapse(ours, 200, options);
   const SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel> quadrics(theirs);
-  SMS::edge_collapse(theirs, SMS::Vertex_count_stop_predicate<Mesh>(200, theirs),
-                     CGAL::parameters::get_cost(quadrics.get_cost()).get_placement(quadrics.get_placement()));
-  CHECK(furthest(input, SG::mesh_matrices(ours)) < 1.25 * furthest(input, SG::mesh_matrices(theirs)));
+  SMS::edge_collapse(
+      theirs, SMS::Vertex_count_stop_predicate<Mesh>(200, theirs),
+      CGAL::parameters::get_cost(quadrics.get_cost()).get_placement(quadrics.get_placement()));
+  CHECK(furthest(input, SG::mesh_matrices(ours)) <
+        1.25 * furthest(input, SG::mesh_matrices(theirs)));
 }
 
 TEST_CASE("A weight of the shape term means the same at every unit of length")
@@ -295,8 +308,9 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
     const Mesh mesh = simplified(input, vertices, options);
     const shapes::Matrices coarse = SG::mesh_matrices(mesh);
     const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T, 0.5);
-    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
-        fine_op, fine_pairs, op, SG::eigenpairs(op, K), SG::closest_point_interpolation(coarse.V, input), K);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(fine_op, fine_pairs, op, SG::eigenpairs(op, K),
+                              SG::closest_point_interpolation(coarse.V, input), K);
     return Found{furthest(input, coarse), e.errors_low.mean, e.norm_L,
                  SG::internal::self_intersecting_faces(coarse.V, coarse.T).size()};
   };
@@ -304,11 +318,12 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
   policies.relocate = false;
   const Found paper = found(Spectral_edge_collapse_options::paper()), shaped = found(policies),
               best = found(Spectral_edge_collapse_options::best());
-  CAPTURE(paper.furthest, shaped.furthest, best.furthest, paper.low, shaped.low, best.low, paper.norm_L,
-          shaped.norm_L, best.norm_L, paper.crossings);
+  CAPTURE(paper.furthest, shaped.furthest, best.furthest, paper.low, shaped.low, best.low,
+          paper.norm_L, shaped.norm_L, best.norm_L, paper.crossings);
   CHECK(shaped.furthest < 0.75 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
-  // Of the paper's metric they say little: rounding decides how the limb is lost, at all of these sizes alike.
+  // Of the paper's metric they say little: rounding decides how the limb is lost, at all of these
+  // sizes alike.
   for(const std::size_t vertices : {82, 86, 90, 94, 98})
     CHECK(found(policies, vertices).low < 0.16);
   CHECK(best.norm_L < 0.95 * shaped.norm_L);
@@ -323,8 +338,9 @@ TEST_CASE("Two sheets close to each other do not cross, and would without the gu
   Spectral_edge_collapse_options options;
   options.number_of_eigenvectors = 20;
   options.relocate = false;
-  options.placement = GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free,
-                               Spectral_placement_strategy::midpoint);
+  options.placement =
+      GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free,
+               Spectral_placement_strategy::midpoint);
   const auto crossings = [&] {
     const shapes::Matrices coarse = SG::mesh_matrices(simplified(input, 150, options));
     return SG::internal::self_intersecting_faces(coarse.V, coarse.T).size();
@@ -346,7 +362,8 @@ shapes::Matrices crossing_shells()
   return result;
 }
 
-TEST_CASE("An edge whose placement would cross another sheet is not collapsed elsewhere at any price")
+TEST_CASE(
+    "An edge whose placement would cross another sheet is not collapsed elsewhere at any price")
 {
   // One vertex would swallow what lies around it: on some sizes eigenvalues were off by 6 to 13 %.
   const shapes::Matrices input = crossing_shells();
@@ -360,8 +377,9 @@ TEST_CASE("An edge whose placement would cross another sheet is not collapsed el
     const SG::Mesh_matrices coarse = SG::mesh_matrices(simplified(input, vertices, options));
     REQUIRE(coarse.V.rows() == Eigen::Index(vertices));
     const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T, 0.5);
-    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
-        fine_op, fine_pairs, op, SG::eigenpairs(op, K), SG::closest_point_interpolation(coarse.V, input), K);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(fine_op, fine_pairs, op, SG::eigenpairs(op, K),
+                              SG::closest_point_interpolation(coarse.V, input), K);
     CAPTURE(vertices, e.errors.mean, e.norm_L);
     CHECK(e.errors.mean < 0.055);
     largest = (std::max)(largest, e.norm_L);
@@ -438,15 +456,18 @@ TEST_CASE("Several runs with a shape term go on from each other")
   collapse(once, a, 100);
   collapse(twice, b, 300);
   collapse(twice, b, 100);
-  // The order may differ by edges that the first run had put off; planes and crossings are those of the input.
-  const double difference =
-      std::abs(furthest(input, SG::mesh_matrices(once)) / furthest(input, SG::mesh_matrices(twice)) - 1);
+  // The order may differ by edges that the first run had put off; planes and crossings are those of
+  // the input.
+  const double difference = std::abs(
+      furthest(input, SG::mesh_matrices(once)) / furthest(input, SG::mesh_matrices(twice)) - 1);
   CHECK(difference < 0.3);
   CHECK(
-      SG::internal::self_intersecting_faces(SG::mesh_matrices(twice).V, SG::mesh_matrices(twice).T).empty());
+      SG::internal::self_intersecting_faces(SG::mesh_matrices(twice).V, SG::mesh_matrices(twice).T)
+          .empty());
 }
 
-TEST_CASE("With a shape term the result does not depend on the number of threads, and the error bound speaks "
+TEST_CASE("With a shape term the result does not depend on the number of threads, and the error "
+          "bound speaks "
           "of E alone")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
@@ -465,10 +486,12 @@ TEST_CASE("With a shape term the result does not depend on the number of threads
   CHECK(result.relative_error <= 0.15);
   CHECK(result.relative_error > 0.1);
   const Basis basis = eigen_input(input, options.mass, *result.eigenpairs).basis;
-  CHECK(relative_difference(energy(SG::mesh_matrices(bounded), basis, result.restriction), result.E) < 1e-8);
+  CHECK(relative_difference(energy(SG::mesh_matrices(bounded), basis, result.restriction),
+                            result.E) < 1e-8);
 }
 
-TEST_CASE("Vertices to keep are where they were after a relocation, with a single 1 in their rows of P")
+TEST_CASE(
+    "Vertices to keep are where they were after a relocation, with a single 1 in their rows of P")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Spectral_edge_collapse_options options;
@@ -504,7 +527,8 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
   }
   for(const Spectral_edge_collapse_options& o : {plain, best, paper})
     CHECK(o.source == SMS::Spectral_signal_source::eigenpairs);
-  CHECK(Spectral_edge_collapse_options::fast(600).source == SMS::Spectral_signal_source::filtered_noise);
+  CHECK(Spectral_edge_collapse_options::fast(600).source ==
+        SMS::Spectral_signal_source::filtered_noise);
   CHECK(Spectral_edge_collapse_options::fast(600).quadrics_above == 10);
   CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 18000);
   CHECK(Spectral_edge_collapse_options::fast(100).pre_simplify == 10000);
@@ -551,7 +575,8 @@ TEST_CASE("A step that leaps to another sheet is told from one along the surface
   sheets.V.bottomRows(half).col(2).setConstant(0.1);
   const SG::internal::Closest_point_query closest(sheets);
   // A coarse triangle whose corners are on both sheets, so that each may go to either.
-  const SG::Mesh_matrices coarse = shapes::matrices({{0, 0, 0}, {0, 0, 0.1}, {1, 0, 0}}, {{0, 1, 2}});
+  const SG::Mesh_matrices coarse =
+      shapes::matrices({{0, 0, 0}, {0, 0, 0.1}, {1, 0, 0}}, {{0, 1, 2}});
   const SG::internal::Surface_regions regions(coarse, sheets,
                                               SG::closest_point_interpolation(coarse.V, sheets));
   SG::internal::Sheet_guard leaps(closest, regions, 2);
@@ -562,8 +587,8 @@ TEST_CASE("A step that leaps to another sheet is told from one along the surface
   CHECK(leaps(0, high, low)); // from elsewhere now
 }
 
-TEST_CASE(
-    "Relocation leaves no vertex of the input further behind than before, and says what held which vertex")
+TEST_CASE("Relocation leaves no vertex of the input further behind than before, and says what held "
+          "which vertex")
 {
   const shapes::Matrices input = shapes::folded_limb_matrices(200, 16);
   Spectral_edge_collapse_options options;
@@ -582,7 +607,8 @@ TEST_CASE(
   CHECK(with <= without * (1 + 1e-9));
   CHECK(guarded.relocation.reverted_vertices > free.relocation.reverted_vertices);
   CHECK(guarded.relocation.steps > 0);
-  CHECK(guarded.relocation.held.trust + guarded.relocation.held.triangles + guarded.relocation.held.sheet >
+  CHECK(guarded.relocation.held.trust + guarded.relocation.held.triangles +
+            guarded.relocation.held.sheet >
         0);
   CHECK(guarded.relocation.held.fixed == 0);
   CHECK(std::string(guarded.relocation.stop_reason_name()) != "");

@@ -40,7 +40,8 @@ Eigenpairs pairs_of(const shapes::Matrices& mesh, Index K, double theta = 0.)
 // Two meshes as one.
 shapes::Matrices joined(const shapes::Matrices& a, const shapes::Matrices& b)
 {
-  shapes::Matrices result{MatrixXd(a.V.rows() + b.V.rows(), 3), Eigen::MatrixXi(a.T.rows() + b.T.rows(), 3)};
+  shapes::Matrices result{MatrixXd(a.V.rows() + b.V.rows(), 3),
+                          Eigen::MatrixXi(a.T.rows() + b.T.rows(), 3)};
   result.V << a.V, b.V;
   result.T << a.T, b.T.array() + static_cast<int>(a.V.rows());
   return result;
@@ -68,8 +69,8 @@ const Sphere& sphere()
   return unit_sphere;
 }
 
-// sum over l >= first of (2 l + 1) / (4 pi) f(l (l + 1)) P_l(cosine): what a function of the eigenvalues of the unit
-// sphere gives, by the addition theorem
+// sum over l >= first of (2 l + 1) / (4 pi) f(l (l + 1)) P_l(cosine): what a function of the
+// eigenvalues of the unit sphere gives, by the addition theorem
 template <class Function>
 double legendre_sum(double cosine, Index first, Function f)
 {
@@ -108,7 +109,8 @@ Eigenpairs flat_torus(const MatrixXd& points, double a, double b, int frequency)
   std::vector<std::pair<double, std::pair<int, int>>> modes;
   for(int p = -frequency; p <= frequency; ++p)
     for(int q = -frequency; q <= frequency; ++q)
-      modes.push_back({std::pow(2. * shapes::pi * p / a, 2) + std::pow(2. * shapes::pi * q / b, 2), {p, q}});
+      modes.push_back(
+          {std::pow(2. * shapes::pi * p / a, 2) + std::pow(2. * shapes::pi * q / b, 2), {p, q}});
   std::sort(modes.begin(), modes.end());
   Eigenpairs pairs;
   pairs.values.resize(modes.size());
@@ -116,8 +118,8 @@ Eigenpairs flat_torus(const MatrixXd& points, double a, double b, int frequency)
   for(std::size_t k = 0; k < modes.size(); ++k) {
     pairs.values(k) = modes[k].first;
     for(Index v = 0; v < points.rows(); ++v)
-      pairs.vectors(v, k) =
-          mode(points(v, 0), a, modes[k].second.first) * mode(points(v, 1), b, modes[k].second.second);
+      pairs.vectors(v, k) = mode(points(v, 0), a, modes[k].second.first) *
+                            mode(points(v, 1), b, modes[k].second.second);
   }
   return pairs;
 }
@@ -185,7 +187,8 @@ TEST_CASE("heat kernel of a sphere equals the sum of Legendre polynomials")
       const auto exact = [&](double c) {
         return legendre_sum(c, 0, [&](double l) { return std::exp(-l * t); });
       };
-      CHECK(sphere_error(SG::heat_kernel(sphere().pairs, source, t), source, exact) < 0.01); // O(h^2)
+      CHECK(sphere_error(SG::heat_kernel(sphere().pairs, source, t), source, exact) <
+            0.01); // O(h^2)
     }
 }
 
@@ -193,7 +196,9 @@ TEST_CASE("diffusion, biharmonic and commute-time distances of a sphere equal th
 {
   const Eigenpairs& pairs = sphere().pairs;
   const auto distance = [](auto weight) {
-    return [weight](double c) { return 2. * (legendre_sum(1., 1, weight) - legendre_sum(c, 1, weight)); };
+    return [weight](double c) {
+      return 2. * (legendre_sum(1., 1, weight) - legendre_sum(c, 1, weight));
+    };
   };
   const double t = 0.1;
   CHECK(sphere_error(SG::squared_diffusion_distance(pairs, 7, t), 7,
@@ -224,7 +229,8 @@ TEST_CASE("heat kernel signature of a sphere is constant")
   CHECK(SG::default_diffusion_time(sphere().pairs) == Approx(1. / 8.).epsilon(1e-3)); // 0.00995 A
 }
 
-TEST_CASE("wave kernel signature of a sphere converges to a constant with the square of the edge length")
+TEST_CASE(
+    "wave kernel signature of a sphere converges to a constant with the square of the edge length")
 {
   double error[2], distance[2];
   const Eigenpairs coarser = pairs_of(shapes::icosphere_matrices(3), degrees * degrees, 0.5);
@@ -235,7 +241,8 @@ TEST_CASE("wave kernel signature of a sphere converges to a constant with the sq
     CHECK(wks.rows() == pairs.vectors.rows());
     CHECK(wks.cols() == 100);
     error[i] = (wks.array() * 4. * shapes::pi - 1.).abs().maxCoeff();
-    distance[i] = SG::wave_kernel_distance(pairs, 0, energies).maxCoeff() / (energies.t_max - energies.t_min);
+    distance[i] =
+        SG::wave_kernel_distance(pairs, 0, energies).maxCoeff() / (energies.t_max - energies.t_min);
   }
   CHECK(error[1] < 0.035);
   CHECK(error[0] / error[1] == Approx(4.).epsilon(0.1));
@@ -261,15 +268,17 @@ TEST_CASE("heat kernel of a flat torus equals the sum over images")
       for(Index s = 0; s < 2; ++s) {
         const Index u = s == 0 ? 0 : 3;
         CHECK(heat(v, s) == Approx(kernel(u, v, t)).epsilon(1e-9).margin(1e-9));
-        CHECK(diffusion(v, s) ==
-              Approx(2. * (kernel(v, v, 2. * t) - kernel(u, v, 2. * t))).epsilon(1e-9).margin(1e-9));
+        CHECK(
+            diffusion(v, s) ==
+            Approx(2. * (kernel(v, v, 2. * t) - kernel(u, v, 2. * t))).epsilon(1e-9).margin(1e-9));
       }
       CHECK(hks(v, 0) == Approx(kernel(v, v, t)).epsilon(1e-9));
     }
   }
 }
 
-TEST_CASE("all pairs of a cycle give its effective resistance and the norm of the Green's functions")
+TEST_CASE(
+    "all pairs of a cycle give its effective resistance and the norm of the Green's functions")
 {
   const Index n = 31;
   const Eigenpairs pairs = cycle(n);
@@ -301,7 +310,8 @@ TEST_CASE("distances equal direct sums")
       const auto close = [](double x) { return Approx(x).epsilon(1e-10).margin(1e-15); };
       CHECK(diffusion(v, s) ==
             close(direct_distance(pairs, u, v, 0, [&](auto l) { return std::exp(-2 * l * t); })));
-      CHECK(biharmonic(v, s) == close(direct_distance(pairs, u, v, 1, [](auto l) { return 1 / (l * l); })));
+      CHECK(biharmonic(v, s) ==
+            close(direct_distance(pairs, u, v, 1, [](auto l) { return 1 / (l * l); })));
       CHECK(commute(v, s) == close(direct_distance(pairs, u, v, 1, [](auto l) { return 1 / l; })));
       double kernel = 0.;
       for(Index i = 0; i < pairs.size(); ++i)
@@ -340,7 +350,8 @@ TEST_CASE("signatures equal direct sums at the documented times and energies")
       for(Index k = 0; k < 60; ++k)
         sum += pairs.vectors(v, k) * pairs.vectors(v, k) * std::exp(-pairs.values(k) * times(i));
       CHECK(hks(v, i) == Approx(sum).epsilon(1e-10));
-      CHECK(wks(v, i) == Approx(direct_wks(pairs, v, energies.at(i), energies.sigma, 1)).epsilon(1e-10));
+      CHECK(wks(v, i) ==
+            Approx(direct_wks(pairs, v, energies.at(i), energies.sigma, 1)).epsilon(1e-10));
     }
   CHECK((hks.col(7) - SG::heat_kernel(pairs, Index(5), times(7))).cwiseAbs()(5) < 1e-12);
 }
@@ -389,11 +400,13 @@ TEST_CASE("sums with inverse eigenvalues skip one zero for each component")
   const VectorXd biharmonic = SG::squared_biharmonic_distance(pairs, 5);
   const VectorXd commute = SG::squared_commute_time_distance(pairs, 5);
   for(const Index v : {0, 5, 100, 170, 400}) {
-    CHECK(biharmonic(v) == Approx(direct_distance(pairs, 5, v, 3, [](auto l) { return 1 / (l * l); }))
-                               .epsilon(1e-9)
-                               .margin(1e-15));
-    CHECK(commute(v) ==
-          Approx(direct_distance(pairs, 5, v, 3, [](auto l) { return 1 / l; })).epsilon(1e-9).margin(1e-15));
+    CHECK(biharmonic(v) ==
+          Approx(direct_distance(pairs, 5, v, 3, [](auto l) { return 1 / (l * l); }))
+              .epsilon(1e-9)
+              .margin(1e-15));
+    CHECK(commute(v) == Approx(direct_distance(pairs, 5, v, 3, [](auto l) { return 1 / l; }))
+                            .epsilon(1e-9)
+                            .margin(1e-15));
   }
   CHECK(SG::wave_kernel_signature(pairs).allFinite());
   CHECK(SG::heat_kernel_times(pairs)(99) * pairs.values(3) == Approx(4. * std::log(10.)));
@@ -435,14 +448,16 @@ TEST_CASE("small eigenvalues of a thin neck are not taken for zeros")
   // A strip of 400 squares that is 1e5 times longer than wide.
   const Eigenpairs pairs = pairs_of(shapes::grid_matrices(400, 1, 1., 1e-5), 5);
   CHECK(pairs.zeros == 1);
-  CHECK(SG::default_diffusion_time(pairs) == Approx(1. / (4. * shapes::pi * shapes::pi)).epsilon(0.01));
+  CHECK(SG::default_diffusion_time(pairs) ==
+        Approx(1. / (4. * shapes::pi * shapes::pi)).epsilon(0.01));
 }
 
 TEST_CASE("zeros of pairs that are filled by hand must be given")
 {
   Eigenpairs pairs = bumpy();
   pairs.zeros = -1;
-  CHECK_THROWS_WITH(SG::squared_biharmonic_distance(pairs, 0), ContainsSubstring("Eigenpairs::zeros"));
+  CHECK_THROWS_WITH(SG::squared_biharmonic_distance(pairs, 0),
+                    ContainsSubstring("Eigenpairs::zeros"));
   CHECK_THROWS_WITH(SG::wave_kernel_energies(pairs), ContainsSubstring("Eigenpairs::zeros"));
   CHECK_NOTHROW(SG::heat_kernel(pairs, 0, 1.));
   pairs.zeros = 1;
@@ -463,8 +478,9 @@ TEST_CASE("zeros are counted on the matrix")
   CHECK(SG::number_of_zero_eigenvalues(laplace_operator(nine.V, nine.T)) == 9);
   CHECK(pairs_of(nine, 7).zeros == 9);
   // two triangles, and one without area between them
-  shapes::Matrices linked = shapes::matrices(
-      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}}, {{0, 1, 2}, {3, 4, 5}, {0, 1, 3}});
+  shapes::Matrices linked =
+      shapes::matrices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {3, 0, 0}, {4, 0, 0}, {3, 1, 0}},
+                       {{0, 1, 2}, {3, 4, 5}, {0, 1, 3}});
   CHECK(SG::number_of_zero_eigenvalues(laplace_operator(linked.V, linked.T)) == 2);
   linked.V(3, 1) = 0.1;
   CHECK(SG::number_of_zero_eigenvalues(laplace_operator(linked.V, linked.T)) == 1);
@@ -482,14 +498,16 @@ TEST_CASE("results follow the unit of length as documented")
   };
   const double t = SG::default_diffusion_time(pairs), T = SG::default_diffusion_time(scaled);
   CHECK(T == Approx(s * s * t).epsilon(1e-7));
-  CHECK(ratio_is(SG::squared_diffusion_distance(scaled, 9, T), SG::squared_diffusion_distance(pairs, 9, t),
-                 1. / (s * s)));
+  CHECK(ratio_is(SG::squared_diffusion_distance(scaled, 9, T),
+                 SG::squared_diffusion_distance(pairs, 9, t), 1. / (s * s)));
+  CHECK(ratio_is(SG::squared_biharmonic_distance(scaled, 9),
+                 SG::squared_biharmonic_distance(pairs, 9), s * s));
+  CHECK(ratio_is(SG::squared_commute_time_distance(scaled, 9),
+                 SG::squared_commute_time_distance(pairs, 9), 1.));
   CHECK(
-      ratio_is(SG::squared_biharmonic_distance(scaled, 9), SG::squared_biharmonic_distance(pairs, 9), s * s));
-  CHECK(ratio_is(SG::squared_commute_time_distance(scaled, 9), SG::squared_commute_time_distance(pairs, 9),
-                 1.));
-  CHECK(ratio_is(SG::heat_kernel_signature(scaled), SG::heat_kernel_signature(pairs), 1. / (s * s)));
-  CHECK(ratio_is(SG::wave_kernel_signature(scaled), SG::wave_kernel_signature(pairs), 1. / (s * s)));
+      ratio_is(SG::heat_kernel_signature(scaled), SG::heat_kernel_signature(pairs), 1. / (s * s)));
+  CHECK(
+      ratio_is(SG::wave_kernel_signature(scaled), SG::wave_kernel_signature(pairs), 1. / (s * s)));
   CHECK(ratio_is(SG::wave_kernel_distance(scaled, 9, SG::wave_kernel_energies(scaled)),
                  SG::wave_kernel_distance(pairs, 9, SG::wave_kernel_energies(pairs)), 1.));
 }
@@ -514,12 +532,14 @@ TEST_CASE("distances from points are those of interpolated eigenfunctions")
   };
   check(SG::squared_diffusion_distance(pairs, W, t),
         SG::squared_diffusion_distance(with_point, {17, 642}, t));
-  check(SG::squared_biharmonic_distance(pairs, W), SG::squared_biharmonic_distance(with_point, {17, 642}));
+  check(SG::squared_biharmonic_distance(pairs, W),
+        SG::squared_biharmonic_distance(with_point, {17, 642}));
   check(SG::squared_commute_time_distance(pairs, W),
         SG::squared_commute_time_distance(with_point, {17, 642}));
   check(SG::wave_kernel_distance(pairs, W, energies),
         SG::wave_kernel_distance(with_point, {17, 642}, energies));
-  CHECK(SG::heat_kernel(pairs, W, t).isApprox(SG::heat_kernel(with_point, {17, 642}, t).topRows(642), 1e-12));
+  CHECK(SG::heat_kernel(pairs, W, t)
+            .isApprox(SG::heat_kernel(with_point, {17, 642}, t).topRows(642), 1e-12));
   CHECK_THROWS_WITH(SG::squared_biharmonic_distance(with_point, W),
                     ContainsSubstring("of a mesh of 642 vertices, but there are 643"));
   // What converts to them: an expression, another order of storage, an index of CGAL's.
@@ -527,10 +547,12 @@ TEST_CASE("distances from points are those of interpolated eigenfunctions")
   const MatrixXd biharmonic = SG::squared_biharmonic_distance(pairs, W);
   CHECK(SG::squared_biharmonic_distance(pairs, by_rows).isApprox(biharmonic, 1e-14));
   CHECK(SG::squared_biharmonic_distance(pairs, W * 1.).isApprox(biharmonic, 1e-14));
-  CHECK(SG::squared_biharmonic_distance(pairs, CGAL::SM_Vertex_index(17)).isApprox(biharmonic.col(0), 1e-12));
+  CHECK(SG::squared_biharmonic_distance(pairs, CGAL::SM_Vertex_index(17))
+            .isApprox(biharmonic.col(0), 1e-12));
   for(const double w : {std::numeric_limits<double>::quiet_NaN(), 0.5}) {
     W.coeffRef(1, 9) = w;
-    CHECK_THROWS_WITH(SG::heat_kernel(pairs, W, t), ContainsSubstring("the weights of source 1 sum to"));
+    CHECK_THROWS_WITH(SG::heat_kernel(pairs, W, t),
+                      ContainsSubstring("the weights of source 1 sum to"));
   }
 }
 
@@ -539,10 +561,12 @@ TEST_CASE("distances and signatures reject bad input")
   const Eigenpairs& pairs = bumpy();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(SG::squared_biharmonic_distance(pairs, 642), ContainsSubstring("source 642"));
-  CHECK_THROWS_WITH(SG::squared_diffusion_distance(pairs, {0, -1}, 1.), ContainsSubstring("source -1"));
+  CHECK_THROWS_WITH(SG::squared_diffusion_distance(pairs, {0, -1}, 1.),
+                    ContainsSubstring("source -1"));
   CHECK_THROWS_WITH(SG::heat_kernel(pairs, {0, 1}, -1.), ContainsSubstring("time -1"));
   CHECK_THROWS_AS(SG::squared_diffusion_distance(pairs, 0, nan), std::invalid_argument);
-  CHECK_THROWS_AS(SG::heat_kernel_signature(pairs, VectorXd::Constant(1, -1.)), std::invalid_argument);
+  CHECK_THROWS_AS(SG::heat_kernel_signature(pairs, VectorXd::Constant(1, -1.)),
+                  std::invalid_argument);
   CHECK_THROWS_AS(SG::heat_kernel_times(pairs, 0), std::invalid_argument);
   CHECK_THROWS_AS(SG::wave_kernel_signature(pairs, {0., 1., 0., 10}), std::invalid_argument);
   CHECK_THROWS_AS(SG::wave_kernel_signature(pairs, {1., 0., 1., 10}), std::invalid_argument);

@@ -72,7 +72,8 @@ Sparse random_matrix(int n, unsigned seed)
 
 } // namespace
 
-TEST_CASE("Solves agree with Eigen's factorisation, for vectors and panels, and for any number of threads")
+TEST_CASE("Solves agree with Eigen's factorisation, for vectors and panels, and for any number of "
+          "threads")
 {
   std::vector<Sparse> matrices = {
       positive_definite(shapes::bumpy_icosphere_matrices(4)),
@@ -84,7 +85,8 @@ TEST_CASE("Solves agree with Eigen's factorisation, for vectors and panels, and 
     matrices.push_back(Sparse(R * R.transpose()));
     matrices.back().diagonal().array() += 1.;
   }
-  matrices.push_back(Sparse(Eigen::VectorXd::LinSpaced(600, 1., 2.).asDiagonal())); // nothing but roots
+  matrices.push_back(
+      Sparse(Eigen::VectorXd::LinSpaced(600, 1., 2.).asDiagonal())); // nothing but roots
   for(const Sparse& A : matrices) {
     const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 8);
     const Eigen::SimplicialLLT<Sparse> reference(A);
@@ -118,7 +120,8 @@ TEST_CASE("Other numbers in the same places, of which the lower triangle is read
 TEST_CASE("Negative eigenvalues are counted, and a matrix that has some is refused")
 {
   const auto count = [](const Sparse& A) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(A), Eigen::EigenvaluesOnly);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(Eigen::MatrixXd(A),
+                                                                Eigen::EigenvaluesOnly);
     return (solver.eigenvalues().array() < 0.).count();
   };
   const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(3);
@@ -149,7 +152,8 @@ TEST_CASE("Negative eigenvalues are counted, and a matrix that has some is refus
   Supernodal_factor factor(positive);
   CHECK_THROWS_AS(factor.factorise(zero, 1), SG::internal::Not_positive_definite);
   factor.factorise(positive, 1); // none the worse for it
-  CHECK((factor.solve(Eigen::VectorXd::Ones(3), 1) - Eigen::VectorXd::Constant(3, 0.5)).norm() < 1e-15);
+  CHECK((factor.solve(Eigen::VectorXd::Ones(3), 1) - Eigen::VectorXd::Constant(3, 0.5)).norm() <
+        1e-15);
   zero.coeffRef(1, 1) = std::nan("");
   CHECK_THROWS_AS(Supernodal_factor(zero), std::runtime_error);
 }

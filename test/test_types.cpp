@@ -29,8 +29,8 @@ using SMS::Spectral_edge_collapse_options;
 
 namespace {
 
-// For each vertex of the input the first one that was merged into the same vertex: a partition, whatever the
-// order of the coarse vertices.
+// For each vertex of the input the first one that was merged into the same vertex: a partition,
+// whatever the order of the coarse vertices.
 std::vector<std::size_t> partition(const std::vector<std::size_t>& map)
 {
   std::vector<std::size_t> first(map.size(), map.size()), result;
@@ -41,10 +41,11 @@ std::vector<std::size_t> partition(const std::vector<std::size_t>& map)
   return result;
 }
 
-// A run on another mesh type ends as that on Surface_mesh does, up to the order and rounding of the vertices.
+// A run on another mesh type ends as that on Surface_mesh does, up to the order and rounding of the
+// vertices.
 template <class Mesh_type, class Traits>
-void check_against_surface_mesh(const shapes::Matrices& input, const Spectral_edge_collapse_options& options,
-                                const std::size_t N)
+void check_against_surface_mesh(const shapes::Matrices& input,
+                                const Spectral_edge_collapse_options& options, const std::size_t N)
 {
   Mesh expected = make_mesh(input);
   const SMS::Spectral_policies reference(expected, options);
@@ -76,7 +77,8 @@ TEST_CASE("Surface_mesh and Polyhedron_3 give the same mesh")
 {
   const bool bordered = GENERATE(false, true);
   const bool zero_length = GENERATE(false, true);
-  shapes::Matrices input = bordered ? wavy_grid_matrices(22, 20) : shapes::bumpy_icosphere_matrices(3);
+  shapes::Matrices input =
+      bordered ? wavy_grid_matrices(22, 20) : shapes::bumpy_icosphere_matrices(3);
   if(zero_length)
     for(const int f : {20, 200, 410, 700})
       input.V.row(input.T(f, 0)) = input.V.row(input.T(f, 1));
@@ -104,11 +106,12 @@ TEST_CASE("The kernel with exact predicates gives the same mesh")
 TEST_CASE("The kernel with exact constructions gives the same mesh")
 {
   using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-  check_against_surface_mesh<CGAL::Surface_mesh<Exact::Point_3>, Exact>(shapes::bumpy_icosphere_matrices(2),
-                                                                        options_with(10), 60);
+  check_against_surface_mesh<CGAL::Surface_mesh<Exact::Point_3>, Exact>(
+      shapes::bumpy_icosphere_matrices(2), options_with(10), 60);
 }
 
-TEST_CASE("With points in single precision E is that of the rounded mesh, P gives its points to rounding")
+TEST_CASE(
+    "With points in single precision E is that of the rounded mesh, P gives its points to rounding")
 {
   using Single = CGAL::Simple_cartesian<float>;
   using Single_mesh = CGAL::Surface_mesh<Single::Point_3>;
@@ -116,7 +119,8 @@ TEST_CASE("With points in single precision E is that of the rounded mesh, P give
   options.mass = GENERATE(SG::Mass::lumped, SG::Mass::averaged);
   const bool bordered = GENERATE(false, true);
   Single_mesh mesh;
-  shapes::make_mesh(mesh, bordered ? wavy_grid_matrices(22, 20) : shapes::bumpy_icosphere_matrices(3));
+  shapes::make_mesh(mesh,
+                    bordered ? wavy_grid_matrices(22, 20) : shapes::bumpy_icosphere_matrices(3));
   const shapes::Matrices input = SG::mesh_matrices(mesh); // in doubles, rounded
   const SMS::Spectral_policies policies(mesh, options);
   CHECK(collapse(mesh, policies, 100) > 0);
@@ -147,8 +151,10 @@ TEST_CASE("A mesh with garbage is as good as one without")
   const SMS::Spectral_policies policies(mesh, options_with(10)), reference(clean, options_with(10));
   collapse(mesh, policies, 100);
   collapse(clean, reference, 100);
-  CHECK(fault_of_run(mesh, policies, eigen_input(left, SG::Mass::lumped, *policies.eigenpairs())) == "");
-  // The halfedges are numbered otherwise and sums are rounded otherwise, after which a greedy order may part.
+  CHECK(fault_of_run(mesh, policies, eigen_input(left, SG::Mass::lumped, *policies.eigenpairs())) ==
+        "");
+  // The halfedges are numbered otherwise and sums are rounded otherwise, after which a greedy order
+  // may part.
   CHECK(relative_difference(policies.error(), reference.error()) < 0.2);
 }
 
@@ -162,11 +168,13 @@ TEST_CASE("A point map of the user's is read and written, the mesh's own points 
     points.push_back(mesh.point(v));
     mesh.point(v) = Kernel::Point_3(0, 0, 0);
   }
-  const auto map = boost::make_iterator_property_map(points.begin(), get(boost::vertex_index, mesh));
+  const auto map =
+      boost::make_iterator_property_map(points.begin(), get(boost::vertex_index, mesh));
   const auto np = CGAL::parameters::vertex_point_map(map).geom_traits(Kernel());
   const SMS::Spectral_policies policies(mesh, options_with(10), np);
   collapse(mesh, policies, 100);
-  CHECK(fault_of_run(mesh, policies, eigen_input(input, SG::Mass::lumped, *policies.eigenpairs())) == "");
+  CHECK(fault_of_run(mesh, policies,
+                     eigen_input(input, SG::Mass::lumped, *policies.eigenpairs())) == "");
   for(const auto v : vertices(mesh))
     CHECK(mesh.point(v) == CGAL::ORIGIN);
   SMS::spectral_edge_collapse(expected, 100, options_with(10));

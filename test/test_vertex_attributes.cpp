@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// What mesh files have at their vertices beside positions: read, carried to a coarse mesh, and written.
+// What mesh files have at their vertices beside positions: read, carried to a coarse mesh, and
+// written.
 
 #include "../examples/programs/io/input_mesh.h"
 #include "../examples/programs/io/text_lines.h"
@@ -67,17 +68,20 @@ std::string type(const Attributes& attributes, const std::string& name)
 }
 
 const std::string ply =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n"
     "property uint8 red\nproperty uchar green\nproperty uchar blue\nproperty int32 label\n"
     "property double heat\nproperty float nx\nproperty float ny\nproperty float nz\n"
     "property list uchar int friends\nelement face 2\nproperty list uchar int vertex_indices\n"
-    "property float quality\nelement edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+    "property float quality\nelement edge 1\nproperty int vertex1\nproperty int "
+    "vertex2\nend_header\n"
     "0 0 0 10 20 30 7 0.5 0 0 1 1 5\n1 0 0 11 21 31 -2 1.5 0 0 1 0\n1 1 0 12 22 32 7 2.5 1 0 0 0\n"
     "0 1 0 250 0 255 9 3.5 0 1 0 0\n3 0 1 2 0.25\n3 0 2 3 0.5\n0 1\n";
 
 const double pi = std::acos(-1.);
 
-// A torus of n x m vertices whose texture is cut along two circles: at corners, or at copies of vertices, where the faces may be quads.
+// A torus of n x m vertices whose texture is cut along two circles: at corners, or at copies of
+// vertices, where the faces may be quads.
 std::string torus(const int n, const int m, const bool copies, const bool quads)
 {
   std::ostringstream text;
@@ -104,12 +108,14 @@ std::string torus(const int n, const int m, const bool copies, const bool quads)
   return text.str();
 }
 
-// How far the corners are from the angles of their points, counted without a jump from those of the middle of the face.
+// How far the corners are from the angles of their points, counted without a jump from those of the
+// middle of the face.
 double largest_error(const Mesh& mesh, const Corner_texture& texture)
 {
   double largest = 0;
   const auto angles = [](const double x, const double y, const double z) {
-    const double u = std::atan2(y, x) / (2 * pi), v = std::atan2(z, std::hypot(x, y) - 2) / (2 * pi);
+    const double u = std::atan2(y, x) / (2 * pi),
+                 v = std::atan2(z, std::hypot(x, y) - 2) / (2 * pi);
     return std::array<double, 2>{u - std::floor(u), v - std::floor(v)};
   };
   for(const auto f : mesh.faces()) {
@@ -125,7 +131,8 @@ double largest_error(const Mesh& mesh, const Corner_texture& texture)
       const auto here = angles(p.x(), p.y(), p.z());
       for(std::size_t k = 0; k < 2; ++k) {
         const double step = here[k] - middle[k];
-        largest = (std::max)(largest, std::abs(texture[h][k] - (middle[k] + step - std::round(step))));
+        largest =
+            (std::max)(largest, std::abs(texture[h][k] - (middle[k] + step - std::round(step))));
       }
     }
   }
@@ -152,9 +159,11 @@ TEST_CASE("PLY files have any property, and what cannot be carried is named")
   CHECK(a.unknown == std::vector<std::string>{"property friends of vertex", "element edge"});
 }
 
-TEST_CASE("OBJ files have colours behind the coordinates, and normals and texture coordinates at corners")
+TEST_CASE(
+    "OBJ files have colours behind the coordinates, and normals and texture coordinates at corners")
 {
-  const std::string points = "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 1 1 0 0 0 1\nv 0 1 0 0 0 0\nv 5 5 5 1 1 1\n";
+  const std::string points =
+      "v 0 0 0 1 0 0\nv 1 0 0 0 0.5 0\nv 1 1 0 0 0 1\nv 0 1 0 0 0 0\nv 5 5 5 1 1 1\n";
   const std::string texture = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\nvn 0 0 1\n";
   const Attributes a =
       attributes_of(".obj", points + texture + "f 1/1/1 2/2/1 3/3/1\nf 1/1/2 3/3/-1 4/-1/2\n");
@@ -195,15 +204,18 @@ TEST_CASE("OFF files have what their first word announces")
   CHECK(values(small, "red") == Values{255, 0, 0});
   CHECK(values(small, "blue") == Values{128, 0, 255});
   CHECK(attributes_of(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + end).known.empty());
-  const Attributes less = attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
+  const Attributes less =
+      attributes_of(".off", "COFF\n3 1 0\n0 0 0 1 0 0\n1 0 0\n0 1 0 0 0 1\n" + end);
   CHECK(less.known.empty());
   CHECK(less.unknown.size() == 1);
 }
 
-TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which OFF and OBJ do not hold")
+TEST_CASE(
+    "Floating colours from 0 to 1 are colours, others are functions, which OFF and OBJ do not hold")
 {
   const auto with = [](const std::string& alpha, const std::string& numbers) {
-    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty "
+           "float z\n"
            "property float red\nproperty float green\nproperty double blue\n" +
            alpha +
            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -228,12 +240,12 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
   CHECK(opacity.find("red")->kind == Kind::colour);
   CHECK(opacity.find("alpha")->kind == Kind::function);
   for(const std::string number : {"1.5", "-0.1", "nan"}) {
-    const Attributes bright =
-        attributes_of(".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
-                              "y\nproperty float z\nproperty float red\n"
-                              "property float green\nproperty float blue\nelement face 1\n"
-                              "property list uchar int vertex_indices\nend_header\n0 0 0 0 1 " +
-                                  number + "\n3 0 0 0\n");
+    const Attributes bright = attributes_of(
+        ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                "y\nproperty float z\nproperty float red\n"
+                "property float green\nproperty float blue\nelement face 1\n"
+                "property list uchar int vertex_indices\nend_header\n0 0 0 0 1 " +
+                    number + "\n3 0 0 0\n");
     CHECK(bright.find("red")->kind == Kind::function);
     CHECK(values(bright, "green") == Values{1});
     CHECK(writable(bright, "a.ply").known.size() == 3);
@@ -247,13 +259,13 @@ TEST_CASE("Floating colours from 0 to 1 are colours, others are functions, which
 TEST_CASE("Numbers that their integer type does not hold are refused")
 {
   const auto read = [](const std::string& property_type, const std::string& number) {
-    return attributes_of(".ply",
-                         "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
-                         "y\nproperty float z\nproperty " +
-                             property_type +
-                             " part\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                             "0 0 0 1\n0 0 0 " +
-                             number + "\n3 0 1 1\n");
+    return attributes_of(
+        ".ply", "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
+                "y\nproperty float z\nproperty " +
+                    property_type +
+                    " part\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                    "0 0 0 1\n0 0 0 " +
+                    number + "\n3 0 1 1\n");
   };
   const std::vector<std::array<std::string, 3>> limits = {{"char", "-128", "127"},
                                                           {"uchar", "0", "255"},
@@ -265,16 +277,18 @@ TEST_CASE("Numbers that their integer type does not hold are refused")
     CHECK(values(read(name, least), "part") == Values{1, std::stod(least)});
     CHECK(values(read(name, most), "part") == Values{1, std::stod(most)});
     for(const std::string& number :
-        {std::to_string(std::stoll(least) - 1), std::to_string(std::stoll(most) + 1), std::string("nan"),
-         std::string("inf"), std::string("5e9"), std::string("0.5")})
+        {std::to_string(std::stoll(least) - 1), std::to_string(std::stoll(most) + 1),
+         std::string("nan"), std::string("inf"), std::string("5e9"), std::string("0.5")})
       CHECK_THROWS_WITH(
           read(name, number),
-          ContainsSubstring("property 'part' has a number that its type does not hold at 'vertex' 1 of 2"));
+          ContainsSubstring(
+              "property 'part' has a number that its type does not hold at 'vertex' 1 of 2"));
   }
   CHECK(values(read("float", "5e9"), "part") == Values{1, 5e9});
 }
 
-TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")
+TEST_CASE(
+    "Attributes are carried by P: functions, colours, normals of length 1, labels of most weight")
 {
   const Attributes fine = attributes_of(".ply", ply);
   Eigen::SparseMatrix<double> P(3, 4);
@@ -290,7 +304,8 @@ TEST_CASE("Attributes are carried by P: functions, colours, normals of length 1,
   CHECK(coarse.unknown == fine.unknown);
   CHECK(values(coarse, "red") == Values{11, 250, 131});
   CHECK(values(coarse, "green") == Values{21, 0, 11});
-  CHECK(values(coarse, "label") == Values{7, 9, 7}); // 0.6 of 7 against 0.4; a tie goes to the smaller
+  CHECK(values(coarse, "label") ==
+        Values{7, 9, 7}); // 0.6 of 7 against 0.4; a tie goes to the smaller
   CHECK(std::abs(values(coarse, "heat")[0] - 1.5) < 1e-12);
   CHECK(std::abs(values(coarse, "nx")[2] - std::sqrt(0.5)) < 1e-12);
   CHECK(std::abs(values(coarse, "ny")[2] - std::sqrt(0.5)) < 1e-12);
@@ -310,7 +325,8 @@ TEST_CASE("What is written is read again, as far as the format holds it")
   CHECK(soup.polygons.size() == 2);
   for(const Attribute& a : input.attributes.known) {
     const bool written = writable(input.attributes, file.path).find(a.name) != nullptr;
-    CHECK(written == (extension == ".ply" || (extension != ".stl" && a.name != "label" && a.name != "heat")));
+    CHECK(written ==
+          (extension == ".ply" || (extension != ".stl" && a.name != "label" && a.name != "heat")));
     const Values again = values(soup.attributes, a.name);
     if(written)
       CHECK(again == a.values);
@@ -332,9 +348,10 @@ TEST_CASE("Binary PLY files have the same attributes as their text")
       "property float z\nproperty short part\nproperty float heat\nelement face 1\n"
       "property list uchar int vertex_index\nend_header\n";
   for(int v = 0; v < 3; ++v)
-    bytes +=
-        raw(float(v == 1)) + raw(float(v == 2)) + raw(0.f) + raw(std::int16_t(v - 1)) + raw(0.25f * float(v));
-  bytes += raw(std::uint8_t(3)) + raw(std::int32_t(0)) + raw(std::int32_t(1)) + raw(std::int32_t(2));
+    bytes += raw(float(v == 1)) + raw(float(v == 2)) + raw(0.f) + raw(std::int16_t(v - 1)) +
+             raw(0.25f * float(v));
+  bytes +=
+      raw(std::uint8_t(3)) + raw(std::int32_t(0)) + raw(std::int32_t(1)) + raw(std::int32_t(2));
   const Attributes a = attributes_of(".ply", bytes);
   CHECK(values(a, "part") == Values{-1, 0, 1});
   CHECK(values(a, "heat") == Values{0, 0.25, 0.5});
@@ -342,12 +359,13 @@ TEST_CASE("Binary PLY files have the same attributes as their text")
 
 TEST_CASE("Seams are the edges across which the coordinates differ")
 {
-  // A slit in a square of 5 x 5 vertices: the vertex in the middle has other coordinates above than below.
+  // A slit in a square of 5 x 5 vertices: the vertex in the middle has other coordinates above than
+  // below.
   std::string text;
   for(int j = 0; j < 5; ++j)
     for(int i = 0; i < 5; ++i)
-      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) + " " +
-              std::to_string(j) + "\n";
+      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) +
+              " " + std::to_string(j) + "\n";
   text += "vt 2 9\n";
   for(int j = 0; j < 4; ++j)
     for(int i = 0; i < 4; ++i) {
@@ -371,8 +389,9 @@ TEST_CASE("A vertex that comes closer to the other side of a seam keeps to its o
   std::string text;
   for(int j = 0; j < 5; ++j)
     for(int i = 0; i < 5; ++i)
-      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) + " " +
-              std::to_string(j) + "\nvt " + std::to_string(i + 10) + " " + std::to_string(j) + "\n";
+      text += "v " + std::to_string(i) + " " + std::to_string(j) + " 0\nvt " + std::to_string(i) +
+              " " + std::to_string(j) + "\nvt " + std::to_string(i + 10) + " " + std::to_string(j) +
+              "\n";
   for(int j = 0; j < 4; ++j)
     for(int i = 0; i < 4; ++i) {
       const auto corner = [&](const int k, const int l) {
@@ -413,14 +432,15 @@ TEST_CASE("Seams stay, and both sides keep their coordinates")
     input = read_input_mesh(file.path, repaired ? Mending::full : Mending::plain, true);
   }
   // Copies are one vertex after the repair: the seams are those of corners then.
-  REQUIRE(input.mesh.number_of_vertices() == std::size_t(copies && !repaired ? (n + 1) * (m + 1) : n * m));
+  REQUIRE(input.mesh.number_of_vertices() ==
+          std::size_t(copies && !repaired ? (n + 1) * (m + 1) : n * m));
   CHECK(largest_error(input.mesh, input.texture) < 1e-12);
   const Texture_seams seams(input.mesh, input.texture);
   CHECK(seams.number_of_edges() == std::size_t(n + m));
   CHECK(seams.vertices().size() == std::size_t(copies && !repaired ? 2 * (n + m) : n + m - 1));
 
-  SMS::Spectral_edge_collapse_options options =
-      GENERATE(SMS::Spectral_edge_collapse_options::best(), SMS::Spectral_edge_collapse_options::paper());
+  SMS::Spectral_edge_collapse_options options = GENERATE(
+      SMS::Spectral_edge_collapse_options::best(), SMS::Spectral_edge_collapse_options::paper());
   options.number_of_eigenvectors = 30;
   options.kept_vertices = seams.vertices();
   Mesh coarse = input.mesh;
@@ -451,7 +471,8 @@ TEST_CASE("Why there is no texture at corners is said")
   CHECK(reason("f 1/1 2/2 5/2\nf 1/1 5/2 3/3\nf 1/1 3/3 4/4\n", Mending::full) ==
         "the repair has made faces that are no part of one of the file");
   const File file(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  CHECK(read_input_mesh(file.path, Mending::plain, true).without_texture == "it has no texture coordinates");
+  CHECK(read_input_mesh(file.path, Mending::plain, true).without_texture ==
+        "it has no texture coordinates");
   const File at_vertices(".off", "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
   CHECK(read_input_mesh(at_vertices.path, Mending::plain, true).texture.size() == 6);
   const Input_mesh plain = read_input_mesh(at_vertices.path, Mending::plain);

@@ -28,7 +28,8 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
   const Spectral_placement_strategy placement =
       GENERATE(Spectral_placement_strategy::on_edge, Spectral_placement_strategy::free);
   CAPTURE(bordered, theta, K, int(placement));
-  const shapes::Matrices input = bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
+  const shapes::Matrices input =
+      bordered ? wavy_grid_matrices(13, 12) : shapes::bumpy_icosphere_matrices(2);
   const Basis basis = eigenbasis(input, theta, K);
   Slow_mesh mesh(input, basis);
   Parameters parameters = Parameters::paper();
@@ -38,15 +39,16 @@ TEST_CASE("Without vector extensions local costs are the change of the global E"
   for(const int collapses : {0, 20, 40}) {
     CHECK(simplify(core, mesh, collapses, random) == collapses);
     CHECK(compare_costs(core, mesh, 8, random).worst < 1e-9);
-    CHECK(relative_difference(core.total() + basis.Z.squaredNorm(), mesh.energy() + basis.Z.squaredNorm()) <
-          1e-9);
+    CHECK(relative_difference(core.total() + basis.Z.squaredNorm(),
+                              mesh.energy() + basis.Z.squaredNorm()) < 1e-9);
   }
 }
 
 TEST_CASE("The blocks of signals begin with a cache line and are padded with zeros")
 {
   const Eigen::Index length = GENERATE(1, 8, 13, 16, 17);
-  const Eigen::MatrixXd F = Eigen::MatrixXd::Random(5, length), Z = Eigen::MatrixXd::Random(5, length);
+  const Eigen::MatrixXd F = Eigen::MatrixXd::Random(5, length),
+                        Z = Eigen::MatrixXd::Random(5, length);
   SMS::internal::Spectral_signals signals(5, length);
   signals.set(0, F, Z);
   CHECK(signals.size() == length);

@@ -5,9 +5,10 @@
 #ifndef SPECTRAL_TEST_H
 #define SPECTRAL_TEST_H
 
-// What the tests are written in: every file is a program that runs its test cases one after the other. The first check that fails ends
-// it with EXIT_FAILURE; whatever is in scope by CAPTURE or INFO is printed. A test case is run again until each of its SECTIONs and each
-// value of its GENERATEs had its turn, in all combinations.
+// What the tests are written in: every file is a program that runs its test cases one after the
+// other. The first check that fails ends it with EXIT_FAILURE; whatever is in scope by CAPTURE or
+// INFO is printed. A test case is run again until each of its SECTIONs and each value of its
+// GENERATEs had its turn, in all combinations.
 
 #include <cmath>
 #include <cstdlib>
@@ -33,10 +34,11 @@ struct Choice
 };
 
 inline std::vector<Test_case> test_cases;
-inline std::vector<Choice> choices;       // of this run, in their order
-inline std::size_t next_choice;           // the first that this run has not met yet
-inline std::vector<std::size_t> sections; // by depth: 1 + the choice that entered a section in this run, or 0
-inline std::vector<std::string> notes;    // what CAPTURE and INFO hold
+inline std::vector<Choice> choices; // of this run, in their order
+inline std::size_t next_choice;     // the first that this run has not met yet
+inline std::vector<std::size_t>
+    sections; // by depth: 1 + the choice that entered a section in this run, or 0
+inline std::vector<std::string> notes; // what CAPTURE and INFO hold
 inline std::size_t checks;
 
 inline bool add(const char* name, void (*run)())
@@ -101,7 +103,8 @@ struct Note
   ~Note() { notes.pop_back(); }
 };
 
-inline void check(bool holds, const char* text, const char* file, int line, const std::string& found = "")
+inline void check(bool holds, const char* text, const char* file, int line,
+                  const std::string& found = "")
 {
   ++checks;
   if(holds)
@@ -156,7 +159,8 @@ inline Matcher operator||(Matcher a, Matcher b)
   return {[a, b](const std::string& s) { return a.matches(s) || b.matches(s); }};
 }
 
-inline void check_that(const std::string& s, const Matcher& m, const char* text, const char* file, int line)
+inline void check_that(const std::string& s, const Matcher& m, const char* text, const char* file,
+                       int line)
 {
   check(m.matches(s), text, file, line, "the text is: " + s + '\n');
 }
@@ -171,7 +175,8 @@ inline int run_all()
       try {
         test.run();
       } catch(const std::exception& error) {
-        check(false, test.name, "an exception left the test case", 0, error.what() + std::string("\n"));
+        check(false, test.name, "an exception left the test case", 0,
+              error.what() + std::string("\n"));
       }
     } while(another_run());
   }
@@ -192,10 +197,12 @@ inline int run_all()
   static void function()
 #define SECTION(...) if(const plain_test::Section SPECTRAL_TEST_NAME(section_){__VA_ARGS__})
 #define GENERATE(...) plain_test::generate({__VA_ARGS__})
-#define CAPTURE(...) const plain_test::Note SPECTRAL_TEST_NAME(note_)(#__VA_ARGS__ " are", __VA_ARGS__)
+#define CAPTURE(...) \
+  const plain_test::Note SPECTRAL_TEST_NAME(note_)(#__VA_ARGS__ " are", __VA_ARGS__)
 #define INFO(...) \
   const plain_test::Note SPECTRAL_TEST_NAME(note_)("", (std::ostringstream() << __VA_ARGS__).str())
-#define CHECK(...) plain_test::check(static_cast<bool>(__VA_ARGS__), #__VA_ARGS__, __FILE__, __LINE__)
+#define CHECK(...) \
+  plain_test::check(static_cast<bool>(__VA_ARGS__), #__VA_ARGS__, __FILE__, __LINE__)
 #define CHECK_FALSE(...) \
   plain_test::check(!static_cast<bool>(__VA_ARGS__), "not " #__VA_ARGS__, __FILE__, __LINE__)
 #define REQUIRE(...) CHECK(__VA_ARGS__)

@@ -2,17 +2,19 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Makes the shape of the demonstration: a walking animal whose tail grows back into its back (a closed surface
-// of genus 1) with features from half its length down to toes, spines and wrinkles a few edges wide.
+// Makes the shape of the demonstration: a walking animal whose tail grows back into its back (a
+// closed surface of genus 1) with features from half its length down to toes, spines and wrinkles a
+// few edges wide.
 //
 //   make_demo_shape OUTPUT [--vertices N] [--pose stand|walk|bend] [--shuffle SEED] [--map map.txt]
 //
-// A pose moves the vertices and keeps the triangles: the shapes of two poses are nearly isometric, and it is known
-// which vertex is which.
+// A pose moves the vertices and keeps the triangles: the shapes of two poses are nearly isometric,
+// and it is known which vertex is which.
 //
-// The surface is the zero set of a smooth union of round cones. Marching tetrahedra find its topology,
-// isotropic remeshing gives well-shaped triangles of the wanted number, a few Newton steps put the vertices back
-// onto the zero set. Beyond 100,000 vertices the triangles of a smaller shape are cut into four.
+// The surface is the zero set of a smooth union of round cones. Marching tetrahedra find its
+// topology, isotropic remeshing gives well-shaped triangles of the wanted number, a few Newton
+// steps put the vertices back onto the zero set. Beyond 100,000 vertices the triangles of a smaller
+// shape are cut into four.
 
 #include "io/command_line.h"
 #include "io/matrix_io.h"
@@ -112,8 +114,8 @@ private:
   {
     const double coarse =
         std::sin(7 * p.x() + 2 * p.y()) * std::sin(6 * p.y() + 1) * std::sin(8 * p.z() - p.x());
-    const double fine =
-        std::sin(31 * p.x() + 9 * p.z()) * std::sin(27 * p.y() + 2) * std::sin(29 * p.z() - 5 * p.x());
+    const double fine = std::sin(31 * p.x() + 9 * p.z()) * std::sin(27 * p.y() + 2) *
+                        std::sin(29 * p.z() - 5 * p.x());
     return 0.02 * coarse + 0.006 * fine;
   }
 
@@ -146,7 +148,8 @@ private:
     const auto at = [](double t) {
       const double angle = CGAL_PI * (0.95 - 1.0 * t);
       return Point(-0.50 + 0.42 * std::cos(angle) * (1 - 0.2 * t),
-                   0.16 * std::sin(CGAL_PI * t) * std::sin(3 * t), 0.16 + 0.55 * std::sin(angle) - 0.05 * t);
+                   0.16 * std::sin(CGAL_PI * t) * std::sin(3 * t),
+                   0.16 + 0.55 * std::sin(angle) - 0.05 * t);
     };
     constexpr int pieces = 10;
     for(int i = 0; i < pieces; ++i) {
@@ -165,14 +168,16 @@ private:
     }
     for(int i = 0; i < 5; ++i) {
       for(const double side : {-1., 1.})
-        add({-0.55 + 0.24 * i, 0.33 * side, 0.1}, 0.055, {-0.56 + 0.24 * i, 0.37 * side, 0.13}, 0.04);
+        add({-0.55 + 0.24 * i, 0.33 * side, 0.1}, 0.055, {-0.56 + 0.24 * i, 0.37 * side, 0.13},
+            0.04);
     }
   }
 
   std::vector<Round_cone> m_parts;
 };
 
-// Rotates around an axis through `centre` by `angle`: right-handed around y (`axis` 1) or z (`axis` 2).
+// Rotates around an axis through `centre` by `angle`: right-handed around y (`axis` 1) or z (`axis`
+// 2).
 Point rotated(const Point& p, const Point& centre, int axis, double angle)
 {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -188,15 +193,16 @@ double smooth_step(double x, double from, double to)
   return t * t * t * (10 + t * (6 * t - 15));
 }
 
-// The legs take a step, the head turns. The joints are smooth turns over a length of the width of the limb; those of
-// the legs begin below the belly.
+// The legs take a step, the head turns. The joints are smooth turns over a length of the width of
+// the limb; those of the legs begin below the belly.
 Point walking(Point p)
 {
   const bool front = p.x() > 0, left = p.y() > 0;
   const Point hip(front ? 0.54 : -0.6, 0, -0.3);
   const double step = front == left ? 0.4 : -0.4;
   p = rotated(p, hip, 1, step * smooth_step(-p.z(), 0.39, 0.75));
-  return rotated(p, {0.75, 0.02, 0.4}, 2, 0.6 * smooth_step(0.66 * p.x() + 0.75 * p.z(), 0.62, 1.02));
+  return rotated(p, {0.75, 0.02, 0.4}, 2,
+                 0.6 * smooth_step(0.66 * p.x() + 0.75 * p.z(), 0.62, 1.02));
 }
 
 // The whole animal turns along a circle.
@@ -207,8 +213,9 @@ Point bending(const Point& p)
   return {radius * std::sin(angle), 1 / curvature - radius * std::cos(angle), p.z()};
 }
 
-// The zero set of f on a regular grid of cubes of size h, each cut into six tetrahedra around its diagonal: a closed
-// manifold, because neighbouring cubes agree on the diagonals of their common face.
+// The zero set of f on a regular grid of cubes of size h, each cut into six tetrahedra around its
+// diagonal: a closed manifold, because neighbouring cubes agree on the diagonals of their common
+// face.
 class Marching_tetrahedra
 {
 public:
@@ -221,8 +228,9 @@ public:
     m_values.resize(m_size[0] * m_size[1] * m_size[2]);
     for(std::size_t i = 0; i < m_values.size(); ++i) {
       const double value = f(position(i));
-      m_values[i] =
-          std::abs(value) < 1e-3 * h ? 1e-3 * h : value; // no vertex on a grid point, no empty triangle
+      m_values[i] = std::abs(value) < 1e-3 * h
+                        ? 1e-3 * h
+                        : value; // no vertex on a grid point, no empty triangle
     }
   }
 
@@ -264,7 +272,8 @@ private:
 
   void cut_tetrahedron(std::array<std::size_t, 4> t)
   {
-    const auto middle = std::partition(t.begin(), t.end(), [&](std::size_t i) { return m_values[i] < 0; });
+    const auto middle =
+        std::partition(t.begin(), t.end(), [&](std::size_t i) { return m_values[i] < 0; });
     const auto inside = middle - t.begin();
     if(inside == 1)
       add_triangle(t, {crossing(t[0], t[1]), crossing(t[0], t[2]), crossing(t[0], t[3])});
@@ -318,14 +327,16 @@ void project(const Animal& animal, Mesh& mesh)
   }
 }
 
-// Each triangle cut into four at the midpoints of its edges, which lie on the zero set as well afterwards.
+// Each triangle cut into four at the midpoints of its edges, which lie on the zero set as well
+// afterwards.
 Mesh refined(const Animal& animal, const Mesh& coarse)
 {
   Mesh mesh;
   for(const auto v : vertices(coarse))
     mesh.add_vertex(coarse.point(v));
   for(const auto e : edges(coarse))
-    mesh.add_vertex(CGAL::midpoint(coarse.point(source(e, coarse)), coarse.point(target(e, coarse))));
+    mesh.add_vertex(
+        CGAL::midpoint(coarse.point(source(e, coarse)), coarse.point(target(e, coarse))));
   const auto middle = [&](const Mesh::Halfedge_index h) {
     return Mesh::Vertex_index(
         static_cast<Mesh::size_type>(num_vertices(coarse) + std::size_t(edge(h, coarse))));
@@ -349,11 +360,13 @@ Mesh make_shape(std::size_t number_of_vertices)
   const double scale = std::sqrt(25000. / number_of_vertices);
   const Mesh dense = Marching_tetrahedra(animal, 0.022 * (std::min)(scale, 1.)).run();
 
-  // Remeshing ends with edges a little shorter than it was asked for: the factor brings the first attempt near.
+  // Remeshing ends with edges a little shorter than it was asked for: the factor brings the first
+  // attempt near.
   double edge_length = std::sqrt(PMP::area(dense) / number_of_vertices * 2 / std::sqrt(3.)) * 1.093;
   for(int attempt = 0;; ++attempt) {
     Mesh mesh = dense;
-    PMP::isotropic_remeshing(faces(mesh), edge_length, mesh, CGAL::parameters::number_of_iterations(5));
+    PMP::isotropic_remeshing(faces(mesh), edge_length, mesh,
+                             CGAL::parameters::number_of_iterations(5));
     mesh.collect_garbage();
     const double excess = double(num_vertices(mesh)) / number_of_vertices;
     if(attempt == 4 || std::abs(excess - 1) < 0.02) {
@@ -404,15 +417,18 @@ int run(int argc, char* argv[])
   std::string output, pose_name = "stand", map;
   long number_of_vertices = 25000;
   std::optional<long> seed;
-  Command_line line("make_demo_shape OUTPUT [options]",
-                    "Makes a closed surface of genus 1, an animal. OUTPUT ends in .off, .obj, .ply or .stl.");
+  Command_line line(
+      "make_demo_shape OUTPUT [options]",
+      "Makes a closed surface of genus 1, an animal. OUTPUT ends in .off, .obj, .ply or .stl.");
   line.argument(output);
   line.group("Options");
   line.option("vertices", number_of_vertices, "N", "about how many vertices");
-  line.choice("pose", pose_name, {"stand", "walk", "bend"}, "nearly isometric, with the same triangles");
+  line.choice("pose", pose_name, {"stand", "walk", "bend"},
+              "nearly isometric, with the same triangles");
   line.option("shuffle", seed, "X", "renumber vertices and faces at random with this seed");
   line.option("map", map, "map.txt",
-              "write for each vertex its number in OUTPUT, one per line, from 0: that of the same vertex in "
+              "write for each vertex its number in OUTPUT, one per line, from 0: that of the same "
+              "vertex in "
               "another pose");
   const std::string help = line.read(argc, argv);
   if(!help.empty()) {

@@ -22,15 +22,17 @@ struct Word
   const char* word;
 };
 
-inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_placement_strategy> placement_words[] = {
-    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::on_edge, "on_edge"},
-    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::midpoint, "midpoint"},
-    {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::free, "free"}};
+inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_placement_strategy>
+    placement_words[] = {
+        {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::on_edge, "on_edge"},
+        {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::midpoint, "midpoint"},
+        {CGAL::Surface_mesh_simplification::Spectral_placement_strategy::free, "free"}};
 
 inline constexpr Word<CGAL::Spectral_geometry::Relocation_options::Signals> relocation_words[] = {
     {CGAL::Spectral_geometry::Relocation_options::Signals::sampled, "sampled"},
     {CGAL::Spectral_geometry::Relocation_options::Signals::carried, "carried"},
-    {CGAL::Spectral_geometry::Relocation_options::Signals::carried_and_sampled, "carried_and_sampled"}};
+    {CGAL::Spectral_geometry::Relocation_options::Signals::carried_and_sampled,
+     "carried_and_sampled"}};
 
 inline constexpr Word<CGAL::Spectral_geometry::Boundary_condition> boundary_words[] = {
     {CGAL::Spectral_geometry::Boundary_condition::neumann, "neumann"},
@@ -59,7 +61,8 @@ Value value_of(const Word<Value> (&words)[n], const std::string& word)
   for(const Word<Value>& w : words)
     if(w.word == word)
       return w.value;
-  throw std::logic_error("value_of: '" + word + "' is not in the table; check it where it is read.");
+  throw std::logic_error("value_of: '" + word +
+                         "' is not in the table; check it where it is read.");
 }
 
 // All words of a table, after those that stand for no value of it.
@@ -78,7 +81,8 @@ relocation_word(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
   return options.relocate ? word_of(relocation_words, options.relocation.signals) : "none";
 }
 
-// The words in which the command line and Python speak of options; who reads them has checked that they are among these.
+// The words in which the command line and Python speak of options; who reads them has checked that
+// they are among these.
 struct Option_words
 {
   std::string preset;       // best, fast, paper
@@ -92,12 +96,16 @@ struct Option_words
   std::optional<double> quadrics_above;
 };
 
-// Whether these options have no use for quadrics_above, which was given; `said` says what to do about it.
+// Whether these options have no use for quadrics_above, which was given; `said` says what to do
+// about it.
 inline bool quadrics_above_is_passed_over(
-    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options, std::string& said)
+    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
+    std::string& said)
 {
-  said = " goes with free placement and a shape term, and not with coefficients, a binary restriction, "
-         "a border to preserve, the Dirichlet condition or an error bound, where all collapses are those of "
+  said = " goes with free placement and a shape term, and not with coefficients, a binary "
+         "restriction, "
+         "a border to preserve, the Dirichlet condition or an error bound, where all collapses are "
+         "those of "
          "the metric: "
          "leave it out.";
   return std::isfinite(options.quadrics_above) &&
@@ -105,7 +113,8 @@ inline bool quadrics_above_is_passed_over(
 }
 
 // The preset and what overrides it.
-inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options_of(const Option_words& words)
+inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
+options_of(const Option_words& words)
 {
   namespace SMS = CGAL::Surface_mesh_simplification;
   namespace SG = CGAL::Spectral_geometry;

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows the options.
+// Matches two shapes over their simplifications, section 5.2 of Lescoat et al. 2020; --help shows
+// the options.
 
 #include "io/index_reader.h"
 #include "io/input_mesh.h"
@@ -138,9 +139,10 @@ private:
     if(turned.empty())
       return input;
     if(m_arguments.strict)
-      throw std::runtime_error("'" + path +
-                               "' is inside out, its volume is negative, and would be matched to a mirror "
-                               "image: turn its faces round, or leave out --strict.");
+      throw std::runtime_error(
+          "'" + path +
+          "' is inside out, its volume is negative, and would be matched to a mirror "
+          "image: turn its faces round, or leave out --strict.");
     for(const Eigen::Index t : turned)
       std::swap(matrices.T(t, 1), matrices.T(t, 2));
     input.mesh = mesh_of(matrices);
@@ -173,9 +175,9 @@ private:
       return;
     const auto truth = read_vertex_lines(m_arguments.ground_truth, {n_Y}, true);
     if(truth.size() != n_X)
-      throw std::runtime_error("'" + m_arguments.ground_truth + "' has " + std::to_string(truth.size()) +
-                               " lines, it must have one for each of the " + std::to_string(n_X) +
-                               " vertices of X.");
+      throw std::runtime_error(
+          "'" + m_arguments.ground_truth + "' has " + std::to_string(truth.size()) +
+          " lines, it must have one for each of the " + std::to_string(n_X) + " vertices of X.");
     for(std::size_t w = 0; w < X.number_of_mesh_vertices(); ++w) {
       const std::size_t v = truth[X.file_vertex(w)][0];
       const std::size_t there = v == no_vertex ? no_vertex : Y.mesh_vertex(v);
@@ -185,7 +187,8 @@ private:
 
   Eigen::Index mesh_vertex(const Vertex_numbering& numbering, const std::size_t v) const
   {
-    return static_cast<Eigen::Index>(numbering.vertices_of_mesh({v}, m_arguments.landmarks).front());
+    return static_cast<Eigen::Index>(
+        numbering.vertices_of_mesh({v}, m_arguments.landmarks).front());
   }
 
   void reduce()
@@ -228,7 +231,8 @@ private:
   Matching_options matching_options() const
   {
     Matching_options options;
-    options.matcher = m_arguments.matcher == "bcicp" ? Matcher::bcicp : Matcher::product_manifold_filter;
+    options.matcher =
+        m_arguments.matcher == "bcicp" ? Matcher::bcicp : Matcher::product_manifold_filter;
     options.initial_modes = m_arguments.initial_modes;
     options.modes = m_arguments.eigenvectors;
     options.filter_iterations = static_cast<int>(m_arguments.filter_iterations);
@@ -248,8 +252,8 @@ private:
     if(kind == Proxy_kind::none)
       return matched_directly();
     const auto proxy = [&](const Mesh& mesh, const Shape& fine) {
-      return make_proxy(mesh, fine, kind, m_proxy_size, m_arguments.eigenvectors, m_options, operators(),
-                        keep_going);
+      return make_proxy(mesh, fine, kind, m_proxy_size, m_arguments.eigenvectors, m_options,
+                        operators(), keep_going);
     };
     return matched_over(
         proxy_name(kind), [&] { return proxy(matched_X(), m_shape_X); },
@@ -261,12 +265,13 @@ private:
     const auto proxy = [&](const Input_mesh& coarse, const std::string& path, const Shape& fine,
                            const std::string& path_of_fine) {
       try {
-        return make_foreign_proxy(coarse.mesh, fine, m_arguments.eigenvectors, m_options.mass, operators(),
-                                  keep_going);
+        return make_foreign_proxy(coarse.mesh, fine, m_arguments.eigenvectors, m_options.mass,
+                                  operators(), keep_going);
       } catch(const SG::Cancelled&) {
         throw;
       } catch(const std::exception& error) {
-        throw std::runtime_error("'" + path + "', a proxy of '" + path_of_fine + "', " + error.what());
+        throw std::runtime_error("'" + path + "', a proxy of '" + path_of_fine + "', " +
+                                 error.what());
       }
     };
     return matched_over(
@@ -280,14 +285,16 @@ private:
     result.proxy = proxy_name(Proxy_kind::none);
     result.stages = m_stages;
     result.vertices = matched_X().number_of_vertices();
-    result.match = match_directly(m_shape_X, m_shape_Y, m_landmarks, matching_options(), keep_going);
+    result.match =
+        match_directly(m_shape_X, m_shape_Y, m_landmarks, matching_options(), keep_going);
     result.stages.push_back({"proxies", 0, peak_memory()});
     add_stages_of_match(result);
     return result;
   }
 
   template <class Make_X, class Make_Y>
-  Matching_result matched_over(const std::string& name, const Make_X& make_X, const Make_Y& make_Y) const
+  Matching_result matched_over(const std::string& name, const Make_X& make_X,
+                               const Make_Y& make_Y) const
   {
     Matching_result result;
     result.proxy = name;
@@ -313,7 +320,8 @@ private:
     std::vector<const std::vector<Eigen::Index>*> maps;
     for(const Matching_result& r : results)
       maps.push_back(&r.match.map);
-    Geodesic_error error(m_Y, m_shape_Y.area, m_truth, static_cast<std::size_t>(m_arguments.samples));
+    Geodesic_error error(m_Y, m_shape_Y.area, m_truth,
+                         static_cast<std::size_t>(m_arguments.samples));
     const auto columns = error.measure(maps, [](double) { stop_if_interrupted(); });
     for(std::size_t i = 0; i < results.size(); ++i)
       results[i].errors = columns[i];
@@ -325,8 +333,8 @@ private:
       std::vector<std::size_t> map;
       for(const Eigen::Index w : c.results.front().match.map)
         map.push_back(m_input_Y.numbering.file_vertex(static_cast<std::size_t>(w)));
-      write_indices(m_files.temporary(m_arguments.output), m_input_X.numbering.map_of_file(map, no_vertex),
-                    m_arguments.output);
+      write_indices(m_files.temporary(m_arguments.output),
+                    m_input_X.numbering.map_of_file(map, no_vertex), m_arguments.output);
     }
     if(!m_arguments.report.empty()) {
       std::ofstream stream(m_files.temporary(m_arguments.report), std::ios::binary);

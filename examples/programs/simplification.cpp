@@ -14,8 +14,9 @@ SMS::Spectral_edge_collapse_result simplify_mesh(Mesh& mesh, const std::size_t n
   return SMS::spectral_edge_collapse(mesh, number_of_vertices, options);
 }
 
-SMS::Quadric_edge_collapse_result simplify_mesh_by_quadrics(Mesh& mesh, const std::size_t number_of_vertices,
-                                                            const std::function<bool(double)>& progress)
+SMS::Quadric_edge_collapse_result
+simplify_mesh_by_quadrics(Mesh& mesh, const std::size_t number_of_vertices,
+                          const std::function<bool(double)>& progress)
 {
   return SMS::quadric_edge_collapse(mesh, number_of_vertices, progress);
 }

@@ -14,7 +14,8 @@
 #include <cstddef>
 #include <functional>
 
-// spectral_edge_collapse() for the mesh of the programs: CGAL's loop with the policies is compiled once for all of them.
+// spectral_edge_collapse() for the mesh of the programs: CGAL's loop with the policies is compiled
+// once for all of them.
 CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result
 simplify_mesh(Mesh& mesh, std::size_t number_of_vertices,
               const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options);

@@ -158,11 +158,12 @@ private:
                        K = m_arguments.eigenvectors;
     if(K >= n)
       throw std::runtime_error("--eigenvectors is " + std::to_string(K) + ", it must be below " +
-                               std::to_string(n) + ": that is how many vertices '" + m_arguments.mesh +
-                               "' has.");
+                               std::to_string(n) + ": that is how many vertices '" +
+                               m_arguments.mesh + "' has.");
     m_matrices = SG::mesh_matrices(m_fine);
     std::vector<Eigen::Index> sources;
-    std::mt19937 random(static_cast<unsigned>(m_arguments.seed)); // its modulo is the same everywhere
+    std::mt19937 random(
+        static_cast<unsigned>(m_arguments.seed)); // its modulo is the same everywhere
     for(long s = 0; s < m_arguments.sources; ++s)
       sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(n)));
     for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
@@ -172,8 +173,8 @@ private:
       timer.start();
       Fine_reference r = fine_reference(m_matrices, mass, K, sources, progress("reference"));
       m_comparison.area = r.op.mass.sum();
-      m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros, timer.time(),
-                                   r.pairs.residuals.maxCoeff()});
+      m_comparison.fine.push_back({r.mass, m_comparison.area * r.pairs.values, r.pairs.zeros,
+                                   timer.time(), r.pairs.residuals.maxCoeff()});
       m_references.push_back(std::move(r));
       m_masses.push_back(mass);
     }
@@ -202,15 +203,15 @@ private:
     std::size_t done = 0;
     for(const std::size_t N : sizes)
       for(const Simplifier& s : simplifiers) {
-        m_bar.show("comparison",
-                   static_cast<double>(done++) / static_cast<double>(sizes.size() * simplifiers.size()));
+        m_bar.show("comparison", static_cast<double>(done++) /
+                                     static_cast<double>(sizes.size() * simplifiers.size()));
         stop_if_interrupted();
         if(is_wanted(s.name, m_arguments.only) || is_wanted(fitted_name(s), m_arguments.only))
           try_simplifier(s, N);
       }
     if(!m_arguments.without.empty())
-      m_comparison.notes.push_back("Left out by --without: simplifiers with '" + m_arguments.without +
-                                   "' in their names.");
+      m_comparison.notes.push_back("Left out by --without: simplifiers with '" +
+                                   m_arguments.without + "' in their names.");
     if(m_comparison.results.empty())
       throw std::runtime_error(no_simplifier(joined(m_arguments.only, "' or '")));
   }
@@ -218,7 +219,9 @@ private:
   // A name with any of the texts, or any name if there is none, that --without does not leave out.
   bool is_wanted(const std::string& name, const std::vector<std::string>& texts) const
   {
-    const auto in_name = [&](const std::string& text) { return name.find(text) != std::string::npos; };
+    const auto in_name = [&](const std::string& text) {
+      return name.find(text) != std::string::npos;
+    };
     return (texts.empty() || std::any_of(texts.begin(), texts.end(), in_name)) &&
            (m_arguments.without.empty() || !in_name(m_arguments.without));
   }
@@ -274,7 +277,8 @@ private:
   }
 
   // What is judged of a mesh; the row gets what no mass is in.
-  Coarse_candidate candidate_of(const Coarse_mesh& coarse, const SG::Mesh_matrices& matrices, Simplified& row)
+  Coarse_candidate candidate_of(const Coarse_mesh& coarse, const SG::Mesh_matrices& matrices,
+                                Simplified& row)
   {
     row.vertices = coarse.mesh.number_of_vertices();
     row.faces = coarse.mesh.number_of_faces();
@@ -282,13 +286,14 @@ private:
     Coarse_candidate candidate;
     candidate.carried = coarse.carried;
     candidate.closest = SG::closest_point_restriction(matrices, m_matrices);
-    const std::size_t off = SG::rows_off_their_part(matrices, m_matrices, candidate.restriction()).size();
+    const std::size_t off =
+        SG::rows_off_their_part(matrices, m_matrices, candidate.restriction()).size();
     row.shape.rows_off_their_part = double(off);
     if(off != 0)
-      m_comparison.notes.push_back(row.name() + ", N = " + std::to_string(row.vertices) + ": " +
-                                   std::to_string(off) +
-                                   " rows of P read functions off another part of the shape than their "
-                                   "neighbours.");
+      m_comparison.notes.push_back(
+          row.name() + ", N = " + std::to_string(row.vertices) + ": " + std::to_string(off) +
+          " rows of P read functions off another part of the shape than their "
+          "neighbours.");
     return candidate;
   }
 
@@ -305,7 +310,8 @@ private:
     }
   }
 
-  // The same mesh with fitted operators. Its seconds are those of the mesh and of the fits in all masses.
+  // The same mesh with fitted operators. Its seconds are those of the mesh and of the fits in all
+  // masses.
   void judge_fitted(const Coarse_mesh& coarse, Simplified& row)
   {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(coarse.mesh);
@@ -319,15 +325,18 @@ private:
       pairs.vectors = reference.pairs.vectors.leftCols(fitted);
       CGAL::Real_timer timer;
       timer.start();
-      candidate.op = SG::fit_operators(SG::laplace_operator(matrices.V, matrices.T, reference.op.theta),
-                                       candidate.restriction(), reference.op, pairs, options)
-                         .op;
+      candidate.op =
+          SG::fit_operators(SG::laplace_operator(matrices.V, matrices.T, reference.op.theta),
+                            candidate.restriction(), reference.op, pairs, options)
+              .op;
       row.seconds += timer.time();
-      row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
+      row.judgements.push_back(
+          judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
   }
 
-  // Whether `function` had nothing to object to a rival: one that is refused does not end the comparison of the others.
+  // Whether `function` had nothing to object to a rival: one that is refused does not end the
+  // comparison of the others.
   template <class Function>
   bool try_rival(const Rival& rival, const Function& function)
   {
@@ -352,7 +361,8 @@ private:
   {
     return m_complaints.size() == 1
                ? m_complaints.front()
-               : std::to_string(m_complaints.size()) + " of " + std::to_string(m_arguments.rivals.size()) +
+               : std::to_string(m_complaints.size()) + " of " +
+                     std::to_string(m_arguments.rivals.size()) +
                      " rivals were refused, the first: " + m_complaints.front();
   }
 
@@ -367,8 +377,10 @@ private:
   {
     for(auto a = rivals.begin(); a != rivals.end(); ++a)
       for(auto b = rivals.begin(); b != a; ++b)
-        if(a->row.simplifier == b->row.simplifier && a->row.requested_vertices == b->row.requested_vertices)
-          throw std::runtime_error(a->rival->option + ": another result of this name stands at N = " +
+        if(a->row.simplifier == b->row.simplifier &&
+           a->row.requested_vertices == b->row.requested_vertices)
+          throw std::runtime_error(a->rival->option +
+                                   ": another result of this name stands at N = " +
                                    std::to_string(a->row.requested_vertices) + " already.");
   }
 
@@ -392,8 +404,9 @@ private:
     const auto distance = [&](std::size_t N) {
       return std::abs(std::log(static_cast<double>(N) / static_cast<double>(result.row.vertices)));
     };
-    const auto nearest = std::min_element(
-        sizes.begin(), sizes.end(), [&](std::size_t M, std::size_t N) { return distance(M) < distance(N); });
+    const auto nearest =
+        std::min_element(sizes.begin(), sizes.end(),
+                         [&](std::size_t M, std::size_t N) { return distance(M) < distance(N); });
     result.row.requested_vertices = nearest == sizes.end() ? result.row.vertices : *nearest;
     return result;
   }
@@ -405,10 +418,12 @@ private:
     const Eigen::SparseMatrix<double> P =
         read_matrix_market(path, [&](long long given_rows, long long columns, long long nonzeros) {
           return nonzeros == 0 ? std::string("holds nothing but zeros.")
-                 : given_rows == static_cast<long long>(rows) && columns == static_cast<long long>(n)
+                 : given_rows == static_cast<long long>(rows) &&
+                         columns == static_cast<long long>(n)
                      ? std::string()
-                     : "is " + std::to_string(given_rows) + " x " + std::to_string(columns) + " where " +
-                           std::to_string(rows) + " x " + std::to_string(n) + " is needed, coarse x fine.";
+                     : "is " + std::to_string(given_rows) + " x " + std::to_string(columns) +
+                           " where " + std::to_string(rows) + " x " + std::to_string(n) +
+                           " is needed, coarse x fine.";
         });
     return m_input.numbering.columns_of_mesh(P);
   }
@@ -418,8 +433,8 @@ private:
     if(rival.candidate.op.L.rows() == 0) {
       const std::string reason = not_on(SG::mesh_matrices(rival.coarse.mesh), m_matrices);
       if(!reason.empty())
-        throw std::runtime_error("'" + rival.rival->mesh + "', a simplification of '" + m_arguments.mesh +
-                                 "', " + reason + ".");
+        throw std::runtime_error("'" + rival.rival->mesh + "', a simplification of '" +
+                                 m_arguments.mesh + "', " + reason + ".");
       judge_mesh(rival.coarse, rival.row);
     } else
       judge_operator(rival.candidate, rival.row);
@@ -429,17 +444,20 @@ private:
   {
     // Symmetric matrices, as in appendix D of the paper: half of L and M with its indices.
     const double n = static_cast<double>(row.vertices);
-    row.shape.bytes_per_vertex = 12 * (static_cast<double>(candidate.op.L.nonZeros()) + n) / 2 / n +
-                                 (candidate.op.B.nonZeros() == candidate.op.B.rows()
-                                      ? 8.
-                                      : 12 * (static_cast<double>(candidate.op.B.nonZeros()) + n) / 2 / n);
+    row.shape.bytes_per_vertex =
+        12 * (static_cast<double>(candidate.op.L.nonZeros()) + n) / 2 / n +
+        (candidate.op.B.nonZeros() == candidate.op.B.rows()
+             ? 8.
+             : 12 * (static_cast<double>(candidate.op.B.nonZeros()) + n) / 2 / n);
     for(const Fine_reference& reference : m_references) {
       candidate.op.theta = reference.op.theta;
-      row.judgements.push_back(judge(reference, candidate, [](double) { return !interrupted; }).judgement);
+      row.judgements.push_back(
+          judge(reference, candidate, [](double) { return !interrupted; }).judgement);
     }
-    m_comparison.notes.push_back("The coarse operator '" + row.simplifier +
-                                 "' has the mass matrix that it came with, whichever mass it is judged "
-                                 "in; the fine mesh has that of the heading.");
+    m_comparison.notes.push_back(
+        "The coarse operator '" + row.simplifier +
+        "' has the mass matrix that it came with, whichever mass it is judged "
+        "in; the fine mesh has that of the heading.");
   }
 
   static SG::Laplace_operator given_operator(const Rival& rival)
@@ -456,18 +474,20 @@ private:
       throw std::runtime_error("'" + path + "' " + why);
     };
     if(op.B.rows() != op.L.rows())
-      refuse(rival.mass_file, "is " + std::to_string(op.B.rows()) + " x " + std::to_string(op.B.rows()) +
-                                  ", it must have the size of the operator, " + std::to_string(op.L.rows()) +
-                                  ".");
+      refuse(rival.mass_file,
+             "is " + std::to_string(op.B.rows()) + " x " + std::to_string(op.B.rows()) +
+                 ", it must have the size of the operator, " + std::to_string(op.L.rows()) + ".");
     for(const auto* matrix : {&op.L, &op.B}) {
-      const Eigen::SparseMatrix<double> skew = *matrix - Eigen::SparseMatrix<double>(matrix->transpose());
+      const Eigen::SparseMatrix<double> skew =
+          *matrix - Eigen::SparseMatrix<double>(matrix->transpose());
       if(skew.norm() > 1e-9 * matrix->norm())
         refuse(matrix == &op.L ? rival.operator_file : rival.mass_file,
                "is not symmetric: " + first_entry(skew, 1e-9 * matrix->norm() / skew.cols()) +
                    " differs from its mirror image.");
     }
     if(op.L.diagonal().sum() < 0)
-      refuse(rival.operator_file, "is negative: pass the positive semidefinite Laplacian, that times -1.");
+      refuse(rival.operator_file,
+             "is negative: pass the positive semidefinite Laplacian, that times -1.");
     op.mass = op.B * Eigen::VectorXd::Ones(op.B.cols());
     Eigen::Index least = 0;
     if(!(op.mass.minCoeff(&least) > 0))
@@ -491,7 +511,8 @@ private:
                       const Simplified& row)
   {
     const Fine_reference& reference = m_references.front();
-    const auto [fine, coarse] = paired_sources({reference.sources.front()}, candidate.restriction());
+    const auto [fine, coarse] =
+        paired_sources({reference.sources.front()}, candidate.restriction());
     SG::Eigenpairs fine_pairs;
     fine_pairs.values = reference.pairs.values.head(reference.K);
     fine_pairs.vectors = reference.pairs.vectors.leftCols(reference.K);
@@ -499,15 +520,17 @@ private:
     if(!m_colours_known) {
       m_colours_known = true;
       m_colours.hks_time = SG::heat_kernel_times(fine_pairs, 3)(1);
-      m_colours.largest_distance =
-          std::sqrt(SG::squared_biharmonic_distance(fine_pairs, reference.sources.front()).maxCoeff());
-      write_one_coloured("fine", m_fine, vertex_functions(fine_pairs, reference.sources.front(), m_colours));
+      m_colours.largest_distance = std::sqrt(
+          SG::squared_biharmonic_distance(fine_pairs, reference.sources.front()).maxCoeff());
+      write_one_coloured("fine", m_fine,
+                         vertex_functions(fine_pairs, reference.sources.front(), m_colours));
     }
     write_one_coloured(row.name() + " " + std::to_string(row.requested_vertices), mesh,
                        vertex_functions(judged.aligned, coarse.front(), m_colours));
   }
 
-  void write_one_coloured(const std::string& name, const Mesh& mesh, const Vertex_functions& functions)
+  void write_one_coloured(const std::string& name, const Mesh& mesh,
+                          const Vertex_functions& functions)
   {
     std::string file;
     for(const char c : name)

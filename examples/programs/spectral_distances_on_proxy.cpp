@@ -2,8 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Spectral distances and signatures on a simplified mesh, brought back to the input in three ways and compared with
-// those of the input (section 5.1 of Lescoat et al. 2020); --help shows the options.
+// Spectral distances and signatures on a simplified mesh, brought back to the input in three ways
+// and compared with those of the input (section 5.1 of Lescoat et al. 2020); --help shows the
+// options.
 
 #include "compare/heaviest_vertices.h"
 #include "io/command_line.h"
@@ -93,18 +94,21 @@ struct Distance
 std::vector<Distance> distances(const SG::Eigenpairs& fine)
 {
   const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(fine);
-  return {
-      {"diffusion, t = 0.01",
-       [](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
-         return SG::squared_diffusion_distance(p, s, 0.01);
-       }},
-      {"biharmonic", [](const SG::Eigenpairs& p,
-                        const SG::Distance_sources& s) { return SG::squared_biharmonic_distance(p, s); }},
-      {"commute time", [](const SG::Eigenpairs& p,
-                          const SG::Distance_sources& s) { return SG::squared_commute_time_distance(p, s); }},
-      {"wave kernel", [energies](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
-         return SG::wave_kernel_distance(p, s, energies);
-       }}};
+  return {{"diffusion, t = 0.01",
+           [](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
+             return SG::squared_diffusion_distance(p, s, 0.01);
+           }},
+          {"biharmonic",
+           [](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
+             return SG::squared_biharmonic_distance(p, s);
+           }},
+          {"commute time",
+           [](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
+             return SG::squared_commute_time_distance(p, s);
+           }},
+          {"wave kernel", [energies](const SG::Eigenpairs& p, const SG::Distance_sources& s) {
+             return SG::wave_kernel_distance(p, s, energies);
+           }}};
 }
 
 // Both meshes and the ways between them.
@@ -140,8 +144,9 @@ Pair simplify(const Distance_arguments& a)
   const std::size_t n = mesh.number_of_vertices(), N = a.target.of(n);
   if(N > n || static_cast<long>(N) < a.eigenvectors)
     throw std::runtime_error("--vertices asks for " + std::to_string(N) + ", it must be at least " +
-                             std::to_string(a.eigenvectors) + ", the number of eigenvectors, and '" + a.mesh +
-                             "' has " + std::to_string(n) + " vertices.");
+                             std::to_string(a.eigenvectors) +
+                             ", the number of eigenvectors, and '" + a.mesh + "' has " +
+                             std::to_string(n) + " vertices.");
   if(!a.quiet && !input.changes.empty())
     std::cout << printable(input.changes_of(a.mesh)) << "\n" << std::flush;
   Option_words words;
@@ -178,12 +183,14 @@ Pair simplify(const Distance_arguments& a)
             result.seconds_operator_fit,
             options.mass};
   pair.Q = SG::closest_point_prolongation(pair.fine.matrices, pair.coarse.matrices, pair.P);
-  pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P, pair.fine.pairs.vectors);
+  pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P,
+                              pair.fine.pairs.vectors);
   return pair;
 }
 
 // Sum of mass |g - f| over sum of mass |f|, mean over the columns.
-double relative_error(const Eigen::VectorXd& mass, const Eigen::MatrixXd& g, const Eigen::MatrixXd& f)
+double relative_error(const Eigen::VectorXd& mass, const Eigen::MatrixXd& g,
+                      const Eigen::MatrixXd& f)
 {
   const Eigen::RowVectorXd errors = mass.transpose() * (g - f).cwiseAbs(),
                            sizes = mass.transpose() * f.cwiseAbs();
@@ -199,7 +206,8 @@ struct Distance_row
 };
 
 // The sources on the coarse mesh are their closest points.
-Distance_row compare(const Distance& distance, const Pair& pair, const std::vector<Eigen::Index>& sources)
+Distance_row compare(const Distance& distance, const Pair& pair,
+                     const std::vector<Eigen::Index>& sources)
 {
   Eigen::SparseMatrix<double> chosen(static_cast<Eigen::Index>(sources.size()), pair.Q.rows());
   for(std::size_t s = 0; s < sources.size(); ++s)
@@ -217,8 +225,9 @@ Distance_row compare(const Distance& distance, const Pair& pair, const std::vect
   return row;
 }
 
-// Signatures of the coarse mesh against those of the fine one at the heaviest vertex of each cluster: P of a signature,
-// a mean of squares, is not the signature of P. Means over times or energies.
+// Signatures of the coarse mesh against those of the fine one at the heaviest vertex of each
+// cluster: P of a signature, a mean of squares, is not the signature of P. Means over times or
+// energies.
 std::vector<std::pair<std::string, double>> signature_errors(const Pair& pair)
 {
   const std::vector<Eigen::Index> heaviest = heaviest_vertices(pair.P);
@@ -252,22 +261,24 @@ struct Summary
 
 void print(const Pair& pair, const Summary& s)
 {
-  std::printf("%ld -> %ld vertices, simplified in %.2f s", static_cast<long>(pair.fine.op.mass.size()),
+  std::printf("%ld -> %ld vertices, simplified in %.2f s",
+              static_cast<long>(pair.fine.op.mass.size()),
               static_cast<long>(pair.coarse.op.mass.size()), pair.seconds_simplification);
   if(pair.seconds_fit > 0)
     std::printf(", operators fitted in %.2f s", pair.seconds_fit);
   std::printf("\n\n");
-  std::printf("%-24s %14s %14s %14s %10s\n", "relative error", "prolongation", "spectrum", "vertex map",
-              "speed-up");
+  std::printf("%-24s %14s %14s %14s %10s\n", "relative error", "prolongation", "spectrum",
+              "vertex map", "speed-up");
   for(const Distance_row& row : s.rows)
-    std::printf("%-24s %12.2f %% %12.2f %% %12.2f %% %10.1f\n", row.name.c_str(), 100 * row.errors[0],
-                100 * row.errors[1], 100 * row.errors[2], row.seconds_fine / row.seconds_coarse);
+    std::printf("%-24s %12.2f %% %12.2f %% %12.2f %% %10.1f\n", row.name.c_str(),
+                100 * row.errors[0], 100 * row.errors[1], 100 * row.errors[2],
+                row.seconds_fine / row.seconds_coarse);
   for(const auto& [name, error] : s.signatures)
     std::printf("%-24s %12.2f %% at the heaviest vertices\n", name.c_str(), 100 * error);
   const double fine = pair.fine.seconds + s.seconds(&Distance_row::seconds_fine);
   const double coarse = pair.coarse.seconds + s.seconds(&Distance_row::seconds_coarse);
-  std::printf("\neigenpairs and distances: %.3f s fine, %.3f s coarse, %.1f times faster\n", fine, coarse,
-              fine / coarse);
+  std::printf("\neigenpairs and distances: %.3f s fine, %.3f s coarse, %.1f times faster\n", fine,
+              coarse, fine / coarse);
 }
 
 std::string figures(const Pair& pair, const Summary& s)
@@ -279,15 +290,17 @@ std::string figures(const Pair& pair, const Summary& s)
                             const std::string& caption) {
       // All but the wave kernel's are squares: their roots are what looks like a distance.
       const bool is_squared = row.name != "wave kernel";
-      const Eigen::VectorXd shown = is_squared ? Eigen::VectorXd((squared.array() / largest).max(0.).sqrt())
-                                               : Eigen::VectorXd(squared / largest);
+      const Eigen::VectorXd shown =
+          is_squared ? Eigen::VectorXd((squared.array() / largest).max(0.).sqrt())
+                     : Eigen::VectorXd(squared / largest);
       Picture picture;
       picture.width = 400;
       picture.height = 290;
       picture.colours = colours_of_values(shown);
       picture.levels = 15 * shown;
-      html += "<figure class='wide'><img alt='" + escaped(caption) + "' src='" + mesh_picture(mesh, picture) +
-              "'><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+      html += "<figure class='wide'><img alt='" + escaped(caption) + "' src='" +
+              mesh_picture(mesh, picture) + "'><figcaption>" + escaped(caption) +
+              "</figcaption></figure>\n";
     };
     html += "<h3>" + escaped(row.name) + "</h3>\n<div class='figures'>\n";
     figure(pair.fine.matrices, row.fine, "computed on the fine mesh");
@@ -308,29 +321,34 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
       "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
       "<meta name='viewport' content='width=device-width'><title>Distances on a proxy: " +
       escaped(name) + "</title>\n<style>" + style() +
-      "figure.wide{width:400px}</style></head><body>\n<h1>Spectral distances on a proxy: " + escaped(name) +
-      "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) + " vertices, proxy " +
-      std::to_string(pair.coarse.op.mass.size()) + " vertices, " + std::to_string(a.eigenvectors) +
-      " eigenvectors, " + SG::mass_name(pair.mass) + " mass, operators: " + escaped(a.operators) + ", " +
-      std::to_string(a.sources) + " sources. <code>" + escaped(a.command) + "</code></p>\n";
-  html += "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
-          heading_row({"distance", ways[0], ways[1], ways[2], "fine, s", "coarse, s", "speed-up"}, 1);
+      "figure.wide{width:400px}</style></head><body>\n<h1>Spectral distances on a proxy: " +
+      escaped(name) + "</h1>\n<p>" + std::to_string(pair.fine.op.mass.size()) +
+      " vertices, proxy " + std::to_string(pair.coarse.op.mass.size()) + " vertices, " +
+      std::to_string(a.eigenvectors) + " eigenvectors, " + SG::mass_name(pair.mass) +
+      " mass, operators: " + escaped(a.operators) + ", " + std::to_string(a.sources) +
+      " sources. <code>" + escaped(a.command) + "</code></p>\n";
+  html +=
+      "<h2>Relative errors on the fine mesh in percent, and times</h2>\n<table>\n" +
+      heading_row({"distance", ways[0], ways[1], ways[2], "fine, s", "coarse, s", "speed-up"}, 1);
   for(const Distance_row& row : s.rows)
     html += "<tr>" + cell(escaped(row.name), "td", "l") + cell(percent(row.errors[0])) +
-            cell(percent(row.errors[1])) + cell(percent(row.errors[2])) + cell(formatted(row.seconds_fine)) +
-            cell(formatted(row.seconds_coarse)) + cell(formatted(row.seconds_fine / row.seconds_coarse)) +
-            "</tr>\n";
+            cell(percent(row.errors[1])) + cell(percent(row.errors[2])) +
+            cell(formatted(row.seconds_fine)) + cell(formatted(row.seconds_coarse)) +
+            cell(formatted(row.seconds_fine / row.seconds_coarse)) + "</tr>\n";
   html += "<tr>" + cell("eigenpairs", "td", "l") + "<td></td><td></td><td></td>" +
           cell(formatted(pair.fine.seconds)) + cell(formatted(pair.coarse.seconds)) +
           cell(formatted(pair.fine.seconds / pair.coarse.seconds)) + "</tr>\n";
-  html += "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) + " s" +
+  html += "</table>\n<p class='note'>Simplification: " + formatted(pair.seconds_simplification) +
+          " s" +
           (pair.seconds_fit > 0 ? ", fit of the operators: " + formatted(pair.seconds_fit) + " s"
                                 : std::string()) +
-          ", once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared distances "
+          ", once for all distances. Errors: sum of M |g − f| over sum of M |f| of the squared "
+          "distances "
           "(the wave "
           "kernel's is not squared), mean over the sources.</p>\n<table>\n";
   for(const auto& [signature, error] : s.signatures)
-    html += "<tr>" + cell(escaped(signature) + ", at the heaviest vertex of each cluster, %", "td", "l") +
+    html += "<tr>" +
+            cell(escaped(signature) + ", at the heaviest vertex of each cluster, %", "td", "l") +
             cell(percent(error)) + "</tr>\n";
   return html + "</table>\n<h2>Lines of equal distance from one source</h2>\n" + figures(pair, s) +
          "</body></html>\n";
@@ -338,9 +356,9 @@ std::string page(const Distance_arguments& a, const Pair& pair, const Summary& s
 
 Command_line described(Distance_arguments& a)
 {
-  Command_line line(
-      "spectral_distances_on_proxy MESH --vertices N [options]",
-      "Computes spectral distances on a simplified mesh and says how far they are from those of MESH.");
+  Command_line line("spectral_distances_on_proxy MESH --vertices N [options]",
+                    "Computes spectral distances on a simplified mesh and says how far they are "
+                    "from those of MESH.");
   line.argument(a.mesh);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%", "of the simplified mesh, such as 600 or 3%");
@@ -371,15 +389,18 @@ Distance_arguments parse(int argc, char* argv[])
   if(!a.help.empty())
     return a;
   if(a.mesh.empty() || a.vertices.empty())
-    throw std::runtime_error("a mesh and a size are needed: spectral_distances_on_proxy MESH --vertices N.");
+    throw std::runtime_error(
+        "a mesh and a size are needed: spectral_distances_on_proxy MESH --vertices N.");
   a.target = parsed_vertex_target("--vertices", a.vertices);
   if(a.eigenvectors < 3)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be at least 3.");
   if(a.quiet && a.report.empty())
-    throw std::runtime_error("nothing is to be said or written: give --report, or leave out --quiet.");
+    throw std::runtime_error(
+        "nothing is to be said or written: give --report, or leave out --quiet.");
   if(a.sources < 1)
-    throw std::runtime_error("--sources is " + std::to_string(a.sources) + ", it must be at least 1.");
+    throw std::runtime_error("--sources is " + std::to_string(a.sources) +
+                             ", it must be at least 1.");
   return a;
 }
 
@@ -392,7 +413,8 @@ void run(const Distance_arguments& a)
   std::mt19937 random(1);
   std::vector<Eigen::Index> sources;
   for(long s = 0; s < a.sources; ++s)
-    sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(pair.fine.op.mass.size())));
+    sources.push_back(
+        static_cast<Eigen::Index>(random() % static_cast<unsigned>(pair.fine.op.mass.size())));
   Summary summary;
   for(const Distance& distance : distances(pair.fine.pairs)) {
     stop_if_interrupted();

@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Simplifies a mesh from the command line and says how well its spectrum was kept; --help shows the options.
+// Simplifies a mesh from the command line and says how well its spectrum was kept; --help shows the
+// options.
 
 #include "io/Progress_bar.h"
 #include "io/index_reader.h"
@@ -71,7 +72,8 @@ constexpr const char* fitted_files[] = {"L.mtx", "mass.mtx", "eigenvalues.npy", 
 std::string level_name(const std::string& path, const std::size_t level)
 {
   const std::filesystem::path p(path);
-  return (p.parent_path() / (p.stem().string() + "-" + std::to_string(level) + p.extension().string()))
+  return (p.parent_path() /
+          (p.stem().string() + "-" + std::to_string(level) + p.extension().string()))
       .string();
 }
 
@@ -79,7 +81,8 @@ std::string level_name(const std::string& path, const std::size_t level)
 void announce(Output_files& files, const Arguments& a)
 {
   files.add(a.output, Output_files::Input::may_be_replaced);
-  for(const std::string& path : {a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired})
+  for(const std::string& path :
+      {a.restriction, a.prolongation, a.map, a.json, a.report, a.repaired})
     if(!path.empty())
       files.add(path);
   for(const std::size_t level : a.levels)
@@ -120,9 +123,10 @@ std::string lost_attributes(const Input_mesh& input, const std::string& output)
   const bool of_format = !lost.empty();
   for(const Attributes* const a : {&at_vertices, &at_faces})
     lost.insert(lost.end(), a->unknown.begin(), a->unknown.end());
-  return lost.empty() ? ""
-                      : "The output is without what the input has beside: " + printable(joined(lost)) +
-                            (of_format ? "; a .ply file holds more." : ".");
+  return lost.empty()
+             ? ""
+             : "The output is without what the input has beside: " + printable(joined(lost)) +
+                   (of_format ? "; a .ply file holds more." : ".");
 }
 
 // What becomes of seams that are not kept; empty if there are none.
@@ -142,8 +146,8 @@ std::optional<Texture_seams> seams_of(const Arguments& a, Input_mesh& input)
   if(!a.kept.seams)
     return {};
   if(input.texture.empty())
-    throw std::runtime_error("there are no seams to keep in '" + a.input + "', " + input.without_texture +
-                             ": leave out the word seams of --keep.");
+    throw std::runtime_error("there are no seams to keep in '" + a.input + "', " +
+                             input.without_texture + ": leave out the word seams of --keep.");
   return Texture_seams(input.mesh, std::move(input.texture));
 }
 
@@ -165,8 +169,8 @@ std::vector<std::size_t> kept_vertices(const Arguments& a, const Input_mesh& inp
     kept.insert(kept.end(), more.begin(), more.end());
   };
   for(const std::string& file : a.kept.files)
-    add(input.numbering.vertices_of_mesh(read_indices(file, input.numbering.number_of_file_vertices()),
-                                         file));
+    add(input.numbering.vertices_of_mesh(
+        read_indices(file, input.numbering.number_of_file_vertices()), file));
   if(seams)
     add(seams->vertices());
   std::sort(kept.begin(), kept.end());
@@ -200,8 +204,9 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
                                                    const Vertex_numbering& numbering,
                                                    std::vector<std::size_t> kept, Progress_bar& bar)
 {
-  SMS::Spectral_edge_collapse_options options = options_of(
-      {a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape, a.quadrics_above});
+  SMS::Spectral_edge_collapse_options options =
+      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape,
+                  a.quadrics_above});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
@@ -233,46 +238,54 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
     options.operator_fit.rings = *a.fit_rings;
   options.kept_vertices = std::move(kept);
   if(!a.signals.empty())
-    options.signals = numbering.rows_of_mesh(read_signals(a.signals, numbering.number_of_file_vertices()));
+    options.signals =
+        numbering.rows_of_mesh(read_signals(a.signals, numbering.number_of_file_vertices()));
   return options;
 }
 
-// Says how much memory the run will take, and refuses what the machine does not have. The evaluation, which comes when the result
-// is on the disk, is warned of only.
+// Says how much memory the run will take, and refuses what the machine does not have. The
+// evaluation, which comes when the result is on the disk, is warned of only.
 void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target,
                   const SMS::Spectral_edge_collapse_options& options)
 {
   const std::size_t n = num_vertices(mesh);
-  const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
+  const Eigen::Index K =
+      options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
   const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
   if(available > 0 && needed > available)
-    throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " + std::to_string(K) +
-                             " eigenvectors takes about " + formatted_memory(needed) +
-                             " of memory, but this machine has " + formatted_memory(available) +
+    throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " +
+                             std::to_string(K) + " eigenvectors takes about " +
+                             formatted_memory(needed) + " of memory, but this machine has " +
+                             formatted_memory(available) +
                              " left: add --pre-simplify 100000, or lower --eigenvectors.");
   const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
   const bool pairs_are_known = options.signals.size() == 0 && !reduced;
   const double judging =
       a.no_evaluation ? 0. : SMS::estimated_evaluation_memory(n, target, K, {}, pairs_are_known);
   if(available > 0 && judging > available && !a.quiet)
-    std::cerr << "spectral_simplify: warning: The evaluation takes about " << formatted_memory(judging)
-              << ", more than the " << formatted_memory(available)
+    std::cerr << "spectral_simplify: warning: The evaluation takes about "
+              << formatted_memory(judging) << ", more than the " << formatted_memory(available)
               << " that are left: add --no-evaluation.\n";
   if(!a.quiet)
     std::cout << "memory: about " << formatted_memory((std::max)(needed, judging))
-              << (available > 0 ? " of the " + formatted_memory(available) + " that are available" : "")
+              << (available > 0 ? " of the " + formatted_memory(available) + " that are available"
+                                : "")
               << "\n\n"
               << std::flush;
 }
 
-// Compares the spectra, with tight pairs of the whole input; a tenth more coarse modes tells loss from exchange at the cut, see `Spectral_evaluation`.
-SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_collapse_options& run,
-                                 const SMS::Spectral_edge_collapse_result& result, Progress_bar& bar)
+// Compares the spectra, with tight pairs of the whole input; a tenth more coarse modes tells loss
+// from exchange at the cut, see `Spectral_evaluation`.
+SG::Spectral_evaluation evaluate(Both_meshes& meshes,
+                                 const SMS::Spectral_edge_collapse_options& run,
+                                 const SMS::Spectral_edge_collapse_result& result,
+                                 Progress_bar& bar)
 {
   SMS::Spectral_options of_coarse = run;
   of_coarse.coefficients = result.coefficients;
   meshes.fine_operator = SMS::internal::operator_of_basis(meshes.fine.V, meshes.fine.T, run);
-  meshes.coarse_operator = SMS::internal::operator_of_basis(meshes.coarse.V, meshes.coarse.T, of_coarse);
+  meshes.coarse_operator =
+      SMS::internal::operator_of_basis(meshes.coarse.V, meshes.coarse.T, of_coarse);
   SG::Eigenpairs_options options;
   options.progress = [&bar](double fraction) {
     bar.show("evaluation", fraction);
@@ -285,7 +298,8 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes, const SMS::Spectral_edge_c
         SG::eigenpairs(meshes.fine_operator, run.number_of_eigenvectors, options));
   const Eigen::Index K = meshes.fine_pairs->size(),
                      N = meshes.coarse_operator.L.rows() - meshes.coarse_operator.vanishing;
-  meshes.coarse_pairs = SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
+  meshes.coarse_pairs =
+      SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
   return SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, meshes.coarse_operator,
                                meshes.coarse_pairs, result.restriction, K);
 }
@@ -301,15 +315,16 @@ Fitted_operators judge_fit(const SG::Operator_fit_result& fit, const Both_meshes
   };
   Fitted_operators result;
   result.pairs = SG::eigenpairs(fit.op, meshes.coarse_pairs.size(), options);
-  result.evaluation = SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, fit.op, result.pairs, P,
-                                            meshes.fine_pairs->size());
+  result.evaluation = SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, fit.op,
+                                            result.pairs, P, meshes.fine_pairs->size());
   return result;
 }
 
-// Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors holds between the files
-// unless vertices of INPUT were doubled.
-void write_eigenpairs(const Output_files& files, const std::string& folder, const Both_meshes& meshes,
-                      const Vertex_numbering& numbering, const SMS::Spectral_edge_collapse_result& result)
+// Everything at input scale, so that C = coarse_eigenvectors^T coarse_mass P fine_eigenvectors
+// holds between the files unless vertices of INPUT were doubled.
+void write_eigenpairs(const Output_files& files, const std::string& folder,
+                      const Both_meshes& meshes, const Vertex_numbering& numbering,
+                      const SMS::Spectral_edge_collapse_result& result)
 {
   const auto npy = [&](const std::string& name, const auto& matrix) {
     const std::string path = folder + "/" + name + ".npy";
@@ -326,7 +341,8 @@ void write_eigenpairs(const Output_files& files, const std::string& folder, cons
   npy("fine_eigenvectors", numbering.rows_of_file(fine.vectors));
   npy("coarse_eigenvalues", coarse_values);
   npy("coarse_eigenvectors", coarse_vectors);
-  npy("C", SG::functional_map(coarse_vectors, meshes.coarse_operator.B, result.restriction, fine.vectors));
+  npy("C", SG::functional_map(coarse_vectors, meshes.coarse_operator.B, result.restriction,
+                              fine.vectors));
   mtx("fine_L", numbering.operator_of_file(meshes.fine_operator.L));
   mtx("fine_mass", numbering.operator_of_file(meshes.fine_operator.B));
   mtx("coarse_L", meshes.coarse_operator.L);
@@ -363,7 +379,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   Comparison comparison = single_run(*report.evaluation, run);
   if(report.fitted) {
     run.simplifier += ", fitted operators";
-    comparison.results.push_back(single_run(report.fitted->evaluation, std::move(run)).results.front());
+    comparison.results.push_back(
+        single_run(report.fitted->evaluation, std::move(run)).results.front());
   }
   comparison.command = a.command;
   comparison.mesh = std::filesystem::path(a.input).filename().string();
@@ -371,9 +388,10 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   comparison.faces = static_cast<std::size_t>(meshes.fine.T.rows());
   comparison.threads = a.threads;
   comparison.notes = result.warnings;
-  return html_report(comparison, plain_words(comparison, has_coefficients(a) ? "mass" : "area") +
-                                     shape_view({meshes.fine, *meshes.fine_pairs},
-                                                {meshes.coarse, meshes.coarse_pairs}, *report.evaluation));
+  return html_report(comparison,
+                     plain_words(comparison, has_coefficients(a) ? "mass" : "area") +
+                         shape_view({meshes.fine, *meshes.fine_pairs},
+                                    {meshes.coarse, meshes.coarse_pairs}, *report.evaluation));
 }
 
 // What the evaluation makes.
@@ -386,7 +404,8 @@ void write_evaluation(const Output_files& files, const Arguments& a, const Mesh&
   if(report.fitted) {
     const auto path = [&a](const std::string& name) { return a.fit_operators + "/" + name; };
     write_matrix_market(files.temporary(path("L.mtx")), report.result.fitted->op.L, path("L.mtx"));
-    write_matrix_market(files.temporary(path("mass.mtx")), report.result.fitted->op.B, path("mass.mtx"));
+    write_matrix_market(files.temporary(path("mass.mtx")), report.result.fitted->op.B,
+                        path("mass.mtx"));
     const Eigen::Index K = meshes.fine_pairs->size();
     const Eigen::VectorXd values = report.fitted->pairs.values.head(K);
     const Eigen::MatrixXd vectors = report.fitted->pairs.vectors.leftCols(K);
@@ -452,10 +471,13 @@ void write_mesh_and_maps(const Output_files& files, const Arguments& a, const In
     write_indices(file(a.map), input.numbering.map_of_file(map, no_vertex), name(a.map));
 }
 
-// Writes the levels that the run has reached, from its log and a copy of the input, and returns them.
-std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a, const Input_mesh& input,
+// Writes the levels that the run has reached, from its log and a copy of the input, and returns
+// them.
+std::vector<std::size_t> write_levels(const Output_files& files, const Arguments& a,
+                                      const Input_mesh& input,
                                       const std::optional<Texture_seams>& seams, Mesh& copy,
-                                      const SMS::Collapse_log& log, std::vector<std::string>& written)
+                                      const SMS::Collapse_log& log,
+                                      std::vector<std::string>& written)
 {
   std::vector<std::size_t> levels;
   SMS::Collapse_replay<Mesh> replay(copy, log);
@@ -472,7 +494,8 @@ std::vector<std::size_t> write_levels(const Output_files& files, const Arguments
 }
 
 // How well the spectrum was kept.
-void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes, Progress_bar& bar)
+void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& meshes,
+              Progress_bar& bar)
 {
   CGAL::Real_timer timer;
   timer.start();
@@ -486,11 +509,13 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
         " % on average, so that the result says little about the input: ask for more "
         "vertices, or for fewer eigenvectors.");
   if(report.rows_off_their_part != 0)
-    report.result.warnings.push_back(std::to_string(report.rows_off_their_part) +
-                                     " rows of the restriction read functions off another part of the shape "
-                                     "than their neighbours: ask for "
-                                     "more vertices.");
-  // E is summed over the vertices that are left. What is worn away from a border, where faces are of very different sizes, is not in it.
+    report.result.warnings.push_back(
+        std::to_string(report.rows_off_their_part) +
+        " rows of the restriction read functions off another part of the shape "
+        "than their neighbours: ask for "
+        "more vertices.");
+  // E is summed over the vertices that are left. What is worn away from a border, where faces are
+  // of very different sizes, is not in it.
   const double area = report.evaluation->area_ratio;
   if(area < 0.25 && !has_coefficients(a))
     report.result.warnings.push_back(
@@ -504,11 +529,14 @@ void add_fit(Simplification_report& report, const Both_meshes& meshes, Progress_
 {
   report.fitted = judge_fit(*report.result.fitted, meshes, report.result.restriction, bar);
   const SG::Spectral_evaluation &own = *report.evaluation, &e = report.fitted->evaluation;
-  const auto larger = [](const double fitted, const double own_figure) { return fitted > 1.1 * own_figure; };
-  const std::string worse = larger(e.norm_L, own.norm_L)             ? "|C|_L"
-                            : larger(e.norm_D, own.norm_D)           ? "|C|_D"
-                            : larger(e.errors.mean, own.errors.mean) ? "mean error of the eigenvalues"
-                                                                     : "";
+  const auto larger = [](const double fitted, const double own_figure) {
+    return fitted > 1.1 * own_figure;
+  };
+  const std::string worse = larger(e.norm_L, own.norm_L)   ? "|C|_L"
+                            : larger(e.norm_D, own.norm_D) ? "|C|_D"
+                            : larger(e.errors.mean, own.errors.mean)
+                                ? "mean error of the eigenvalues"
+                                : "";
   if(!worse.empty())
     report.result.warnings.push_back(
         "The fitted operators have a " + worse + " more than a tenth larger than the mesh's own" +
@@ -556,9 +584,11 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
   report.seconds_writing = timer.time();
 }
 
-// Evaluates and writes what is said about the result; returns the exit status. Whatever fails here leaves the result where it is.
-int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh& input, const Mesh& mesh,
-                       Both_meshes& meshes, Progress_bar& bar, Simplification_report& report)
+// Evaluates and writes what is said about the result; returns the exit status. Whatever fails here
+// leaves the result where it is.
+int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh& input,
+                       const Mesh& mesh, Both_meshes& meshes, Progress_bar& bar,
+                       Simplification_report& report)
 {
   std::string failure;
   std::vector<std::string> written = {a.json};
@@ -607,22 +637,25 @@ std::size_t vertices_for_faces(const Arguments& a, const Mesh& mesh)
   const double F = double(mesh.number_of_faces()), V = double(mesh.number_of_vertices());
   const double wanted = double(a.faces->of(mesh.number_of_faces()));
   if(wanted > F)
-    throw std::runtime_error("--faces is " + std::to_string(std::size_t(wanted)) + ", but '" + a.input +
-                             "' has " + std::to_string(mesh.number_of_faces()) + " faces.");
+    throw std::runtime_error("--faces is " + std::to_string(std::size_t(wanted)) + ", but '" +
+                             a.input + "' has " + std::to_string(mesh.number_of_faces()) +
+                             " faces.");
   const auto edges = mesh.edges();
-  const auto border =
-      double(std::count_if(edges.begin(), edges.end(), [&](const auto e) { return mesh.is_border(e); }));
+  const auto border = double(
+      std::count_if(edges.begin(), edges.end(), [&](const auto e) { return mesh.is_border(e); }));
   const double twice_characteristic = 2 * V - border - F;
   double vertices = (wanted + twice_characteristic) / 2;
   for(int i = 0; i < 50 && border > 0; ++i)
-    vertices = (wanted + twice_characteristic + border * std::sqrt((std::max)(vertices, 0.) / V)) / 2;
+    vertices =
+        (wanted + twice_characteristic + border * std::sqrt((std::max)(vertices, 0.) / V)) / 2;
   return std::size_t((std::max)((std::min)(std::floor(vertices), V), 1.));
 }
 
 // The number of faces follows from that of the vertices where no border loses edges. Else the run
 // is done again from a copy, with as many vertices more or less as the faces ask for.
-SMS::Spectral_edge_collapse_result simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
-                                                     const SMS::Spectral_edge_collapse_options& options)
+SMS::Spectral_edge_collapse_result
+simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
+                  const SMS::Spectral_edge_collapse_options& options)
 {
   const Mesh copy = is_closed(mesh) ? Mesh() : mesh;
   SMS::Spectral_edge_collapse_result result = simplify_mesh(mesh, target, options);
@@ -660,10 +693,11 @@ int run(Arguments a)
   std::vector<std::size_t> kept = kept_vertices(a, input, seams);
   const std::string nothing_kept =
       a.kept.has_features() && feature_vertices(input.mesh, a.kept).empty()
-          ? "'" + a.input + "' has no vertex at what --keep names: no border, no sharp edge of that angle."
+          ? "'" + a.input +
+                "' has no vertex at what --keep names: no border, no sharp edge of that angle."
           : "";
-  const std::size_t target = resolve_sizes(a, input.diagnosis, num_vertices(input.mesh), kept.size(),
-                                           vertices_for_faces(a, input.mesh));
+  const std::size_t target = resolve_sizes(a, input.diagnosis, num_vertices(input.mesh),
+                                           kept.size(), vertices_for_faces(a, input.mesh));
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
@@ -704,8 +738,8 @@ int run(Arguments a)
   for(const std::string& name : names_of_faces(writable_at_faces(input.face_attributes, a.output)))
     report.attributes.push_back(name);
   rounded.push_back(rounding(mesh, a.output));
-  for(const std::string& loss :
-      {lost_attributes(input, a.output), lost_edges, rounded[0], rounded[1], input.still_cut, nothing_kept})
+  for(const std::string& loss : {lost_attributes(input, a.output), lost_edges, rounded[0],
+                                 rounded[1], input.still_cut, nothing_kept})
     if(!loss.empty())
       report.result.warnings.push_back(loss);
   if(seams)

@@ -46,7 +46,8 @@ struct Simplification_report
   std::string input, output, preset, operator_word;
   std::vector<std::string> attributes;   // names of those that were carried
   std::optional<std::size_t> seam_edges; // kept ones of the texture
-  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options; // what the preset became
+  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
+      options;                     // what the preset became
   std::vector<Repair> repairs;     // what was changed in the input, and how often
   std::vector<std::size_t> levels; // those that were written
 };
@@ -63,8 +64,9 @@ inline void print_norm(const char* name, double norm, double floor)
 // Where fitted operators have entries.
 inline const char* mass_pattern_name(const CGAL::Spectral_geometry::Operator_fit_options& options)
 {
-  return options.mass == CGAL::Spectral_geometry::Operator_fit_options::Mass_pattern::diagonal ? "diagonal"
-                                                                                               : "edges";
+  return options.mass == CGAL::Spectral_geometry::Operator_fit_options::Mass_pattern::diagonal
+             ? "diagonal"
+             : "edges";
 }
 
 inline void print_errors(const CGAL::Spectral_geometry::Spectral_evaluation& e)
@@ -74,8 +76,8 @@ inline void print_errors(const CGAL::Spectral_geometry::Spectral_evaluation& e)
     std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
   }
   if(e.errors_low.modes > 0)
-    std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n", static_cast<int>(e.judged_modes / 5),
-                100 * e.errors_low.mean);
+    std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n",
+                static_cast<int>(e.judged_modes / 5), 100 * e.errors_low.mean);
 }
 
 inline void print_table(const Simplification_report& r)
@@ -88,19 +90,19 @@ inline void print_table(const Simplification_report& r)
     std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
     if(r.options.boundary != CGAL::Spectral_geometry::Boundary_condition::neumann)
       of += std::string(", ") + word_of(boundary_words, r.options.boundary);
-    std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes), of.c_str(),
-                e.mass.c_str());
+    std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes),
+                of.c_str(), e.mass.c_str());
     print_norm("|C|_L", e.norm_L, e.floor_norm_L);
     print_norm("|C|_D", e.norm_D, e.floor_norm_D);
     print_errors(e);
     std::printf("  rows off their part       %8zu\n", r.rows_off_their_part);
-    std::printf("  %s of output / input    %8.4f\n\n", r.options.coefficients.rows() == 0 ? "area" : "mass",
-                e.area_ratio);
+    std::printf("  %s of output / input    %8.4f\n\n",
+                r.options.coefficients.rows() == 0 ? "area" : "mass", e.area_ratio);
   }
   if(r.fitted) {
     const auto& options = r.options.operator_fit;
-    std::printf("  fitted operators, %d ring%s, mass: %s\n", options.rings, options.rings == 1 ? "" : "s",
-                mass_pattern_name(options));
+    std::printf("  fitted operators, %d ring%s, mass: %s\n", options.rings,
+                options.rings == 1 ? "" : "s", mass_pattern_name(options));
     print_norm("|C|_L", r.fitted->evaluation.norm_L, 0);
     print_norm("|C|_D", r.fitted->evaluation.norm_D, 0);
     print_errors(r.fitted->evaluation);
@@ -133,9 +135,11 @@ inline void print_table(const Simplification_report& r)
 }
 
 // All of them null where nothing was evaluated.
-inline nlohmann::json evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
+inline nlohmann::json
+evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
 {
-  const CGAL::Spectral_geometry::Spectral_evaluation none, &e = evaluation != nullptr ? *evaluation : none;
+  const CGAL::Spectral_geometry::Spectral_evaluation none,
+      &e = evaluation != nullptr ? *evaluation : none;
   const auto number = [&](const double x) {
     return evaluation != nullptr ? number_json(x) : nlohmann::json();
   };
@@ -165,8 +169,10 @@ inline nlohmann::json to_json(const Simplification_report& r)
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count
   json.update(evaluation_json(r.evaluation ? &*r.evaluation : nullptr));
-  json["rows_off_their_part"] = r.evaluation ? nlohmann::json(r.rows_off_their_part) : nlohmann::json();
-  json["seconds_evaluation"] = r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
+  json["rows_off_their_part"] =
+      r.evaluation ? nlohmann::json(r.rows_off_their_part) : nlohmann::json();
+  json["seconds_evaluation"] =
+      r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
   if(r.fitted) {
     json["fitted"] = evaluation_json(&r.fitted->evaluation);
     const auto& fit = *r.result.fitted;

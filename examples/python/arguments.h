@@ -74,7 +74,8 @@ public:
   py::object operator[](const char* name) const { return m_values[name]; }
   bool has(const char* name) const { return !(*this)[name].is_none(); }
 
-  [[noreturn]] void must_be(const char* name, const std::string& wanted, const bool is_type = false) const
+  [[noreturn]] void must_be(const char* name, const std::string& wanted,
+                            const bool is_type = false) const
   {
     const std::string sentence =
         std::string(name) + " is " + shown((*this)[name]) + ", it must be " + wanted + ".";
@@ -83,7 +84,8 @@ public:
     throw py::value_error(sentence);
   }
 
-  Index integer(const char* name, const Index least, const Index most = (std::numeric_limits<Index>::max)(),
+  Index integer(const char* name, const Index least,
+                const Index most = (std::numeric_limits<Index>::max)(),
                 const std::string& why = "") const
   {
     const py::object value = (*this)[name];
@@ -97,21 +99,25 @@ public:
     int overflow = 0;
     const long long result = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if(overflow != 0 || result < least || result > most)
-      must_be(name, "an integer from " + to_string(least) +
-                        (most == (std::numeric_limits<Index>::max)() ? "" : " to " + to_string(most)) + why);
+      must_be(name,
+              "an integer from " + to_string(least) +
+                  (most == (std::numeric_limits<Index>::max)() ? "" : " to " + to_string(most)) +
+                  why);
     return Index(result);
   }
 
   // All cores unless told otherwise; a warning says that more are wanted.
   int threads() const
   {
-    return has("threads") ? usable_threads(int(integer("threads", 1, (std::numeric_limits<int>::max)())),
-                                           "threads=", warn)
-                          : all_threads();
+    return has("threads")
+               ? usable_threads(int(integer("threads", 1, (std::numeric_limits<int>::max)())),
+                                "threads=", warn)
+               : all_threads();
   }
 
   double number(const char* name, const double least, const bool itself = true,
-                const double most = std::numeric_limits<double>::infinity(), const bool finite = true) const
+                const double most = std::numeric_limits<double>::infinity(),
+                const bool finite = true) const
   {
     const py::object value = (*this)[name];
     const double result = PyBool_Check(value.ptr()) ? -1 : PyFloat_AsDouble(value.ptr());
@@ -120,9 +126,10 @@ public:
       must_be(name, "a number", true);
     }
     const auto text = [](const double x) { return std::string(py::str(py::float_(x))); };
-    if(!(itself ? result >= least : result > least) || !(result <= most) || (finite && std::isinf(result)))
-      must_be(name, std::string(finite ? "a finite number " : "a number ") + (itself ? "from " : "above ") +
-                        text(least) +
+    if(!(itself ? result >= least : result > least) || !(result <= most) ||
+       (finite && std::isinf(result)))
+      must_be(name, std::string(finite ? "a finite number " : "a number ") +
+                        (itself ? "from " : "above ") + text(least) +
                         (std::isinf(most) ? "" : (itself ? " to " : " and up to ") + text(most)));
     return result;
   }
@@ -135,7 +142,8 @@ public:
   }
 
   // One of the words, or nothing where the argument is None and may be.
-  std::string word(const char* name, const std::vector<std::string>& words, const bool optional = false) const
+  std::string word(const char* name, const std::vector<std::string>& words,
+                   const bool optional = false) const
   {
     std::string list = optional ? "None" : "";
     for(const std::string& w : words)
@@ -153,7 +161,9 @@ public:
   SG::Mass mass() const
   {
     const std::string name = word("mass", {"lumped", "averaged", "voronoi"});
-    return name == "lumped" ? SG::Mass::lumped : name == "voronoi" ? SG::Mass::voronoi : SG::Mass::averaged;
+    return name == "lumped"    ? SG::Mass::lumped
+           : name == "voronoi" ? SG::Mass::voronoi
+                               : SG::Mass::averaged;
   }
 
   SG::Boundary_condition boundary() const
@@ -166,7 +176,8 @@ public:
   {
     const bool wanted = flag("intrinsic_delaunay");
     if(wanted && (has("coefficients") || boundary() != SG::Boundary_condition::neumann))
-      refuse("intrinsic_delaunay is for the Laplace-Beltrami operator: leave out coefficients and boundary.");
+      refuse("intrinsic_delaunay is for the Laplace-Beltrami operator: leave out coefficients and "
+             "boundary.");
     return wanted;
   }
 
@@ -179,12 +190,13 @@ public:
     const Eigen::MatrixXd values = matrix(name, n, of);
     if(values.cols() != 7)
       refuse(std::string(name) + " has " + to_string(values.cols()) +
-             " columns, it must have 7: density, xx, xy, xz, yy, yz, zz; see weighted_coefficients().");
+             " columns, it must have 7: density, xx, xy, xz, yy, yz, zz; see "
+             "weighted_coefficients().");
     return SG::anisotropic_coefficients(values.rightCols(6), values.col(0));
   }
 
-  // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is 0 for one dimension, -1 for any
-  // number of columns.
+  // An array of numbers, of real ones or of integers. Not copied if it is one already; `columns` is
+  // 0 for one dimension, -1 for any number of columns.
   template <class Number>
   py::array_t<Number> array(const char* name, const Index columns, const std::string& rows_of) const
   {
@@ -199,7 +211,8 @@ public:
       throw Wrong_type(label + " is not an array of numbers: give each row the same length.");
     }
     if(kinds.find(array.dtype().kind()) == std::string::npos && array.size() != 0)
-      throw Wrong_type(label + " has the dtype " + std::string(py::str(array.dtype())) + ", it must hold " +
+      throw Wrong_type(label + " has the dtype " + std::string(py::str(array.dtype())) +
+                       ", it must hold " +
                        (real ? "real numbers: pass float64." : "integers: pass int32 or int64."));
     if(array.ndim() != (columns == 0 ? 1 : 2) || (columns > 0 && array.shape(1) != columns))
       refuse(label + " has the shape " + shown(array.attr("shape")) + ", it must be " +
@@ -208,20 +221,22 @@ public:
                             : "(n, " + to_string(columns) + ")") +
              ", one row for each " + rows_of + ".");
     if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real)
-      return py::array_t<Number>(py::array(array.attr("astype")("int64", py::arg("casting") = "unsafe")));
+      return py::array_t<Number>(
+          py::array(array.attr("astype")("int64", py::arg("casting") = "unsafe")));
     return py::array_t<Number>(array);
   }
 
   // Indices in [0, n).
-  std::vector<std::size_t> indices(const char* name, const std::size_t n, const std::string& of) const
+  std::vector<std::size_t> indices(const char* name, const std::size_t n,
+                                   const std::string& of) const
   {
     std::vector<std::size_t> result;
     const py::object given = py::module_::import("numpy").attr("asarray")((*this)[name]);
     if(std::string(py::str(given.attr("dtype").attr("kind"))) == "b") { // one for each vertex
       const auto flags = py::array_t<bool>(given);
       if(flags.ndim() != 1 || flags.size() != py::ssize_t(n))
-        refuse(std::string(name) + " has the shape " + shown(flags.attr("shape")) + ", but " + of + " has " +
-               to_string(n) + " vertices: give True or False for each.");
+        refuse(std::string(name) + " has the shape " + shown(flags.attr("shape")) + ", but " + of +
+               " has " + to_string(n) + " vertices: give True or False for each.");
       for(py::ssize_t i = 0; i < flags.size(); ++i)
         if(flags.at(i))
           result.push_back(std::size_t(i));
@@ -236,8 +251,8 @@ public:
              ", but integers are indices: pass booleans, or " + name + ".nonzero()[0].");
     for(py::ssize_t i = 0; i < values.size(); ++i) {
       if(values.at(i) < 0 || values.at(i) >= std::int64_t(n))
-        refuse(std::string(name) + "[" + to_string(i) + "] is " + to_string(values.at(i)) + ", but " + of +
-               " has " + to_string(n) + " vertices: they are counted from 0.");
+        refuse(std::string(name) + "[" + to_string(i) + "] is " + to_string(values.at(i)) +
+               ", but " + of + " has " + to_string(n) + " vertices: they are counted from 0.");
       result.push_back(std::size_t(values.at(i)));
     }
     return result;
@@ -248,13 +263,14 @@ public:
   {
     const auto values = array<double>(name, -1, "vertex");
     if(values.shape(0) != rows)
-      refuse(std::string(name) + " has " + to_string(values.shape(0)) + " rows, but " + of + " has " +
-             to_string(rows) + " vertices: give one row for each.");
+      refuse(std::string(name) + " has " + to_string(values.shape(0)) + " rows, but " + of +
+             " has " + to_string(rows) + " vertices: give one row for each.");
     Eigen::MatrixXd result = values.template cast<Eigen::MatrixXd>();
     for(Index i = 0; i < result.rows(); ++i)
       for(Index j = 0; j < result.cols(); ++j)
         if(!std::isfinite(result(i, j)))
-          refuse(std::string(name) + "[" + to_string(i) + ", " + to_string(j) + "] is not a finite number.");
+          refuse(std::string(name) + "[" + to_string(i) + ", " + to_string(j) +
+                 "] is not a finite number.");
     return result;
   }
 
@@ -271,8 +287,9 @@ public:
       for(py::ssize_t j = 0; j < 3; ++j) {
         const std::int64_t v = f.at(i, j);
         if(v < 0 || v >= n)
-          refuse(std::string(faces) + "[" + to_string(i) + ", " + to_string(j) + "] is " + to_string(v) +
-                 ", but " + positions + " has " + to_string(n) + " vertices: they are counted from 0.");
+          refuse(std::string(faces) + "[" + to_string(i) + ", " + to_string(j) + "] is " +
+                 to_string(v) + ", but " + positions + " has " + to_string(n) +
+                 " vertices: they are counted from 0.");
         result.T(i, j) = int(v);
       }
     return result;
@@ -294,7 +311,8 @@ public:
              (rows < 0 ? "any" : to_string(rows)) + ", " + to_string(columns) + "), " + what + ".");
     const std::string kind = py::str(value.attr("dtype").attr("kind"));
     if(kind != "f" && kind != "i" && kind != "u")
-      throw Wrong_type(std::string(name) + " has the dtype " + std::string(py::str(value.attr("dtype"))) +
+      throw Wrong_type(std::string(name) + " has the dtype " +
+                       std::string(py::str(value.attr("dtype"))) +
                        ", it must hold real numbers: pass float64.");
     py::object matrix = scipy.attr("csc_matrix")(value, py::arg("dtype") = "float64");
     if(!matrix.attr("has_canonical_format").cast<bool>()) {

@@ -23,10 +23,11 @@ template <class Matrix>
 py::array view(const Matrix& matrix, const py::object& owner)
 {
   constexpr auto size = py::ssize_t(sizeof(typename Matrix::Scalar));
-  py::array result = Matrix::ColsAtCompileTime == 1
-                         ? py::array(py::dtype::of<double>(), {matrix.size()}, {size}, matrix.data(), owner)
-                         : py::array(py::dtype::of<double>(), {matrix.rows(), matrix.cols()},
-                                     {size, size * matrix.rows()}, matrix.data(), owner);
+  py::array result =
+      Matrix::ColsAtCompileTime == 1
+          ? py::array(py::dtype::of<double>(), {matrix.size()}, {size}, matrix.data(), owner)
+          : py::array(py::dtype::of<double>(), {matrix.rows(), matrix.cols()},
+                      {size, size * matrix.rows()}, matrix.data(), owner);
   result.attr("setflags")(py::arg("write") = false);
   return result;
 }

@@ -2,8 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The compiled module of the package: arrays of NumPy in, arrays out. What a user sees, signatures and
-// texts of help(), is Python, _interface.py; each function there hands its arguments to one here.
+// The compiled module of the package: arrays of NumPy in, arrays out. What a user sees, signatures
+// and texts of help(), is Python, _interface.py; each function there hands its arguments to one
+// here.
 
 #include "arguments.h"
 #include "arrays.h"
@@ -52,7 +53,8 @@ py::object records(const SMS::Collapse_log& log)
 {
   const auto& merges = log.forest().merges();
   std::vector<Index> removed, kept;
-  py::array_t<double> alpha(py::ssize_t(merges.size())), point({py::ssize_t(merges.size()), py::ssize_t(3)});
+  py::array_t<double> alpha(py::ssize_t(merges.size())),
+      point({py::ssize_t(merges.size()), py::ssize_t(3)});
   for(std::size_t i = 0; i < merges.size(); ++i) {
     removed.push_back(merges[i].removed);
     kept.push_back(merges[i].kept);
@@ -61,7 +63,8 @@ py::object records(const SMS::Collapse_log& log)
       point.mutable_at(i, j) = log.points()[i][j];
   }
   py::object result = py::module_::import("numpy").attr("empty")(
-      merges.size(), py::eval("[('removed', 'i8'), ('kept', 'i8'), ('alpha', 'f8'), ('point', 'f8', 3)]"));
+      merges.size(),
+      py::eval("[('removed', 'i8'), ('kept', 'i8'), ('alpha', 'f8'), ('point', 'f8', 3)]"));
   result["removed"] = array_of(removed);
   result["kept"] = array_of(kept);
   result["alpha"] = alpha;
@@ -75,10 +78,12 @@ SMS::Collapse_log log_of(const py::object& records, const Index n)
   const auto column = [&](const char* name) { return records.attr("__getitem__")(name); };
   const auto removed = py::array_t<std::int64_t>(column("removed")),
              kept = py::array_t<std::int64_t>(column("kept"));
-  const auto alpha = py::array_t<double>(column("alpha")), point = py::array_t<double>(column("point"));
+  const auto alpha = py::array_t<double>(column("alpha")),
+             point = py::array_t<double>(column("point"));
   SMS::Collapse_log log(n);
   for(py::ssize_t i = 0; i < removed.size(); ++i)
-    log.merge(removed.at(i), kept.at(i), alpha.at(i), {point.at(i, 0), point.at(i, 1), point.at(i, 2)});
+    log.merge(removed.at(i), kept.at(i), alpha.at(i),
+              {point.at(i, 0), point.at(i, 1), point.at(i, 2)});
   return log;
 }
 
@@ -87,9 +92,9 @@ py::dict level(const Arguments& a)
 {
   const SG::Mesh_matrices fine = a.mesh("V", "F");
   const SMS::Collapse_log log = log_of(a["collapses"], fine.V.rows());
-  const std::size_t N =
-      std::size_t(a.integer("n", Index(log.number_of_vertices_left()), Index(log.number_of_vertices()),
-                            ", the vertices of the levels of this run"));
+  const std::size_t N = std::size_t(a.integer("n", Index(log.number_of_vertices_left()),
+                                              Index(log.number_of_vertices()),
+                                              ", the vertices of the levels of this run"));
   struct Replayed
   {
     SG::Mesh_matrices mesh;
@@ -141,9 +146,9 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   SMS::Spectral_edge_collapse_options options = options_of(words);
   options.binary = a.flag("binary");
   if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)
-    refuse(
-        "binary asks for a P of ones and zeros, and relocation by the closest points makes another one: pass "
-        "relocate='none' or relocate='carried'.");
+    refuse("binary asks for a P of ones and zeros, and relocation by the closest points makes "
+           "another one: pass "
+           "relocate='none' or relocate='carried'.");
   options.preserve_border = a.flag("preserve_border");
   options.fit_operators = a.flag("fit_operators");
   if(options.fit_operators && a.has("signals"))
@@ -157,7 +162,8 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   return options;
 }
 
-// What the collapses are to keep: eigenvectors that are to be computed, those that are given, or signals.
+// What the collapses are to keep: eigenvectors that are to be computed, those that are given, or
+// signals.
 void set_signals(const Arguments& a, const Index n, const Index target,
                  SMS::Spectral_edge_collapse_options& options)
 {
@@ -178,15 +184,17 @@ void set_signals(const Arguments& a, const Index n, const Index target,
     options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
   const Index first = Index(options.pre_simplify);
   if(first > 0 && (first < target || first <= k))
-    refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " + to_string(target) +
-           ", and above k, which is " + to_string(k) + ".");
+    refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " +
+           to_string(target) + ", and above k, which is " + to_string(k) + ".");
   if(own + a.has("eigenpairs") + (first > 0 && first < n) > 1)
-    refuse("of signals, eigenpairs and pre_simplify, which the preset fast sets, only one can be given.");
+    refuse("of signals, eigenpairs and pre_simplify, which the preset fast sets, only one can be "
+           "given.");
   if(!a.has("eigenpairs"))
     return;
   const Pairs& given = given_pairs(a, n, options.mass, k);
-  options.eigenpairs =
-      given.pairs->size() == k ? given.pairs : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
+  options.eigenpairs = given.pairs->size() == k
+                           ? given.pairs
+                           : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
 }
 
 py::dict simplify(const Arguments& a)
@@ -205,9 +213,11 @@ py::dict simplify(const Arguments& a)
   for(const std::size_t v : feature_vertices(surface_mesh(*fine), kept_features(a)))
     options.kept_vertices.push_back(v);
   std::sort(options.kept_vertices.begin(), options.kept_vertices.end());
-  options.kept_vertices.erase(std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
-                              options.kept_vertices.end());
-  if(const std::string reason = diagnosis.too_small(std::size_t(n)); !reason.empty() && n < vertices)
+  options.kept_vertices.erase(
+      std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
+      options.kept_vertices.end());
+  if(const std::string reason = diagnosis.too_small(std::size_t(n));
+     !reason.empty() && n < vertices)
     refuse("n is " + to_string(n) + ", but " + reason + ".");
   Watch watch(a);
   options.progress = [&](const SMS::Spectral_progress& progress) {
@@ -239,8 +249,9 @@ py::dict simplify(const Arguments& a)
   result["kept"] = array_of(options.kept_vertices);
   result["report"] = py::module_::import("json").attr("loads")(
       run_json(run.result, options, a["preset"].cast<std::string>()).dump());
-  result["eigenpairs"] = run.op ? py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)})
-                                : py::object(py::none());
+  result["eigenpairs"] =
+      run.op ? py::cast(Pairs{run.result.eigenpairs, run.op, SG::mass_name(options.mass)})
+             : py::object(py::none());
   result["coefficients"] = run.result.coefficients.rows() != 0
                                ? py::cast(Eigen::MatrixXd(run.result.coefficients))
                                : py::object(py::none());
@@ -262,8 +273,9 @@ void define(py::module_& m, const char* name, const Function& function)
 template <class Matrix>
 py::cpp_function viewed(const Matrix SG::Eigenpairs::*member)
 {
-  return py::cpp_function(
-      [member](const py::object& self) { return view((*self.cast<const Pairs&>().pairs).*member, self); });
+  return py::cpp_function([member](const py::object& self) {
+    return view((*self.cast<const Pairs&>().pairs).*member, self);
+  });
 }
 
 template <class Matrix>
@@ -299,10 +311,11 @@ PYBIND11_MODULE(_core, m)
       .def_property_readonly("M", [](const Pairs& self) { return csr(self.op->B); })
       .def_property_readonly("row_masses", [](const Pairs& self) { return self.op->mass; })
       .def_property_readonly("theta", [](const Pairs& self) { return self.op->theta; })
-      .def_property_readonly("boundary",
-                             [](const Pairs& self) { return word_of(boundary_words, self.op->boundary); })
+      .def_property_readonly(
+          "boundary", [](const Pairs& self) { return word_of(boundary_words, self.op->boundary); })
       .def_property_readonly("vanishing", [](const Pairs& self) { return self.op->vanishing; })
-      .def_property_readonly("has_coefficients", [](const Pairs& self) { return self.op->has_coefficients; })
+      .def_property_readonly("has_coefficients",
+                             [](const Pairs& self) { return self.op->has_coefficients; })
       .def_readonly("mass", &Pairs::mass)
       .def_property_readonly("zeros", of_pairs(&SG::Eigenpairs::zeros))
       .def_property_readonly("complete", of_pairs(&SG::Eigenpairs::complete))
@@ -328,7 +341,8 @@ PYBIND11_MODULE(_core, m)
   define(m, "diagnose", diagnosis_of);
   define(m, "kept", [](const Arguments& a) { return array_of(kept_indices(a)); });
   define(m, "arrays", [](const Arguments& a) {
-    return py::make_tuple(a.array<double>("V", 3, "vertex"), a.array<std::int64_t>("F", 3, "triangle"));
+    return py::make_tuple(a.array<double>("V", 3, "vertex"),
+                          a.array<std::int64_t>("F", 3, "triangle"));
   });
   m.def("read_mesh", read_mesh);
   define(m, "eigenpairs", eigenpairs);
@@ -345,8 +359,9 @@ PYBIND11_MODULE(_core, m)
   define(m, "match", match);
 #else
   m.def("match", [](const py::dict&) -> py::object {
-    throw std::runtime_error("match() is not in this build, LEMON was not found: install it (on Debian: "
-                             "apt-get install liblemon-dev) and build again.");
+    throw std::runtime_error(
+        "match() is not in this build, LEMON was not found: install it (on Debian: "
+        "apt-get install liblemon-dev) and build again.");
   });
 #endif
 }

@@ -46,7 +46,8 @@ inline Sources sources_of(const Arguments& a, const SG::Eigenpairs& pairs)
     result.vertices.push_back(a.integer("sources", 0, Index(n) - 1, ", a vertex"));
     result.one = true;
   } else if(py::module_::import("scipy.sparse").attr("issparse")(a["sources"]).cast<bool>() ||
-            (py::isinstance<py::array>(a["sources"]) && a["sources"].attr("ndim").cast<int>() == 2)) {
+            (py::isinstance<py::array>(a["sources"]) &&
+             a["sources"].attr("ndim").cast<int>() == 2)) {
     result.points = a.sparse("sources", -1, Index(n), "sources x vertices");
     result.are_points = true;
   } else {
@@ -75,7 +76,8 @@ inline py::object distances(const Arguments& a)
   const Pairs given = pairs_of(a, "eigenpairs");
   const SG::Eigenpairs& pairs = *given.pairs;
   const Sources sources = sources_of(a, pairs);
-  const std::string kind = a.word("kind", {"diffusion", "biharmonic", "commute_time", "wave_kernel"});
+  const std::string kind =
+      a.word("kind", {"diffusion", "biharmonic", "commute_time", "wave_kernel"});
   for(const auto& [name, of] :
       {std::make_pair("time", "diffusion"), std::make_pair("energies", "wave_kernel")})
     if(a.has(name) && kind != of)
@@ -108,14 +110,16 @@ inline py::object distances(const Arguments& a)
 inline Eigen::MatrixXd heat_kernel_signature(const Arguments& a)
 {
   const Pairs given = pairs_of(a, "eigenpairs");
-  const Eigen::VectorXd times = a.has("times") ? a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()
-                                               : SG::heat_kernel_times(*given.pairs);
+  const Eigen::VectorXd times = a.has("times")
+                                    ? a.array<double>("times", 0, "time").cast<Eigen::VectorXd>()
+                                    : SG::heat_kernel_times(*given.pairs);
   return interruptible([&] {
     constexpr Index step = 8; // times between two questions for signals
     Eigen::MatrixXd result(given.pairs->vectors.rows(), times.size());
     for(Index first = 0; first < times.size(); first += step) {
       const Index count = (std::min)(step, times.size() - first);
-      result.middleCols(first, count) = SG::heat_kernel_signature(*given.pairs, times.segment(first, count));
+      result.middleCols(first, count) =
+          SG::heat_kernel_signature(*given.pairs, times.segment(first, count));
       check_signals();
     }
     return result;

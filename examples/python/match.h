@@ -30,7 +30,8 @@ inline py::dict match(const Arguments& a)
       for(const Index t : turned)
         std::swap(mesh->T(t, 1), mesh->T(t, 2));
     }
-  const Index n = a.integer("n", 4, (std::min)(X.V.rows(), Y.V.rows()), ", the vertices of the smaller mesh");
+  const Index n =
+      a.integer("n", 4, (std::min)(X.V.rows(), Y.V.rows()), ", the vertices of the smaller mesh");
   SMS::Spectral_edge_collapse_options simplification;
   simplification.mass = a.mass();
   Matching_options options;
@@ -45,9 +46,11 @@ inline py::dict match(const Arguments& a)
   options.threads = a.threads();
   const std::string proxy = a.word("proxy", {"spectral", "garland_heckbert", "none"});
   if(options.matcher == Matcher::bcicp && proxy == "none")
-    refuse("matcher is 'bcicp', which refines the match of simplified meshes, and proxy is 'none'.");
-  const auto operators =
-      a.word("operators", {"fitted", "mesh"}) == "fitted" ? Proxy_operators::fitted : Proxy_operators::mesh;
+    refuse(
+        "matcher is 'bcicp', which refines the match of simplified meshes, and proxy is 'none'.");
+  const auto operators = a.word("operators", {"fitted", "mesh"}) == "fitted"
+                             ? Proxy_operators::fitted
+                             : Proxy_operators::mesh;
   Landmarks landmarks;
   if(a.has("landmarks")) {
     const auto rows = a.array<std::int64_t>("landmarks", 2, "pair of vertices");

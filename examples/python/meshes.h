@@ -39,8 +39,8 @@ inline std::vector<std::vector<std::size_t>> triangles_of(const SG::Mesh_matrice
 {
   std::vector<std::vector<std::size_t>> result;
   for(Index f = 0; f < matrices.T.rows(); ++f)
-    result.push_back(
-        {std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)), std::size_t(matrices.T(f, 2))});
+    result.push_back({std::size_t(matrices.T(f, 0)), std::size_t(matrices.T(f, 1)),
+                      std::size_t(matrices.T(f, 2))});
   return result;
 }
 
@@ -102,8 +102,9 @@ inline py::dict clean(const Arguments& a)
   const SG::Mesh_matrices mesh = SG::mesh_matrices(input.mesh);
   std::vector<std::int64_t> place, origin;
   for(std::size_t v = 0; v < input.numbering.number_of_file_vertices(); ++v)
-    place.push_back(
-        input.numbering.mesh_vertex(v) == no_vertex ? -1 : std::int64_t(input.numbering.mesh_vertex(v)));
+    place.push_back(input.numbering.mesh_vertex(v) == no_vertex
+                        ? -1
+                        : std::int64_t(input.numbering.mesh_vertex(v)));
   for(std::size_t w = 0; w < input.numbering.number_of_mesh_vertices(); ++w)
     origin.push_back(std::int64_t(input.numbering.file_vertex(w)));
   py::list changes;

@@ -35,8 +35,8 @@ namespace SMS = CGAL::Surface_mesh_simplification;
 
 // Operators, their eigenpairs, and how those of two meshes compare.
 
-inline SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh, const SMS::Spectral_options& options,
-                                        const char* names)
+inline SG::Laplace_operator operator_of(const SG::Mesh_matrices& mesh,
+                                        const SMS::Spectral_options& options, const char* names)
 {
   return named(names, [&] { return SMS::internal::operator_of_basis(mesh.V, mesh.T, options); });
 }
@@ -64,14 +64,16 @@ struct Fitted_pairs : Pairs
   SG::Operator_fit_result fit; // without its operator
 };
 
-inline Fitted_pairs fitted_pairs(SG::Operator_fit_result fit, const SG::Operator_fit_options& options,
-                                 const Index k, const SG::Eigenpairs_options& solver = {})
+inline Fitted_pairs fitted_pairs(SG::Operator_fit_result fit,
+                                 const SG::Operator_fit_options& options, const Index k,
+                                 const SG::Eigenpairs_options& solver = {})
 {
   Fitted_pairs result;
   result.fit = std::move(fit);
   result.op = std::make_shared<SG::Laplace_operator>(std::move(result.fit.op));
   result.pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*result.op, k, solver));
-  result.mass = options.mass == SG::Operator_fit_options::Mass_pattern::diagonal ? "diagonal" : "edges";
+  result.mass =
+      options.mass == SG::Operator_fit_options::Mass_pattern::diagonal ? "diagonal" : "edges";
   return result;
 }
 
@@ -85,16 +87,17 @@ inline const Pairs& pairs_of(const Arguments& a, const char* name)
 {
   const py::object core = core_of(a[name]);
   if(!py::isinstance<Pairs>(core))
-    throw Wrong_type(std::string(name) + " is " + type_name(a[name]) +
-                     ", it must be Eigenpairs: pass what eigenpairs() or Eigenpairs.from_arrays() returns.");
+    throw Wrong_type(
+        std::string(name) + " is " + type_name(a[name]) +
+        ", it must be Eigenpairs: pass what eigenpairs() or Eigenpairs.from_arrays() returns.");
   return core.cast<const Pairs&>();
 }
 
 inline void check_rows(const Pairs& pairs, const char* name, const Index n, const char* of)
 {
   if(pairs.op->L.rows() != n)
-    refuse(std::string(name) + " are of " + to_string(pairs.op->L.rows()) + " vertices, but " + of + " has " +
-           to_string(n) + ": pass the eigenpairs of that mesh.");
+    refuse(std::string(name) + " are of " + to_string(pairs.op->L.rows()) + " vertices, but " + of +
+           " has " + to_string(n) + ": pass the eigenpairs of that mesh.");
 }
 
 inline SG::Eigenpairs_options solver_options(const Arguments& a, Watch& watch)
@@ -107,17 +110,19 @@ inline SG::Eigenpairs_options solver_options(const Arguments& a, Watch& watch)
 }
 
 // Eigenpairs of the mesh of n vertices in the mass, k at least.
-inline const Pairs& given_pairs(const Arguments& a, const Index n, const SG::Mass mass, const Index k)
+inline const Pairs& given_pairs(const Arguments& a, const Index n, const SG::Mass mass,
+                                const Index k)
 {
   const Pairs& given = pairs_of(a, "eigenpairs");
   check_rows(given, "eigenpairs", n, "V");
   if(given.mass != SG::mass_name(mass))
-    refuse(
-        "eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) + " one is wanted: " +
-        (SG::mass_name(SG::Mass::lumped) == given.mass || SG::mass_name(SG::Mass::averaged) == given.mass ||
-                 SG::mass_name(SG::Mass::voronoi) == given.mass
-             ? "pass mass='" + given.mass + "'."
-             : "compute them in that mass."));
+    refuse("eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) +
+           " one is wanted: " +
+           (SG::mass_name(SG::Mass::lumped) == given.mass ||
+                    SG::mass_name(SG::Mass::averaged) == given.mass ||
+                    SG::mass_name(SG::Mass::voronoi) == given.mass
+                ? "pass mass='" + given.mass + "'."
+                : "compute them in that mass."));
   if(given.pairs->size() < k)
     refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
            ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
@@ -156,8 +161,9 @@ inline Pairs eigenpairs(const Arguments& a)
     consistent.coefficients = of.coefficients;
     consistent.boundary = of.boundary;
     auto op = std::make_shared<SG::Laplace_operator>(
-        mass == "consistent" ? named("V, F", [&] { return SG::laplace_operator(mesh.V, mesh.T, consistent); })
-                             : operator_of(mesh, of, "V, F"));
+        mass == "consistent"
+            ? named("V, F", [&] { return SG::laplace_operator(mesh.V, mesh.T, consistent); })
+            : operator_of(mesh, of, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
     return Pairs{std::move(pairs), std::move(op), mass};
   });
@@ -167,7 +173,8 @@ inline Pairs eigenpairs(const Arguments& a)
 inline Pairs eigsh(const Arguments& a)
 {
   auto op = std::make_shared<SG::Laplace_operator>();
-  op->L = a.sparse("L", -1, a["L"].attr("shape").attr("__getitem__")(-1).cast<Index>(), "rows x columns");
+  op->L = a.sparse("L", -1, a["L"].attr("shape").attr("__getitem__")(-1).cast<Index>(),
+                   "rows x columns");
   op->B = a.sparse("M", op->L.rows(), op->L.rows(), "as L");
   const Index k = a.integer("k", 1, op->L.rows(), ", the rows of L");
   Watch watch(a);
@@ -184,13 +191,15 @@ inline py::object pairs_of_arrays(const Arguments& a)
   SG::Laplace_operator op;
   auto pairs = std::make_shared<SG::Eigenpairs>();
   pairs->values = a.array<double>("values", 0, "eigenvalue").cast<Eigen::VectorXd>();
-  const Index k = pairs->values.size(), n = a["vectors"].attr("shape").attr("__getitem__")(0).cast<Index>();
+  const Index k = pairs->values.size(),
+              n = a["vectors"].attr("shape").attr("__getitem__")(0).cast<Index>();
   pairs->vectors = a.matrix("vectors", n, "the mesh");
   op.L = a.sparse("L", n, n, "as vectors has rows");
   op.B = a.sparse("M", n, n, "as vectors has rows");
-  op.mass = a.has("row_masses")
-                ? Eigen::VectorXd(a.array<double>("row_masses", 0, "vertex").cast<Eigen::VectorXd>())
-                : Eigen::VectorXd(op.B * Eigen::VectorXd::Ones(n));
+  op.mass =
+      a.has("row_masses")
+          ? Eigen::VectorXd(a.array<double>("row_masses", 0, "vertex").cast<Eigen::VectorXd>())
+          : Eigen::VectorXd(op.B * Eigen::VectorXd::Ones(n));
   op.theta = a.number("theta", 0, true, 1);
   const std::string mass = a["mass"].cast<std::string>();
   op.voronoi = mass == "voronoi";
@@ -199,8 +208,8 @@ inline py::object pairs_of_arrays(const Arguments& a)
   op.has_coefficients = a.flag("has_coefficients");
   pairs->residuals = a.array<double>("residuals", 0, "eigenvalue").cast<Eigen::VectorXd>();
   if(pairs->vectors.cols() != k || pairs->residuals.size() != k)
-    refuse("vectors has " + to_string(pairs->vectors.cols()) + " columns, but values has " + to_string(k) +
-           ": give one column for each.");
+    refuse("vectors has " + to_string(pairs->vectors.cols()) + " columns, but values has " +
+           to_string(k) + ": give one column for each.");
   pairs->solver = a["solver"].cast<std::string>();
   pairs->complete = a.flag("complete");
   pairs->zeros = a.has("zeros") ? a.integer("zeros", 0) : SG::number_of_zero_eigenvalues(op);
@@ -219,7 +228,8 @@ inline py::object pairs_of_arrays(const Arguments& a)
   return py::cast(std::move(fitted));
 }
 
-// How well the spectrum was kept, with tight pairs; a tenth more coarse modes tells loss from exchange at the cut.
+// How well the spectrum was kept, with tight pairs; a tenth more coarse modes tells loss from
+// exchange at the cut.
 inline py::dict evaluate(const Arguments& a)
 {
   const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
@@ -235,7 +245,8 @@ inline py::dict evaluate(const Arguments& a)
   const double off = (P * fine.V - coarse.V).rowwise().norm().mean() / std::sqrt(area);
   if(!(off < (std::max)(0.05, 0.5 / std::sqrt(double(N)))))
     warn("P @ V lies " + to_string(int(std::round(100 * off))) +
-         " % of the square root of the area away from Vc, on average: do the rows of P belong to Vc, and is "
+         " % of the square root of the area away from Vc, on average: do the rows of P belong to "
+         "Vc, and is "
          "Vc where "
          "V is and in its unit?");
   const SMS::Spectral_options of = operator_options(a, n);
@@ -255,8 +266,8 @@ inline py::dict evaluate(const Arguments& a)
     fitted = pairs_of(a, "operators");
     check_rows(*fitted, "operators", N, "Vc");
     if(fitted->pairs->size() < (std::min)(k, N))
-      refuse("operators have " + to_string(fitted->pairs->size()) + " eigenpairs, but k is " + to_string(k) +
-             ": ask fit_operators() for more.");
+      refuse("operators have " + to_string(fitted->pairs->size()) + " eigenpairs, but k is " +
+             to_string(k) + ": ask fit_operators() for more.");
   }
   Watch watch(a);
   SG::Eigenpairs_options options;
@@ -266,12 +277,15 @@ inline py::dict evaluate(const Arguments& a)
     const SG::Laplace_operator fine_op = operator_of(fine, of, "V, F");
     if(given && ((fine_op.L - given->op->L).norm() > 1e-12 * fine_op.L.norm() ||
                  (fine_op.mass - given->op->mass).norm() > 1e-12 * fine_op.mass.norm()))
-      throw std::invalid_argument("eigenpairs are those of another mesh or operator: compute them of V, F.");
-    const SG::Laplace_operator coarse_op = fitted ? *fitted->op : operator_of(coarse, of_coarse, "Vc, Fc");
+      throw std::invalid_argument(
+          "eigenpairs are those of another mesh or operator: compute them of V, F.");
+    const SG::Laplace_operator coarse_op =
+        fitted ? *fitted->op : operator_of(coarse, of_coarse, "Vc, Fc");
     const SG::Eigenpairs fine_pairs = given ? *given->pairs : SG::eigenpairs(fine_op, k, options);
     const SG::Eigenpairs coarse_pairs =
         fitted ? *fitted->pairs
-               : SG::eigenpairs(coarse_op, (std::min)(N - coarse_op.vanishing, k + (k + 9) / 10), options);
+               : SG::eigenpairs(coarse_op, (std::min)(N - coarse_op.vanishing, k + (k + 9) / 10),
+                                options);
     return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
   });
   py::dict result;
@@ -295,12 +309,13 @@ inline Fitted_pairs fit_operators(const Arguments& a)
   const SG::Mesh_matrices coarse = a.mesh("Vc", "Fc");
   const Pairs fine = pairs_of(a, "eigenpairs");
   const Eigen::SparseMatrix<double> P = a.sparse("P", coarse.V.rows(), fine.op->L.rows());
-  const Index k =
-      a.has("k") ? a.integer("k", 1, coarse.V.rows()) : (std::min)(fine.pairs->size(), coarse.V.rows());
+  const Index k = a.has("k") ? a.integer("k", 1, coarse.V.rows())
+                             : (std::min)(fine.pairs->size(), coarse.V.rows());
   const std::string mass = a.word("mass", {"diagonal", "edges"}, true);
-  SG::Operator_fit_options options = SG::Operator_fit_options::for_mass(mass.empty()      ? fine.op->theta
-                                                                        : mass == "edges" ? 1.
-                                                                                          : 0.);
+  SG::Operator_fit_options options =
+      SG::Operator_fit_options::for_mass(mass.empty()      ? fine.op->theta
+                                         : mass == "edges" ? 1.
+                                                           : 0.);
   if(a.has("rings"))
     options.rings = int(a.integer("rings", 1, 2));
   options.low_modes = a.number("low_modes", 0);
@@ -317,7 +332,8 @@ inline Fitted_pairs fit_operators(const Arguments& a)
   return watch.run([&] {
     const SG::Laplace_operator op =
         named("Vc, Fc", [&] { return SG::laplace_operator(coarse.V, coarse.T, local); });
-    return fitted_pairs(SG::fit_operators(op, P, *fine.op, *fine.pairs, options), options, k, solver);
+    return fitted_pairs(SG::fit_operators(op, P, *fine.op, *fine.pairs, options), options, k,
+                        solver);
   });
 }
 
@@ -348,7 +364,8 @@ inline Eigen::MatrixXd functional_map(const Arguments& a)
   return SG::functional_map(coarse.pairs->vectors, coarse.op->B, P, fine.pairs->vectors);
 }
 
-// The vertices of a mesh of any origin moved so that its spectrum comes closer to that of a fine one.
+// The vertices of a mesh of any origin moved so that its spectrum comes closer to that of a fine
+// one.
 inline py::dict relocate(const Arguments& a)
 {
   const SG::Mesh_matrices fine = a.mesh("V", "F");
@@ -385,8 +402,8 @@ inline py::dict lift_functional_map(const Arguments& a)
     return a.matrix(name, rows, name);
   };
   const SG::Lifted_functional_map lifted =
-      SG::lift_functional_map(read("source_restriction"), read("coarse"), read("target_restriction"),
-                              a.number("tolerance", 0, true, 1));
+      SG::lift_functional_map(read("source_restriction"), read("coarse"),
+                              read("target_restriction"), a.number("tolerance", 0, true, 1));
   py::dict result;
   result["C"] = lifted.C;
   result["condition"] = lifted.condition;
@@ -408,7 +425,8 @@ inline py::array point_map(const Arguments& a)
     std::vector<Index> all;
     for(Index first = 0; first < phi.rows(); first += step) {
       const std::vector<Index> part = SG::target_to_source_map(
-          C, source.pairs->vectors, phi.middleRows(first, (std::min)(step, phi.rows() - first)), threads);
+          C, source.pairs->vectors, phi.middleRows(first, (std::min)(step, phi.rows() - first)),
+          threads);
       all.insert(all.end(), part.begin(), part.end());
       check_signals();
     }

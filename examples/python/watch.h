@@ -35,8 +35,8 @@ auto interruptible(const Work& work)
   return std::move(*result);
 }
 
-// Between a computation, which has no GIL, and Python: asks for signals and calls the callback twenty times a second and at the
-// begin of each phase. May be asked by several threads.
+// Between a computation, which has no GIL, and Python: asks for signals and calls the callback
+// twenty times a second and at the begin of each phase. May be asked by several threads.
 class Watch
 {
 public:
@@ -51,9 +51,9 @@ public:
   bool operator()(const char* phase, const double fraction)
   {
     const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-    constexpr auto pause =
-        std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::milliseconds(50))
-            .count();
+    constexpr auto pause = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                               std::chrono::milliseconds(50))
+                               .count();
     if(m_stopped || (m_phase == phase && now - m_last < pause))
       return !m_stopped;
     const py::gil_scoped_acquire gil;

@@ -28,15 +28,16 @@ inline double generated_radius(const Eigen::Vector3d& d)
   return r + 0.012 * std::sin(21 * d.z() + 14 * d.x()) * std::cos(17 * d.y());
 }
 
-// Each face of the icosahedron cut into f^2 triangles, the points moved to the body: 10 f^2 + 2 vertices, as near to
-// `vertices` as possible.
+// Each face of the icosahedron cut into f^2 triangles, the points moved to the body: 10 f^2 + 2
+// vertices, as near to `vertices` as possible.
 inline shapes::Matrices generated_shape(std::size_t vertices)
 {
   const int f = (std::max)(1, static_cast<int>(std::lround(std::sqrt(double(vertices) / 10))));
   const shapes::Matrices base = shapes::icosphere_matrices(0);
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;
-  std::map<std::pair<int, int>, std::vector<int>> sides; // f + 1 points from the smaller corner to the larger
+  std::map<std::pair<int, int>, std::vector<int>>
+      sides; // f + 1 points from the smaller corner to the larger
   std::vector<int> corner(base.V.rows(), -1);
   const auto add = [&](const Eigen::Vector3d& p) {
     points.push_back(p);
@@ -54,9 +55,10 @@ inline shapes::Matrices generated_shape(std::size_t vertices)
       for(int i = 0; i <= f; ++i) {
         const int from = reverse ? b : a, to = reverse ? a : b;
         const double t = double(i) / f;
-        side.push_back(i == 0   ? corner_point(from)
-                       : i == f ? corner_point(to)
-                                : add(((1 - t) * base.V.row(from) + t * base.V.row(to)).transpose()));
+        side.push_back(i == 0 ? corner_point(from)
+                       : i == f
+                           ? corner_point(to)
+                           : add(((1 - t) * base.V.row(from) + t * base.V.row(to)).transpose()));
       }
     return side[reverse ? f - k : k];
   };
@@ -72,8 +74,9 @@ inline shapes::Matrices generated_shape(std::size_t vertices)
         else if(i + j == f)
           rows[j].push_back(side_point(b, c, j));
         else
-          rows[j].push_back(
-              add(((f - i - j) * base.V.row(a) + i * base.V.row(b) + j * base.V.row(c)).transpose() / f));
+          rows[j].push_back(add(
+              ((f - i - j) * base.V.row(a) + i * base.V.row(b) + j * base.V.row(c)).transpose() /
+              f));
       }
     for(int j = 0; j < f; ++j)
       for(int i = 0; i + j < f; ++i) {

@@ -42,8 +42,9 @@ inline std::string read_all(int file)
 
 } // namespace in_child_internal
 
-// Calls f() in a process of its own, so that each measurement starts with an empty heap and has a peak memory of its own,
-// and returns what it returned, a structure of numbers. `peak_bytes` becomes the largest resident set of that process.
+// Calls f() in a process of its own, so that each measurement starts with an empty heap and has a
+// peak memory of its own, and returns what it returned, a structure of numbers. `peak_bytes`
+// becomes the largest resident set of that process.
 template <class Function>
 auto in_child(const Function& f, double& peak_bytes) -> decltype(f())
 {

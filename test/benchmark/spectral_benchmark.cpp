@@ -2,8 +2,9 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// How long the spectral metric takes beside CGAL's own costs, its eigenpairs beside Spectra's, and how both grow with the
-// mesh and K; --help shows the options. Each measurement has a process of its own; figures are medians.
+// How long the spectral metric takes beside CGAL's own costs, its eigenpairs beside Spectra's, and
+// how both grow with the mesh and K; --help shows the options. Each measurement has a process of
+// its own; figures are medians.
 
 #include "../../examples/programs/io/machine_memory.h"
 #include "in_child.h"
@@ -49,26 +50,32 @@ Arguments parse_arguments(int argc, char* argv[])
   Arguments a;
   po::options_description visible(
       "spectral_benchmark MESH... [options]\nspectral_benchmark --scaling CSV [options]\n\n"
-      "Measures the spectral simplification of each MESH (a file, generated:N for a shape of about N "
+      "Measures the spectral simplification of each MESH (a file, generated:N for a shape of about "
+      "N "
       "vertices, disc:D or gear:D for fans of D faces) beside "
-      "CGAL's Garland-Heckbert (plane) and Lindstrom-Turk costs, and programs of --rivals.\n\nOptions",
+      "CGAL's Garland-Heckbert (plane) and Lindstrom-Turk costs, and programs of "
+      "--rivals.\n\nOptions",
       100, 60);
   auto add = visible.add_options();
   add("help", "show this text");
-  add("vertices", po::value(&a.vertices)->value_name("N"), "target; 2 % of the mesh or 3 K, if that is more");
+  add("vertices", po::value(&a.vertices)->value_name("N"),
+      "target; 2 % of the mesh or 3 K, if that is more");
   add("eigenvectors", po::value(&a.eigenvectors)->value_name("K")->default_value(a.eigenvectors),
       "how many to keep");
-  add("preset", po::value(&a.preset)->value_name("best|paper")->default_value(a.preset), "of the options");
+  add("preset", po::value(&a.preset)->value_name("best|paper")->default_value(a.preset),
+      "of the options");
   add("pre-simplify", po::value(&a.pre_simplify)->value_name("N0"),
       "reduce to this number first, by quadrics");
   add("quadrics-above", po::value(&a.quadrics_above)->value_name("R"),
-      "collapse by quadrics above R times the target; inf by default: it is the metric's collapses that are "
+      "collapse by quadrics above R times the target; inf by default: it is the metric's collapses "
+      "that are "
       "measured");
   add("threads", po::value(&a.threads)->value_name("T"),
       "all processors by default; one is measured as well");
   add("runs", po::value(&a.runs)->value_name("R")->default_value(a.runs),
       "each figure is a median of so many");
-  add("no-spectra", po::bool_switch(&a.no_spectra), "leave out Spectra's eigenpairs, the slowest part");
+  add("no-spectra", po::bool_switch(&a.no_spectra),
+      "leave out Spectra's eigenpairs, the slowest part");
   add("pairs", po::value(&a.pairs)->value_name("LIST"),
       "measure nothing but eigenpairs, at each of these tolerances, with one thread and with all");
   add("solver", po::value(&a.solver)->value_name("block|spectra")->default_value(a.solver),
@@ -77,13 +84,18 @@ Arguments parse_arguments(int argc, char* argv[])
       "measure the programs FOLDER/NAME/run beside them, as doc/run_rivals.sh explains them");
   add("json", po::value(&a.json)->value_name("FILE"), "write the main figures of each mesh");
   add("scaling", po::value(&a.scaling)->value_name("CSV"),
-      "measure generated shapes down to 1 % of their vertices, fans of which 20 vertices are taken, and "
+      "measure generated shapes down to 1 % of their vertices, fans of which 20 vertices are "
+      "taken, and "
       "write a table");
   add("scaling-shape",
-      po::value(&a.scaling_shape)->value_name("generated|disc|gear")->default_value(a.scaling_shape),
-      "which; discs and gears have vertices of many neighbours, and --scaling-vertices is their number");
+      po::value(&a.scaling_shape)
+          ->value_name("generated|disc|gear")
+          ->default_value(a.scaling_shape),
+      "which; discs and gears have vertices of many neighbours, and --scaling-vertices is their "
+      "number");
   add("scaling-vertices",
-      po::value(&a.scaling_vertices)->value_name("LIST")->default_value(a.scaling_vertices), "their sizes");
+      po::value(&a.scaling_vertices)->value_name("LIST")->default_value(a.scaling_vertices),
+      "their sizes");
   add("scaling-eigenvectors",
       po::value(&a.scaling_eigenvectors)->value_name("LIST")->default_value(a.scaling_eigenvectors),
       "numbers of eigenvectors");
@@ -110,7 +122,8 @@ Arguments parse_arguments(int argc, char* argv[])
     throw std::runtime_error("--scaling-shape is '" + a.scaling_shape +
                              "', it must be generated, disc or gear.");
   if(!a.rivals.empty() && (a.meshes.empty() || !a.pairs.empty()))
-    throw std::runtime_error("--rivals simplify a MESH: they have no part in --pairs or --scaling.");
+    throw std::runtime_error(
+        "--rivals simplify a MESH: they have no part in --pairs or --scaling.");
   if(a.runs < 1 || a.threads < 1 || a.eigenvectors < 1)
     throw std::runtime_error("--runs, --threads and --eigenvectors must be positive.");
   return a;
@@ -126,8 +139,8 @@ double median(std::vector<double> values)
 // The runs of one subject.
 struct Samples
 {
-  std::vector<double> us_per_collapse, us_per_evaluation, evaluations_per_collapse, seconds_eigenpairs,
-      seconds_first_costs, seconds_collapse, seconds_total, peak_mb;
+  std::vector<double> us_per_collapse, us_per_evaluation, evaluations_per_collapse,
+      seconds_eigenpairs, seconds_first_costs, seconds_collapse, seconds_total, peak_mb;
 
   void add(const Spectral_time& t, double peak_bytes)
   {
@@ -196,7 +209,8 @@ void run_program(const std::string& mesh, std::size_t target, Program_samples& p
     return;
   double peak = 0;
   try {
-    const Collapse_time t = in_child([&] { return measure_program(program.path, mesh, target); }, peak);
+    const Collapse_time t =
+        in_child([&] { return measure_program(program.path, mesh, target); }, peak);
     program.samples.add(t, peak);
   } catch(const std::exception& error) {
     program.failure = error.what();
@@ -221,8 +235,8 @@ std::string threads_of(const Solver_samples& s)
 void run_solver(const std::string& mesh, const Setting& setting, Solver_samples& s)
 {
   double peak = 0;
-  const Eigenpairs_time t =
-      in_child([&] { return measure_eigenpairs(mesh, setting, s.solver, s.tolerance, s.threads); }, peak);
+  const Eigenpairs_time t = in_child(
+      [&] { return measure_eigenpairs(mesh, setting, s.solver, s.tolerance, s.threads); }, peak);
   s.seconds.push_back(t.seconds);
   s.residual = t.residual; // the same in every run
   s.peak_mb = peak / 1e6;
@@ -244,8 +258,8 @@ std::vector<Solver_samples> solvers(const Arguments& a)
 void print_collapses(const char* name, const Samples& s, double garland_heckbert)
 {
   const double us = median(s.us_per_collapse);
-  std::printf("  %-28s %9.1f %9.2f %10.2f %9.0f\n", name, us, us / garland_heckbert, median(s.seconds_total),
-              median(s.peak_mb));
+  std::printf("  %-28s %9.1f %9.2f %10.2f %9.0f\n", name, us, us / garland_heckbert,
+              median(s.seconds_total), median(s.peak_mb));
 }
 
 nlohmann::json measure(const std::string& mesh, const Arguments& a)
@@ -253,9 +267,9 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
   double peak = 0;
   const Mesh_size size = in_child([&] { return measure_mesh(mesh); }, peak);
   Setting setting;
-  setting.target = a.vertices != 0
-                       ? a.vertices
-                       : (std::max)(size.vertices / 50, static_cast<std::size_t>(3 * a.eigenvectors));
+  setting.target = a.vertices != 0 ? a.vertices
+                                   : (std::max)(size.vertices / 50,
+                                                static_cast<std::size_t>(3 * a.eigenvectors));
   setting.eigenvectors = a.eigenvectors;
   setting.pre_simplify = a.pre_simplify;
   setting.quadrics_above = a.quadrics_above;
@@ -264,7 +278,8 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
   Samples one, many, garland_heckbert, lindstrom_turk;
   std::vector<Program_samples> rivals = programs(a.rivals);
   std::vector<Solver_samples> paths = solvers(a);
-  for(int run = 0; run < a.runs; ++run) { // in turn, so that a disturbance of the machine meets all of them
+  for(int run = 0; run < a.runs;
+      ++run) { // in turn, so that a disturbance of the machine meets all of them
     run_spectral(mesh, setting, a.threads, many);
     run_rival(mesh, Rival::garland_heckbert, setting.target, garland_heckbert);
     run_rival(mesh, Rival::lindstrom_turk, setting.target, lindstrom_turk);
@@ -278,8 +293,8 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
 
   const double base = median(garland_heckbert.us_per_collapse);
   const std::string with_threads = "spectral, " + std::to_string(a.threads) + " threads";
-  std::printf("%s: %zu -> %zu vertices, K = %ld, %s mass\n", mesh.c_str(), size.vertices, setting.target,
-              a.eigenvectors, a.preset == "paper" ? "lumped" : "averaged");
+  std::printf("%s: %zu -> %zu vertices, K = %ld, %s mass\n", mesh.c_str(), size.vertices,
+              setting.target, a.eigenvectors, a.preset == "paper" ? "lumped" : "averaged");
   std::printf("  %-28s %9s %9s %10s %9s\n", "", "us/coll.", "ratio", "total s", "peak MB");
   print_collapses(a.threads > 1 ? with_threads.c_str() : "spectral, 1 thread", many, base);
   if(a.threads > 1)
@@ -292,15 +307,18 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
     else
       std::printf("  %-28s failed: %s\n", rival.name.c_str(), rival.failure.c_str());
   if(!rivals.empty())
-    std::printf("  Programs outside of CGAL read and write files in their time, unless they leave one of "
-                "their own.\n");
-  std::printf("  evaluations per collapse %.1f, us per evaluation (first costs) %.2f; seconds: eigenpairs "
-              "%.2f, first "
-              "costs %.2f, collapses with them %.2f; memory as estimated %.0f MB\n",
-              median(many.evaluations_per_collapse), median(many.us_per_evaluation),
-              median(many.seconds_eigenpairs), median(many.seconds_first_costs),
-              median(many.seconds_collapse), estimated_memory(size.vertices, setting) / 1e6);
-  std::printf("  %-28s %9s %9s %10s %9s\n", "eigenpairs", "tolerance", "threads", "seconds", "residual");
+    std::printf(
+        "  Programs outside of CGAL read and write files in their time, unless they leave one of "
+        "their own.\n");
+  std::printf(
+      "  evaluations per collapse %.1f, us per evaluation (first costs) %.2f; seconds: eigenpairs "
+      "%.2f, first "
+      "costs %.2f, collapses with them %.2f; memory as estimated %.0f MB\n",
+      median(many.evaluations_per_collapse), median(many.us_per_evaluation),
+      median(many.seconds_eigenpairs), median(many.seconds_first_costs),
+      median(many.seconds_collapse), estimated_memory(size.vertices, setting) / 1e6);
+  std::printf("  %-28s %9s %9s %10s %9s\n", "eigenpairs", "tolerance", "threads", "seconds",
+              "residual");
   for(const Solver_samples& path : paths)
     std::printf("  %-28s %9.0e %9s %10.2f %9.1e\n", path.name.c_str(), path.tolerance,
                 threads_of(path).c_str(), median(path.seconds), path.residual);
@@ -322,10 +340,11 @@ nlohmann::json measure(const std::string& mesh, const Arguments& a)
     json["seconds_eigenpairs_spectra"] = median(paths.back().seconds);
   for(const Program_samples& rival : rivals)
     json["rivals"][rival.name] =
-        rival.failure.empty() ? nlohmann::json({{"us_per_collapse", median(rival.samples.us_per_collapse)},
-                                                {"seconds_total", median(rival.samples.seconds_total)},
-                                                {"peak_rss_mb", median(rival.samples.peak_mb)}})
-                              : nlohmann::json({{"failed", rival.failure}});
+        rival.failure.empty()
+            ? nlohmann::json({{"us_per_collapse", median(rival.samples.us_per_collapse)},
+                              {"seconds_total", median(rival.samples.seconds_total)},
+                              {"peak_rss_mb", median(rival.samples.peak_mb)}})
+            : nlohmann::json({{"failed", rival.failure}});
   return json;
 }
 
@@ -362,8 +381,9 @@ nlohmann::json measure_pairs(const std::string& mesh, const Arguments& a)
   for(int run = 0; run < a.runs; ++run)
     for(Solver_samples& path : paths)
       run_solver(mesh, setting, path);
-  std::printf("%s: %zu vertices, K = %ld\n  %-28s %9s %9s %10s %9s %9s\n", mesh.c_str(), size.vertices,
-              a.eigenvectors, "eigenpairs", "tolerance", "threads", "seconds", "residual", "peak MB");
+  std::printf("%s: %zu vertices, K = %ld\n  %-28s %9s %9s %10s %9s %9s\n", mesh.c_str(),
+              size.vertices, a.eigenvectors, "eigenpairs", "tolerance", "threads", "seconds",
+              "residual", "peak MB");
   nlohmann::json json = {{"vertices", size.vertices},
                          {"eigenvectors", a.eigenvectors},
                          {"build", build_description()},
@@ -403,7 +423,8 @@ void measure_scaling(const Arguments& a)
     setting.loop_alone = fans;    // and that of fans what their collapses cost
     for(const long K : numbers<long>(a.scaling_eigenvectors)) {
       setting.eigenvectors = K;
-      const double needed = estimated_memory(size.vertices, setting), available = available_memory();
+      const double needed = estimated_memory(size.vertices, setting),
+                   available = available_memory();
       if(available > 0 && needed > available) {
         std::printf("%zu vertices, K = %ld: left out, %s of memory are needed.\n", size.vertices, K,
                     formatted_memory(needed).c_str());
@@ -415,11 +436,12 @@ void measure_scaling(const Arguments& a)
         run_rival(mesh, Rival::garland_heckbert, setting.target, garland_heckbert);
       }
       char line[300];
-      std::snprintf(line, sizeof(line), "%zu,%zu,%ld,%d,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.0f\n", size.vertices,
-                    setting.target, K, a.threads, median(spectral.us_per_collapse),
-                    median(garland_heckbert.us_per_collapse), median(spectral.evaluations_per_collapse),
-                    median(spectral.seconds_eigenpairs), median(spectral.seconds_collapse),
-                    median(spectral.seconds_total), median(spectral.peak_mb));
+      std::snprintf(line, sizeof(line), "%zu,%zu,%ld,%d,%.2f,%.2f,%.2f,%.3f,%.3f,%.3f,%.0f\n",
+                    size.vertices, setting.target, K, a.threads, median(spectral.us_per_collapse),
+                    median(garland_heckbert.us_per_collapse),
+                    median(spectral.evaluations_per_collapse), median(spectral.seconds_eigenpairs),
+                    median(spectral.seconds_collapse), median(spectral.seconds_total),
+                    median(spectral.peak_mb));
       csv << line << std::flush;
       std::cout << line << std::flush;
     }

@@ -56,8 +56,9 @@ SG::Mass mass(const Setting& setting)
 
 SMS::Spectral_edge_collapse_options spectral_options(const Setting& setting, int threads)
 {
-  SMS::Spectral_edge_collapse_options options = setting.paper ? SMS::Spectral_edge_collapse_options::paper()
-                                                              : SMS::Spectral_edge_collapse_options::best();
+  SMS::Spectral_edge_collapse_options options = setting.paper
+                                                    ? SMS::Spectral_edge_collapse_options::paper()
+                                                    : SMS::Spectral_edge_collapse_options::best();
   options.number_of_eigenvectors = setting.eigenvectors;
   options.pre_simplify = setting.pre_simplify;
   options.quadrics_above = setting.quadrics_above;
@@ -75,7 +76,8 @@ struct Scratch_folder
 
   Scratch_folder()
   {
-    std::string name = (std::filesystem::temp_directory_path() / "spectral_benchmark.XXXXXX").string();
+    std::string name =
+        (std::filesystem::temp_directory_path() / "spectral_benchmark.XXXXXX").string();
     if(mkdtemp(&name[0]) == nullptr)
       throw std::runtime_error("'" + name + "' cannot be made.");
     path = name;
@@ -106,7 +108,8 @@ std::string last_line(const std::filesystem::path& file)
   return result;
 }
 
-// The file that holds dgemm_: BLAS is chosen when the program starts, by the alternatives of the system.
+// The file that holds dgemm_: BLAS is chosen when the program starts, by the alternatives of the
+// system.
 std::string blas()
 {
   void* const function = dlsym(RTLD_DEFAULT, "dgemm_");
@@ -129,7 +132,8 @@ Spectral_time measure_spectral(const std::string& name, const Setting& setting, 
 {
   Mesh mesh = load(name);
   const std::size_t edges = mesh.number_of_edges();
-  const auto result = SMS::spectral_edge_collapse(mesh, setting.target, spectral_options(setting, threads));
+  const auto result =
+      SMS::spectral_edge_collapse(mesh, setting.target, spectral_options(setting, threads));
   Spectral_time time;
   time.seconds_pre_simplification = result.seconds_pre_simplification;
   time.seconds_eigenpairs = result.seconds_eigenpairs;
@@ -153,7 +157,8 @@ Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t ta
   if(rival == Rival::garland_heckbert) {
     SMS::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
     SMS::edge_collapse(
-        mesh, stop, CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+        mesh, stop,
+        CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
   } else
     SMS::edge_collapse(mesh, stop,
                        CGAL::parameters::get_cost(SMS::LindstromTurk_cost<Mesh>())
@@ -161,15 +166,17 @@ Collapse_time measure_rival(const std::string& name, Rival rival, std::size_t ta
   return {timer.time(), n - mesh.number_of_vertices()};
 }
 
-Collapse_time measure_program(const std::string& program, const std::string& name, std::size_t target)
+Collapse_time measure_program(const std::string& program, const std::string& name,
+                              std::size_t target)
 {
   const Scratch_folder scratch;
-  const std::string input = (scratch.path / "input.off").string(), prefix = (scratch.path / "out").string(),
+  const std::string input = (scratch.path / "input.off").string(),
+                    prefix = (scratch.path / "out").string(),
                     said = (scratch.path / "said").string();
   const Mesh mesh = load(name);
   write_mesh(input, mesh, input);
-  const std::string command = quoted(program) + ' ' + quoted(input) + ' ' + std::to_string(target) + ' ' +
-                              quoted(prefix) + " >" + quoted(said) + " 2>&1";
+  const std::string command = quoted(program) + ' ' + quoted(input) + ' ' + std::to_string(target) +
+                              ' ' + quoted(prefix) + " >" + quoted(said) + " 2>&1";
   CGAL::Real_timer timer;
   timer.start();
   const int status = std::system(command.c_str());
@@ -198,9 +205,9 @@ Eigenpairs_time measure_eigenpairs(const std::string& name, const Setting& setti
   options.verify = false;
   CGAL::Real_timer timer;
   timer.start();
-  const SG::Eigenpairs pairs = solver == Solver::block
-                                   ? SG::eigenpairs(op, setting.eigenvectors, options)
-                                   : reference::spectra_eigenpairs(op, setting.eigenvectors, tolerance);
+  const SG::Eigenpairs pairs =
+      solver == Solver::block ? SG::eigenpairs(op, setting.eigenvectors, options)
+                              : reference::spectra_eigenpairs(op, setting.eigenvectors, tolerance);
   return {timer.time(), pairs.residuals.maxCoeff()};
 }
 

@@ -9,9 +9,10 @@
 #include <limits>
 #include <string>
 
-// What is measured, apart from the program around it because CGAL's templates take their time to compile. A mesh is given by
-// the name of its file, or as "generated:N": a closed shape without symmetry of about N
-// vertices, or as "disc:D" and "gear:D", with one vertex of D neighbours in 1 + D, and two in 2 + 4 D.
+// What is measured, apart from the program around it because CGAL's templates take their time to
+// compile. A mesh is given by the name of its file, or as "generated:N": a closed shape without
+// symmetry of about N vertices, or as "disc:D" and "gear:D", with one vertex of D neighbours in 1 +
+// D, and two in 2 + 4 D.
 
 struct Setting
 {
@@ -59,9 +60,11 @@ Spectral_time measure_spectral(const std::string& mesh, const Setting& setting, 
 // CGAL's edge_collapse() with a cost and placement of its own, their construction included.
 Collapse_time measure_rival(const std::string& mesh, Rival rival, std::size_t target);
 
-// A program outside of CGAL, from its start to its end, reading and writing included, or, where it leaves PREFIX.seconds, so long.
-// It is called as doc/run_rivals.sh says: `program INPUT N PREFIX`. Throws with its last words when it fails.
-Collapse_time measure_program(const std::string& program, const std::string& mesh, std::size_t target);
+// A program outside of CGAL, from its start to its end, reading and writing included, or, where it
+// leaves PREFIX.seconds, so long. It is called as doc/run_rivals.sh says: `program INPUT N PREFIX`.
+// Throws with its last words when it fails.
+Collapse_time measure_program(const std::string& program, const std::string& mesh,
+                              std::size_t target);
 
 // eigenpairs(), without the Laplacian; `residual` is the largest.
 Eigenpairs_time measure_eigenpairs(const std::string& mesh, const Setting& setting, Solver solver,

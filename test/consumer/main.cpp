@@ -35,9 +35,11 @@ int main()
   std::string solver;
   const Eigen::SparseMatrix<double> P = simplify(mesh, 100, solver);
   mesh.collect_garbage();
-  const bool good = solver == "block" && num_vertices(mesh) == 100 && P.rows() == 100 && P.cols() == fine &&
+  const bool good = solver == "block" && num_vertices(mesh) == 100 && P.rows() == 100 &&
+                    P.cols() == fine &&
                     (P * Eigen::VectorXd::Ones(fine) - Eigen::VectorXd::Ones(100)).norm() < 1e-10;
-  std::cout << fine << " -> " << num_vertices(mesh) << " vertices, restriction " << P.rows() << " x "
-            << P.cols() << ", " << P.nonZeros() << " entries; eigenpairs by " << solver << '\n';
+  std::cout << fine << " -> " << num_vertices(mesh) << " vertices, restriction " << P.rows()
+            << " x " << P.cols() << ", " << P.nonZeros() << " entries; eigenpairs by " << solver
+            << '\n';
   return good ? 0 : 1;
 }

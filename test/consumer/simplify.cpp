@@ -12,7 +12,8 @@
 
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices, std::string& solver)
+Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices,
+                                     std::string& solver)
 {
   SMS::Spectral_options options;
   options.number_of_eigenvectors = 20;

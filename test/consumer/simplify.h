@@ -14,8 +14,9 @@
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// Simplifies `mesh` to `number_of_vertices` and returns the restriction (coarse x fine). `solver` becomes the name of
-// what computed the eigenpairs.
-Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices, std::string& solver);
+// Simplifies `mesh` to `number_of_vertices` and returns the restriction (coarse x fine). `solver`
+// becomes the name of what computed the eigenpairs.
+Eigen::SparseMatrix<double> simplify(Mesh& mesh, std::size_t number_of_vertices,
+                                     std::string& solver);
 
 #endif // SPECTRAL_CONSUMER_SIMPLIFY_H

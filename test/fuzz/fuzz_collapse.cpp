@@ -2,7 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Bytes become a small mesh and options; it is simplified, and everything that must hold afterwards is checked.
+// Bytes become a small mesh and options; it is simplified, and everything that must hold afterwards
+// is checked.
 //
 //   fuzz_collapse RUNS SEED    random bytes
 //   fuzz_collapse FILE...      the bytes of these files
@@ -56,10 +57,11 @@ double largest_cotangent(const shapes::Matrices& mesh)
 {
   double result = 0;
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f)
-    result = (std::max)(result, SG::triangle_cotangents(mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)),
-                                                        mesh.V.row(mesh.T(f, 2)))
-                                    .cot.cwiseAbs()
-                                    .maxCoeff());
+    result = (std::max)(result,
+                        SG::triangle_cotangents(mesh.V.row(mesh.T(f, 0)), mesh.V.row(mesh.T(f, 1)),
+                                                mesh.V.row(mesh.T(f, 2)))
+                            .cot.cwiseAbs()
+                            .maxCoeff());
   return result;
 }
 
@@ -73,7 +75,8 @@ struct Outcome
 };
 
 // E recomputed from whole matrices, with the rounding that cotangents of that size leave in it.
-std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, const shapes::Matrices& fine,
+std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome,
+                       const shapes::Matrices& fine,
                        const SMS::Spectral_edge_collapse_options& options)
 {
   const double worst_angle = (std::max)(largest_cotangent(coarse), largest_cotangent(fine));
@@ -85,12 +88,13 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
   const SG::Local_operator local = SMS::internal::local_operator(options);
   const SG::Laplace_operator op = SG::laplace_operator(fine.V, fine.T, local);
   const bool given = options.signals.size() != 0;
-  Basis basis =
-      given ? signal_basis(fine, local, options.signals) : basis_of_pairs(op, *outcome.pairs, local);
+  Basis basis = given ? signal_basis(fine, local, options.signals)
+                      : basis_of_pairs(op, *outcome.pairs, local);
   if(!given && SMS::internal::pairs_are_rough(outcome.pairs->residuals))
-    basis.Z = signal_basis(fine, local, basis.F).Z; // as the policies do where needles have left them rough
-  const SG::Laplace_operator now =
-      SG::laplace_operator(coarse.V, coarse.T, {options.mass, outcome.coefficients, options.boundary});
+    basis.Z = signal_basis(fine, local, basis.F)
+                  .Z; // as the policies do where needles have left them rough
+  const SG::Laplace_operator now = SG::laplace_operator(
+      coarse.V, coarse.T, {options.mass, outcome.coefficients, options.boundary});
   const Eigen::SparseMatrix<double> B = now.B / basis.area;
   Eigen::MatrixXd PF = outcome.P * basis.F, PZ = outcome.P * basis.Z;
   if(options.weights.size() != 0) {
@@ -100,9 +104,11 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome, c
   const Eigen::VectorXd mass = now.mass / basis.area;
   const Eigen::VectorXd E = (B * PZ - now.L * PF).rowwise().squaredNorm().cwiseQuotient(mass);
   const Eigen::SparseMatrix<double> size_of_L = now.L.cwiseAbs();
-  const Eigen::VectorXd rounding =
-      1e-13 * (100 + worst_angle) *
-      (B * PZ.cwiseAbs() + size_of_L * PF.cwiseAbs()).rowwise().norm().cwiseQuotient(mass.cwiseSqrt());
+  const Eigen::VectorXd rounding = 1e-13 * (100 + worst_angle) *
+                                   (B * PZ.cwiseAbs() + size_of_L * PF.cwiseAbs())
+                                       .rowwise()
+                                       .norm()
+                                       .cwiseQuotient(mass.cwiseSqrt());
   const double tolerance =
       1e-6 * E.sum() + (2 * E.cwiseSqrt().cwiseProduct(rounding) + rounding.cwiseAbs2()).sum();
   if(!(std::abs(E.sum() - outcome.E) <= tolerance))
@@ -118,12 +124,14 @@ std::string fault_of_estimate(const double E)
 // Whether the metric may see mixtures: of fewer signals it never does.
 bool has_mixtures(const Policies& policies, const SMS::Spectral_edge_collapse_options& options)
 {
-  const Eigen::Index K = policies.eigenpairs() ? policies.eigenpairs()->size() : options.signals.cols();
+  const Eigen::Index K =
+      policies.eigenpairs() ? policies.eigenpairs()->size() : options.signals.cols();
   return SMS::internal::is_filtered(options) ||
          (options.number_of_mixtures != 0 && options.number_of_mixtures < K);
 }
 
-std::string fault_of_result(const Mesh& mesh, const Policies& policies, const shapes::Matrices& fine,
+std::string fault_of_result(const Mesh& mesh, const Policies& policies,
+                            const shapes::Matrices& fine,
                             const SMS::Spectral_edge_collapse_options& options)
 {
   if(!CGAL::is_valid_polygon_mesh(mesh) || !CGAL::is_triangle_mesh(mesh))
@@ -135,16 +143,19 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies, const sh
     return fault;
   if(!options.binary && options.placement != SMS::Spectral_placement_strategy::free &&
      !(position_error(P, fine.V, coarse.V) < 1e-11))
-    return "P times the fine positions is off by " + std::to_string(position_error(P, fine.V, coarse.V));
+    return "P times the fine positions is off by " +
+           std::to_string(position_error(P, fine.V, coarse.V));
   if(has_mixtures(policies, options)) // then E is an estimate
     return fault_of_estimate(policies.error());
-  return fault_of_E(coarse,
-                    {P, policies.error(), policies.relative_error(), policies.eigenpairs().get(),
-                     SG::Local_operator(options.mass, options.coefficients).restricted(P).coefficients},
-                    fine, options);
+  return fault_of_E(
+      coarse,
+      {P, policies.error(), policies.relative_error(), policies.eigenpairs().get(),
+       SG::Local_operator(options.mass, options.coefficients).restricted(P).coefficients},
+      fine, options);
 }
 
-// --- The one call, with all that it takes ------------------------------------------------------------------------------
+// --- The one call, with all that it takes
+// ------------------------------------------------------------------------------
 
 // Which edges are constrained.
 struct Edge_flags
@@ -157,7 +168,10 @@ struct Edge_flags
   explicit Edge_flags(const Mesh& mesh)
     : flags(std::make_shared<std::vector<char>>(mesh.num_edges(), 0))
   {}
-  friend bool get(const Edge_flags& map, const key_type e) { return (*map.flags)[std::size_t(e)] != 0; }
+  friend bool get(const Edge_flags& map, const key_type e)
+  {
+    return (*map.flags)[std::size_t(e)] != 0;
+  }
   friend void put(const Edge_flags& map, const key_type e, const bool flag)
   {
     (*map.flags)[std::size_t(e)] = flag;
@@ -191,7 +205,8 @@ std::string fault_of_log(Mesh copy, const Edge_flags& flags, const Mesh& mesh, c
 {
   const auto np = CGAL::parameters::edge_is_constrained_map(flags);
   SMS::Collapse_replay<Mesh, std::decay_t<decltype(np)>> replay(copy, result.log, np);
-  const std::size_t n = count_vertices(copy), level = n - call.level % (n - result.output_vertices + 1);
+  const std::size_t n = count_vertices(copy),
+                    level = n - call.level % (n - result.output_vertices + 1);
   for(const std::size_t N : {level, result.output_vertices}) {
     replay.collapse_to(N);
     if(!CGAL::is_valid_polygon_mesh(copy) || count_vertices(copy) != N)
@@ -238,16 +253,20 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
      (result.output_vertices < call.N && !call.has_zero_lengths()))
     return "the vertices are miscounted";
   const bool reached = result.output_vertices <= call.N;
-  if(result.stop_reason != Reason::cancelled && reached != (result.stop_reason == Reason::target_reached))
+  if(result.stop_reason != Reason::cancelled &&
+     reached != (result.stop_reason == Reason::target_reached))
     return "the reason for which the run ended is wrong";
   const shapes::Matrices coarse = SG::mesh_matrices(mesh);
   const bool binary = call.options.binary && !call.pre_simplified();
   const std::string fault =
-      result.relocation.resampled ? "" : fault_of_restriction(result.restriction, result.vertex_map, binary);
+      result.relocation.resampled
+          ? ""
+          : fault_of_restriction(result.restriction, result.vertex_map, binary);
   if(!fault.empty())
     return fault;
-  if(!binary && call.options.placement != SMS::Spectral_placement_strategy::free && !call.pre_simplified() &&
-     !call.options.relocate && call.options.boundary == SG::Boundary_condition::neumann && // see its option
+  if(!binary && call.options.placement != SMS::Spectral_placement_strategy::free &&
+     !call.pre_simplified() && !call.options.relocate &&
+     call.options.boundary == SG::Boundary_condition::neumann && // see its option
      !(position_error(result.restriction, call.fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off";
   // Before the first collapse E is the rounding of 0, which a bound of 0 is below.
@@ -257,17 +276,19 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
            std::to_string(result.relative_error / call.options.maximum_error) + " times the bound";
   if(SMS::internal::is_filtered(call.options))
     return fault_of_estimate(result.E);
-  if(!result.eigenpairs && call.options.signals.size() == 0) // cancelled before the first spectral collapse
+  if(!result.eigenpairs &&
+     call.options.signals.size() == 0) // cancelled before the first spectral collapse
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
     return fault_of_estimate(result.E);
-  return fault_of_E(
-      coarse,
-      {result.restriction, result.E, result.relative_error, result.eigenpairs.get(), result.coefficients},
-      call.fine, call.options);
+  return fault_of_E(coarse,
+                    {result.restriction, result.E, result.relative_error, result.eigenpairs.get(),
+                     result.coefficients},
+                    call.fine, call.options);
 }
 
-// Operators of the coarse mesh, fitted to the pairs of the run, or to what has nothing to do with them.
+// Operators of the coarse mesh, fitted to the pairs of the run, or to what has nothing to do with
+// them.
 std::string fault_of_fitting(const shapes::Matrices& coarse, const One_call& call,
                              const SMS::Spectral_edge_collapse_result& result, Bytes& bytes)
 {
@@ -281,16 +302,17 @@ std::string fault_of_fitting(const shapes::Matrices& coarse, const One_call& cal
   if(result.eigenpairs && result.eigenpairs->vectors.rows() == n && !bytes.one_in(4))
     pairs = *result.eigenpairs;
   else {
-    pairs.vectors =
-        Eigen::MatrixXd::NullaryExpr(n, 1 + bytes.below(int(n)), [](Eigen::Index v, Eigen::Index k) {
+    pairs.vectors = Eigen::MatrixXd::NullaryExpr(
+        n, 1 + bytes.below(int(n)), [](Eigen::Index v, Eigen::Index k) {
           return std::sin(12.9898 * double(v + 1) * double(k + 1));
         });
     pairs.values = Eigen::VectorXd::LinSpaced(pairs.vectors.cols(), 0, 1000 / fine.mass.sum());
     for(Eigen::Index k = 0; k < pairs.vectors.cols(); ++k)
       pairs.vectors.col(k) /= std::sqrt(pairs.vectors.col(k).cwiseAbs2().dot(fine.mass));
   }
-  const bool good = own.mass.allFinite() && own.mass.minCoeff() > 0 && std::isfinite(fine.mass.sum()) &&
-                    std::isfinite(own.L.sum()) && pairs.vectors.allFinite() && pairs.values.allFinite();
+  const bool good = own.mass.allFinite() && own.mass.minCoeff() > 0 &&
+                    std::isfinite(fine.mass.sum()) && std::isfinite(own.L.sum()) &&
+                    pairs.vectors.allFinite() && pairs.values.allFinite();
   try {
     const SG::Operator_fit_result fit =
         SG::fit_operators(own, result.restriction, fine, pairs, fit_options_from(bytes));
@@ -311,7 +333,9 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   *flags_before.flags = *flags_of_replay.flags = *flags.flags;
   int calls = 0;
   SMS::Spectral_edge_collapse_options options = call.options;
-  options.progress = [&](const SMS::Spectral_progress&) { return ++calls != call.calls_until_cancelled; };
+  options.progress = [&](const SMS::Spectral_progress&) {
+    return ++calls != call.calls_until_cancelled;
+  };
   SMS::Spectral_edge_collapse_result result;
   try {
     const auto np = CGAL::parameters::edge_is_constrained_map(flags);
@@ -323,7 +347,8 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   } catch(const std::invalid_argument& error) {
     const bool expected = std::string(error.what()).find("both to be kept") != std::string::npos;
     const bool few = std::string(error.what()).find("where functions vanish") != std::string::npos;
-    return (expected || few) && unchanged(mesh, before) ? "" : std::string("refused: ") + error.what();
+    return (expected || few) && unchanged(mesh, before) ? ""
+                                                        : std::string("refused: ") + error.what();
   } catch(const std::runtime_error& error) {
     if(std::string(error.what()).find("pre_simplify has left") != std::string::npos)
       return ""; // the first stage made needles
@@ -336,15 +361,16 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
     fault = fault_of_log(before, flags_of_replay, mesh, call, result);
   if(fault.empty() && result.fitted) {
     const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-    fault = fault_of_fit(*result.fitted,
-                         SG::laplace_operator(coarse.V, coarse.T, {call.options.mass, result.coefficients}));
+    fault = fault_of_fit(
+        *result.fitted,
+        SG::laplace_operator(coarse.V, coarse.T, {call.options.mass, result.coefficients}));
   }
   return fault.empty() && !is_large(call.fine) && bytes.one_in(4)
              ? fault_of_fitting(SG::mesh_matrices(mesh), call, result, bytes)
              : fault;
 }
 
-// -----------------------------------------------------------------------------------------------------------------------
+// ------------------------------------------------------------------------------------------------
 
 bool refused(Mesh& mesh, const SMS::Spectral_edge_collapse_options& options)
 {
@@ -356,7 +382,8 @@ bool refused(Mesh& mesh, const SMS::Spectral_edge_collapse_options& options)
   }
 }
 
-// --- The policies, handed about ----------------------------------------------------------------------------------------
+// --- The policies, handed about
+// ----------------------------------------------------------------------------------------
 
 // The user's filter where `Handling` places it.
 struct Placed_filter
@@ -365,7 +392,8 @@ struct Placed_filter
   OptionalPoint operator()(const Profile& profile, const OptionalPoint& point) const
   {
     using Place = Handling::Place;
-    const OptionalPoint p = place == Place::in_front || place == Place::alone ? user(profile, point) : point;
+    const OptionalPoint p =
+        place == Place::in_front || place == Place::alone ? user(profile, point) : point;
     if(!p || place == Place::alone)
       return p;
     return place == Place::behind ? with_user(profile, p) : ours(profile, p);
@@ -404,7 +432,8 @@ bool stands_for_nothing(const Policies& policies)
   }
 }
 
-// The same policies in another place; empty unless what has been left there is still good for something.
+// The same policies in another place; empty unless what has been left there is still good for
+// something.
 std::string fault_of_moves(std::unique_ptr<Policies>& policies, const Handling& handling)
 {
   if(handling.does(Handling::move)) {
@@ -456,7 +485,8 @@ std::string fault_of_kept(const Mesh& mesh, const Policies& policies, const shap
 }
 
 std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagnosis& diagnosis,
-                              SMS::Spectral_edge_collapse_options options, const std::size_t N, Bytes& bytes)
+                              SMS::Spectral_edge_collapse_options options, const std::size_t N,
+                              Bytes& bytes)
 {
   const Handling handling(bytes);
   options.kept_vertices = some_vertices(bytes, fine);
@@ -486,8 +516,9 @@ std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagn
     }
     if(handling.does(Handling::collect))
       mesh->collect_garbage();
-    const std::size_t target =
-        run == handling.runs || N > n ? N : n - (n - N) * std::size_t(run) / std::size_t(handling.runs);
+    const std::size_t target = run == handling.runs || N > n
+                                   ? N
+                                   : n - (n - N) * std::size_t(run) / std::size_t(handling.runs);
     SMS::edge_collapse(*mesh, SMS::Vertex_count_stop_predicate<Mesh>(target, *mesh),
                        CGAL::parameters::get_cost(handles->cost)
                            .get_placement(handles->placement)
@@ -499,8 +530,10 @@ std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagn
       fault = what;
   };
   check(costs_are_numbers, "a cost is not a number");
-  check(count_vertices(*mesh) == policies->state().number_of_vertices(), "the vertices are miscounted");
-  check(count_vertices(*mesh) >= N || diagnosis.zero_length_edges.count != 0, "the target was missed");
+  check(count_vertices(*mesh) == policies->state().number_of_vertices(),
+        "the vertices are miscounted");
+  check(count_vertices(*mesh) >= N || diagnosis.zero_length_edges.count != 0,
+        "the target was missed");
   check(topology(*mesh) == topology(before), "the topology has changed");
   if(fault.empty())
     fault = fault_of_result(*mesh, *policies, fine, options);
@@ -523,7 +556,7 @@ std::string fault_of_policies(const shapes::Matrices& fine, const SG::Mesh_diagn
   return fault;
 }
 
-// -----------------------------------------------------------------------------------------------------------------------
+// ------------------------------------------------------------------------------------------------
 
 // What went wrong; empty if nothing did.
 std::string fault_of_input(Bytes bytes)
@@ -542,8 +575,9 @@ std::string fault_of_input(Bytes bytes)
     Mesh mesh = make_mesh(fine);
     return refused(mesh, options) ? "" : "accepted: " + diagnosis.obstacles().front();
   }
-  return bytes.one_in(2) ? fault_of_one_call(make_mesh(fine), {fine, diagnosis, options, N, {}, 0, 0}, bytes)
-                         : fault_of_policies(fine, diagnosis, options, N, bytes);
+  return bytes.one_in(2)
+             ? fault_of_one_call(make_mesh(fine), {fine, diagnosis, options, N, {}, 0, 0}, bytes)
+             : fault_of_policies(fine, diagnosis, options, N, bytes);
 }
 
 } // namespace
@@ -565,7 +599,8 @@ spectral_test::Byte_string spectral_test::random_input(std::mt19937& random)
   return bytes;
 }
 
-spectral_test::Byte_string spectral_test::input_of_file(const std::string&, const Byte_string& contents)
+spectral_test::Byte_string spectral_test::input_of_file(const std::string&,
+                                                        const Byte_string& contents)
 {
   return contents;
 }

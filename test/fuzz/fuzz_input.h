@@ -19,7 +19,8 @@
 #include <limits>
 #include <vector>
 
-// What a fuzzer's bytes mean: a small mesh, and options. A change here changes the meaning of every input on record.
+// What a fuzzer's bytes mean: a small mesh, and options. A change here changes the meaning of every
+// input on record.
 namespace spectral_test {
 
 using Polygons = std::vector<std::vector<std::size_t>>;
@@ -52,7 +53,8 @@ inline Polygons polygons_of(const Eigen::MatrixXi& T)
   return result;
 }
 
-// Triangles between any vertices, each taken if the surface is still an oriented manifold but for fans that touch.
+// Triangles between any vertices, each taken if the surface is still an oriented manifold but for
+// fans that touch.
 inline shapes::Matrices any_triangles(Bytes& bytes)
 {
   const int n = 3 + bytes.below(10);
@@ -99,7 +101,8 @@ inline shapes::Matrices shape(Bytes& bytes)
   case 4:
     return wavy_grid_matrices(1 + bytes.below(8), 1 + bytes.below(6));
   case 5:
-    return shapes::components_matrices(shapes::torus_matrices(3 + bytes.below(2), 3), 1 + bytes.below(3));
+    return shapes::components_matrices(shapes::torus_matrices(3 + bytes.below(2), 3),
+                                       1 + bytes.below(3));
   case 6:
     return shapes::grid_matrices(1 + bytes.below(6), 1 + bytes.below(6));
   case 7:
@@ -119,23 +122,26 @@ inline void make_holes(shapes::Matrices& mesh, Bytes& bytes)
   }
 }
 
-// Edges without length, short edges, flat parts, other units of length, offsets, rarely something that is no number.
+// Edges without length, short edges, flat parts, other units of length, offsets, rarely something
+// that is no number.
 inline void disturb(shapes::Matrices& mesh, Bytes& bytes)
 {
   const int n = int(mesh.V.rows());
   for(int i = bytes.below(8) - 1; i > 0 && !bytes.empty(); --i) {
-    const int f = bytes.below(int(mesh.T.rows())), v = mesh.T(f, 0), w = mesh.T(f, 1), x = mesh.T(f, 2);
+    const int f = bytes.below(int(mesh.T.rows())), v = mesh.T(f, 0), w = mesh.T(f, 1),
+              x = mesh.T(f, 2);
     const double t = bytes.unit();
     switch(bytes.below(9)) {
     case 0:
       mesh.V.row(v) = mesh.V.row(w);
       break;
     case 1:
-      mesh.V.row(v) = mesh.V.row(w) + std::pow(10., -1 - bytes.below(16)) * (mesh.V.row(v) - mesh.V.row(w));
+      mesh.V.row(v) =
+          mesh.V.row(w) + std::pow(10., -1 - bytes.below(16)) * (mesh.V.row(v) - mesh.V.row(w));
       break;
     case 2: // a cap, more or less flat
-      mesh.V.row(v) =
-          (1 - t) * mesh.V.row(w) + t * mesh.V.row(x) + std::pow(10., -1 - bytes.below(16)) * mesh.V.row(v);
+      mesh.V.row(v) = (1 - t) * mesh.V.row(w) + t * mesh.V.row(x) +
+                      std::pow(10., -1 - bytes.below(16)) * mesh.V.row(v);
       break;
     case 3:
       mesh.V.col(bytes.below(3)) *= std::pow(10., -bytes.below(12));
@@ -144,11 +150,13 @@ inline void disturb(shapes::Matrices& mesh, Bytes& bytes)
       mesh.V *= std::pow(10., bytes.below(200) - 100);
       break;
     case 5:
-      mesh.V.col(bytes.below(3)).array() += std::pow(10., bytes.below(14) - 5) * mesh.V.cwiseAbs().maxCoeff();
+      mesh.V.col(bytes.below(3)).array() +=
+          std::pow(10., bytes.below(14) - 5) * mesh.V.cwiseAbs().maxCoeff();
       break;
     case 6:
-      mesh.V.row(v) += mesh.V.cwiseAbs().maxCoeff() *
-                       Eigen::RowVector3d(bytes.unit() - 0.5, bytes.unit() - 0.5, bytes.unit() - 0.5);
+      mesh.V.row(v) +=
+          mesh.V.cwiseAbs().maxCoeff() *
+          Eigen::RowVector3d(bytes.unit() - 0.5, bytes.unit() - 0.5, bytes.unit() - 0.5);
       break;
     case 7:
       mesh.V.row(bytes.below(n)) = mesh.V.row(bytes.below(n));
@@ -178,7 +186,8 @@ inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shap
   options.threads = bytes.one_in(16) ? 2 : 1;
   const double losses[] = {10, 0.1, std::numeric_limits<double>::infinity()};
   options.largest_loss = losses[bytes.below(3)];
-  const unsigned basis = bytes.byte(); // large meshes are rarely solved, which takes most of the time
+  const unsigned basis =
+      bytes.byte(); // large meshes are rarely solved, which takes most of the time
   if(is_large(mesh) ? basis % 8 != 0 : basis % 4 == 3) {
     options.number_of_eigenvectors =
         (std::min)(options.number_of_eigenvectors, Eigen::Index(is_large(mesh) ? 6 : 40));
@@ -250,8 +259,9 @@ struct Handling
   bool does(const unsigned step) const { return (steps & step) != 0; }
 
   enum class Place { none, behind, in_front, alone };
-  // Of the policies: moved, copied while the original goes, others made for the same mesh. Of the mesh: copied and put back,
-  // garbage collected, both before each run. At the end: the policies go before their handles, the mesh before all.
+  // Of the policies: moved, copied while the original goes, others made for the same mesh. Of the
+  // mesh: copied and put back, garbage collected, both before each run. At the end: the policies go
+  // before their handles, the mesh before all.
   enum Step : unsigned {
     move = 1,
     copy = 2,
@@ -320,7 +330,8 @@ inline SG::Operator_coefficients coefficients_from(Bytes& bytes, const Eigen::In
     for(const int i : {1, 4, 6})
       result(v, i) = c;
     if(tensors) {
-      const double x = wave(1.3), y = wave(2.1), z = wave(0.7), more = std::pow(contrast, 0.5 * wave(7.1));
+      const double x = wave(1.3), y = wave(2.1), z = wave(0.7),
+                   more = std::pow(contrast, 0.5 * wave(7.1));
       const double axis[6] = {x * x, x * y, x * z, y * y, y * z, z * z};
       for(int i = 0; i < 6; ++i)
         result(v, 1 + i) += more * axis[i];
@@ -355,9 +366,10 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
     o.maximum_error = bytes.unit();
   o.quadrics_above = 1 + 4 * bytes.unit();
   if(bytes.one_in(4) && o.signals.size() == 0) {
-    o.pre_simplify =
-        (std::min)(std::size_t(n), (std::max)(std::size_t(2), call.N + std::size_t(bytes.below(n))));
-    o.number_of_eigenvectors = (std::min)(o.number_of_eigenvectors, Eigen::Index(o.pre_simplify) - 1);
+    o.pre_simplify = (std::min)(std::size_t(n),
+                                (std::max)(std::size_t(2), call.N + std::size_t(bytes.below(n))));
+    o.number_of_eigenvectors =
+        (std::min)(o.number_of_eigenvectors, Eigen::Index(o.pre_simplify) - 1);
     if(o.weights.size() != 0)
       o.weights.conservativeResize(o.number_of_eigenvectors);
   }

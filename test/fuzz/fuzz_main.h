@@ -15,7 +15,8 @@
 #include <string>
 #include <vector>
 
-// What runs a fuzz target: libFuzzer if SPECTRAL_LIBFUZZER is defined, otherwise a main() with RUNS SEED or FILE...
+// What runs a fuzz target: libFuzzer if SPECTRAL_LIBFUZZER is defined, otherwise a main() with RUNS
+// SEED or FILE...
 namespace spectral_test {
 
 using Byte_string = std::vector<std::uint8_t>;
@@ -65,7 +66,8 @@ int main(int argc, char* argv[])
   } else {
     for(int i = 1; i < argc; ++i) {
       std::ifstream stream(argv[i], std::ios::binary);
-      const std::vector<char> text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+      const std::vector<char> text{std::istreambuf_iterator<char>(stream),
+                                   std::istreambuf_iterator<char>()};
       run(input_of_file(argv[i], Byte_string(text.begin(), text.end())), argv[i]);
     }
     std::printf("%d files, %d failures\n", argc - 1, failures);

@@ -2,11 +2,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Bytes become a file, which the programs' reader of its format either reads or refuses in a sentence.
+// Bytes become a file, which the programs' reader of its format either reads or refuses in a
+// sentence.
 //
 //   fuzz_readers RUNS SEED    small valid files, damaged
-//   fuzz_readers FILE...      these files, of which the extension is the format; without one that is known the first byte is
-// or, with SPECTRAL_FUZZ and clang, a target of libFuzzer: -malloc_limit_mb=64, and TMPDIR in memory. It needs no corpus.
+//   fuzz_readers FILE...      these files, of which the extension is the format; without one that
+//   is known the first byte is
+// or, with SPECTRAL_FUZZ and clang, a target of libFuzzer: -malloc_limit_mb=64, and TMPDIR in
+// memory. It needs no corpus.
 
 #include "../../examples/programs/io/index_reader.h"
 #include "../../examples/programs/io/input_mesh.h"
@@ -48,7 +51,8 @@
 #endif
 
 #ifdef SPECTRAL_LIBFUZZER
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t largest_size);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size,
+                                        std::size_t largest_size);
 #endif
 
 namespace {
@@ -111,7 +115,8 @@ std::string fault_of_soup(const Polygon_soup& soup, const std::size_t size)
   if(corners > 3 * size || soup.polygons.size() > size)
     return "the soup is larger than the file";
   const auto diagnosis = diagnose(soup);
-  if(diagnosis.number_of_vertices != soup.points.size() || diagnosis.number_of_faces != soup.polygons.size())
+  if(diagnosis.number_of_vertices != soup.points.size() ||
+     diagnosis.number_of_faces != soup.polygons.size())
     return "the diagnosis has counted something else";
   if(diagnosis.usable())
     for(const auto& polygon : soup.polygons)
@@ -155,7 +160,8 @@ std::string fault_of_npy(const std::string& path, const std::size_t size)
 std::string fault_of_matrix_market(const std::string& path, const std::size_t size)
 {
   long long rows = 0, columns = 0, nonzeros = 0;
-  const auto objection = [&](const long long r, const long long c, const long long k) -> std::string {
+  const auto objection = [&](const long long r, const long long c,
+                             const long long k) -> std::string {
     rows = r;
     columns = c;
     nonzeros = k;
@@ -197,7 +203,8 @@ std::string fault_of_mesh_file(const std::string& path, const std::size_t size)
   return fault;
 }
 
-std::string fault_of_file(const std::string& extension, const std::string& path, const std::size_t size)
+std::string fault_of_file(const std::string& extension, const std::string& path,
+                          const std::size_t size)
 {
   if(extension == ".npy")
     return fault_of_npy(path, size);
@@ -209,7 +216,8 @@ std::string fault_of_file(const std::string& extension, const std::string& path,
 }
 
 #ifdef SPECTRAL_LIMITS_MEMORY
-// Memory as the file announces it is then no memory at all, which is a fault. Most of it are the libraries.
+// Memory as the file announces it is then no memory at all, which is a fault. Most of it are the
+// libraries.
 struct Memory_limit
 {
   Memory_limit()
@@ -247,7 +255,8 @@ spectral_test::Byte_string spectral_test::random_input(std::mt19937& random)
   return input_of(seed.extension, mutated(seed.contents, random));
 }
 
-spectral_test::Byte_string spectral_test::input_of_file(const std::string& path, const Byte_string& contents)
+spectral_test::Byte_string spectral_test::input_of_file(const std::string& path,
+                                                        const Byte_string& contents)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
   const bool known = std::find(extensions.begin(), extensions.end(), extension) != extensions.end();

@@ -19,7 +19,8 @@
 namespace spectral_test {
 
 // The first byte of an input modulo their number; the rest is the file.
-constexpr std::array<const char*, 7> extensions = {".off", ".obj", ".ply", ".stl", ".npy", ".mtx", ".txt"};
+constexpr std::array<const char*, 7> extensions = {".off", ".obj", ".ply", ".stl",
+                                                   ".npy", ".mtx", ".txt"};
 
 struct Seed
 {
@@ -47,7 +48,8 @@ std::string raw(const std::initializer_list<Number> numbers, const bool big_endi
 inline std::string npy(const std::string& type, const std::string& order, const std::string& shape,
                        const std::string& data, const char version = 1)
 {
-  std::string text = "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
+  std::string text =
+      "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': (" + shape + "), }";
   text.append(69 - text.size(), ' ');
   text += '\n';
   std::string bytes = "\x93NUMPY";
@@ -60,8 +62,8 @@ inline std::string npy(const std::string& type, const std::string& order, const 
 
 // A tetrahedron, of the vertices and faces of which the types are given by name and by the numbers.
 template <class Coordinate, class Count, class Index>
-std::string binary_ply(const std::string& coordinate, const std::string& count, const std::string& index,
-                       const bool big_endian)
+std::string binary_ply(const std::string& coordinate, const std::string& count,
+                       const std::string& index, const bool big_endian)
 {
   std::string bytes = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
                       "_endian 1.0\nelement vertex 4\n";
@@ -92,34 +94,44 @@ inline const std::vector<Seed>& valid_files()
   static const std::vector<Seed> files = {
       {".off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"},
       {".off", "4OFF # four\n4 1 0\n0 0 0 1 1 0 0 1\n1 1 0 1 0 1 0 2\n4 0 1 2\n3\n"},
-      {".off", "\xEF\xBB\xBFSTCNOFF\r\n3 1\r\n0 0 0 9 9\r\n1e0 0 \\\r\n0\r\n.5 1 0x1p-2\r\n3 0 1 2 7\r\n"},
+      {".off",
+       "\xEF\xBB\xBFSTCNOFF\r\n3 1\r\n0 0 0 9 9\r\n1e0 0 \\\r\n0\r\n.5 1 0x1p-2\r\n3 0 1 2 7\r\n"},
       {".obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0 1\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1/1/1 3//1 2/7\n"
                "f 1 2 4\nf -3 -2 -1\nl 1 2\nf 1 \\\n4 3\n"},
       {".ply",
        "ply\nformat ascii 1.0\ncomment c\nelement vertex 4\nproperty float x\nproperty float y\n"
-       "property double z\nproperty uchar red\nelement face 2\nproperty list uchar int vertex_indices\n"
-       "property int flags\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 nan 4\n3 0 1 2 5\n3 0 2 3 6\n"},
-      {".ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty int x\nproperty int y\nproperty int z\n"
-               "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
-               "1 1 1\n5 0 1 2 -1 3\n"},
+       "property double z\nproperty uchar red\nelement face 2\nproperty list uchar int "
+       "vertex_indices\n"
+       "property int flags\nend_header\n0 0 0 1\n1 0 0 2\n1 1 0 3\n0 1 nan 4\n3 0 1 2 5\n3 0 2 3 "
+       "6\n"},
+      {".ply",
+       "ply\nformat ascii 1.0\nelement vertex 4\nproperty int x\nproperty int y\nproperty int z\n"
+       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 "
+       "0\n"
+       "1 1 1\n5 0 1 2 -1 3\n"},
       {".ply", binary_ply<float, std::uint8_t, std::int32_t>("float", "uchar", "int", false)},
-      {".ply", binary_ply<double, std::uint32_t, std::uint16_t>("float64", "uint32", "uint16", true)},
-      {".ply", binary_ply<std::int16_t, std::int8_t, std::uint8_t>("short", "char", "uchar", false)},
-      {".stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+      {".ply",
+       binary_ply<double, std::uint32_t, std::uint16_t>("float64", "uint32", "uint16", true)},
+      {".ply",
+       binary_ply<std::int16_t, std::int8_t, std::uint8_t>("short", "char", "uchar", false)},
+      {".stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+               "0\nendloop\n"
                "endfacet\nendsolid s\n"},
       {".stl", binary_stl()},
       {".npy", npy("<f8", "True", "3, 2", raw<double>({1, 2, 3, 4, 5, 6}))},
       {".npy", npy(">f4", "False", "3,", raw<float>({1, 2, 3}, true), 2)},
-      {".mtx", "%%MatrixMarket matrix coordinate real general\n% c\n2 3 3\n1 1 0.5\n1 2 0.5\n2 3 1e0\n"},
-      {".mtx", "%%MatrixMarket matrix coordinate integer Symmetric\n3 3 4\n1 1 2\n2 1 -1\n2 2 2\n3 3 1\n"},
+      {".mtx",
+       "%%MatrixMarket matrix coordinate real general\n% c\n2 3 3\n1 1 0.5\n1 2 0.5\n2 3 1e0\n"},
+      {".mtx",
+       "%%MatrixMarket matrix coordinate integer Symmetric\n3 3 4\n1 1 2\n2 1 -1\n2 2 2\n3 3 1\n"},
       {".txt", "0\n 7\r\n\n11\n"}};
   return files;
 }
 
 inline std::vector<std::uint8_t> input_of(const std::string& extension, const std::string& contents)
 {
-  const auto place =
-      std::find_if(extensions.begin(), extensions.end(), [&](const char* e) { return extension == e; });
+  const auto place = std::find_if(extensions.begin(), extensions.end(),
+                                  [&](const char* e) { return extension == e; });
   const std::string bytes = char(place - extensions.begin()) + contents;
   return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
 }

@@ -22,8 +22,9 @@
 // What a simplifier hands to the evaluation.
 struct Coarse_mesh
 {
-  Mesh mesh;                                          // without garbage
-  std::optional<Eigen::SparseMatrix<double>> carried; // P of the simplifier, rows as `vertices(mesh)`
+  Mesh mesh; // without garbage
+  std::optional<Eigen::SparseMatrix<double>>
+      carried;                         // P of the simplifier, rows as `vertices(mesh)`
   std::vector<std::size_t> vertex_map; // of collapses by CGAL's costs: where each fine vertex went
   double seconds = 0;
   std::string note; // a sentence where the result is not what was asked for
@@ -47,11 +48,13 @@ struct Simplifier
   bool fits_operators = false;     // a row with operators fitted to the fine spectrum follows
 };
 
-// The basis that the policies compute when they are given none: their own accuracy, not that of the judge.
+// The basis that the policies compute when they are given none: their own accuracy, not that of the
+// judge.
 Basis spectral_basis(const Mesh& fine, Eigen::Index K, CGAL::Spectral_geometry::Mass mass);
 
 // Edge collapses: spectral in the metrics of the bases, and the costs that CGAL ships.
-std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases, int threads);
+std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases,
+                                             int threads);
 
 // CGAL's remeshers; those that this CGAL or the mesh does not allow are explained in `notes`.
 std::vector<Simplifier> remeshers(const Mesh& fine, std::vector<std::string>& notes);

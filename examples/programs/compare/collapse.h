@@ -22,9 +22,10 @@
 // Empty where a mesh has the size that was asked for.
 inline std::string note_on_size(const Mesh& mesh, std::size_t N)
 {
-  return mesh.number_of_vertices() > N ? "It ran out of edges that may be collapsed at " +
-                                             std::to_string(mesh.number_of_vertices()) + " vertices."
-                                       : "";
+  return mesh.number_of_vertices() > N
+             ? "It ran out of edges that may be collapsed at " +
+                   std::to_string(mesh.number_of_vertices()) + " vertices."
+             : "";
 }
 
 // `make_policies(mesh)` returns a pair of cost and placement; to make them is part of the time.
@@ -65,8 +66,8 @@ Coarse_mesh collapse_by_quadrics(const Mesh& fine, std::size_t N)
   });
 }
 
-// CGAL's probabilistic quadrics have variances in the unit of the mesh: what they make depends on it. They are judged in the
-// unit in which they are best, that of an area of 20,000.
+// CGAL's probabilistic quadrics have variances in the unit of the mesh: what they make depends on
+// it. They are judged in the unit in which they are best, that of an area of 20,000.
 template <class Policies>
 Coarse_mesh collapse_by_probabilistic_quadrics(const Mesh& fine, std::size_t N)
 {

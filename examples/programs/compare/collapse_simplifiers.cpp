@@ -84,14 +84,15 @@ Simplifier spectral(const std::string& name, Options options, const Basis& basis
   options.mass = basis.mass;
   options.eigenpairs = basis.pairs;
   options.threads = threads;
-  return {name,
-          word_of(placement_words, options.placement),
-          SG::mass_name(basis.mass),
-          basis.seconds,
-          [options](const Mesh& fine, std::size_t N) { return simplify_spectrally(fine, N, options); },
-          relocation_word(options),
-          options.shape,
-          false};
+  return {
+      name,
+      word_of(placement_words, options.placement),
+      SG::mass_name(basis.mass),
+      basis.seconds,
+      [options](const Mesh& fine, std::size_t N) { return simplify_spectrally(fine, N, options); },
+      relocation_word(options),
+      options.shape,
+      false};
 }
 
 // The presets, in the mass of each, and what lies between them.
@@ -146,22 +147,22 @@ Basis spectral_basis(const Mesh& fine, Eigen::Index K, SG::Mass mass)
   return {mass, std::move(pairs), timer.time()};
 }
 
-std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases, int threads)
+std::vector<Simplifier> collapse_simplifiers(const Mesh& fine, const std::vector<Basis>& bases,
+                                             int threads)
 {
   std::vector<Simplifier> result;
   for(const Basis& basis : bases)
     for(Simplifier& s : spectral_simplifiers(fine, basis, threads))
       result.push_back(std::move(s));
   result.push_back(garland_heckbert<SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>>("plane"));
-  result.push_back(garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));
   result.push_back(
-      probabilistic_garland_heckbert<SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>(
-          "plane"));
-  result.push_back(
-      probabilistic_garland_heckbert<SMS::GarlandHeckbert_probabilistic_triangle_policies<Mesh, Kernel>>(
-          "triangle"));
-  result.push_back(
-      plain<SMS::LindstromTurk_cost<Mesh>, SMS::LindstromTurk_placement<Mesh>>("Lindstrom-Turk", "optimal"));
+      garland_heckbert<SMS::GarlandHeckbert_triangle_policies<Mesh, Kernel>>("triangle"));
+  result.push_back(probabilistic_garland_heckbert<
+                   SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>>("plane"));
+  result.push_back(probabilistic_garland_heckbert<
+                   SMS::GarlandHeckbert_probabilistic_triangle_policies<Mesh, Kernel>>("triangle"));
+  result.push_back(plain<SMS::LindstromTurk_cost<Mesh>, SMS::LindstromTurk_placement<Mesh>>(
+      "Lindstrom-Turk", "optimal"));
   result.push_back(
       plain<SMS::Edge_length_cost<Mesh>, SMS::Midpoint_placement<Mesh>>("edge length", "midpoint"));
   return result;

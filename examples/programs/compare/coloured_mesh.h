@@ -20,8 +20,9 @@
 #include <utility>
 #include <vector>
 
-// Meshes with functions on them, for MeshLab, ParaView, F3D: PLY with named scalar properties of the
-// vertices. Viewers that know no names show the colours, or the quality: both are those of the distance.
+// Meshes with functions on them, for MeshLab, ParaView, F3D: PLY with named scalar properties of
+// the vertices. Viewers that know no names show the colours, or the quality: both are those of the
+// distance.
 
 struct Vertex_functions
 {
@@ -35,8 +36,8 @@ struct Colour_scale
   double hks_time = 0, largest_distance = 0;
 };
 
-// eigenvector_2, ..., eigenvector_11 (the first is constant), hks at one time and the biharmonic distance
-// from `source`, all at input scale.
+// eigenvector_2, ..., eigenvector_11 (the first is constant), hks at one time and the biharmonic
+// distance from `source`, all at input scale.
 inline Vertex_functions vertex_functions(const CGAL::Spectral_geometry::Eigenpairs& pairs,
                                          Eigen::Index source, const Colour_scale& scale)
 {
@@ -53,8 +54,8 @@ inline Vertex_functions vertex_functions(const CGAL::Spectral_geometry::Eigenpai
   return result;
 }
 
-inline void write_coloured_ply(const std::string& file, const Mesh& mesh, const Vertex_functions& functions,
-                               const std::string& name)
+inline void write_coloured_ply(const std::string& file, const Mesh& mesh,
+                               const Vertex_functions& functions, const std::string& name)
 {
   std::ofstream stream(file);
   stream << "ply\nformat ascii 1.0\nelement vertex " << mesh.number_of_vertices()

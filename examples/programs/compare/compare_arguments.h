@@ -47,12 +47,15 @@ inline Command_line described(Compare_arguments& a)
       "spectral_compare MESH --vertices N[,N2,...] [options]\n"
       "spectral_compare MESH --rival NAME=B[,P.mtx] [options]\n"
       "spectral_compare MESH --rival-operators NAME=L.mtx,M.mtx,P.mtx [options]",
-      "Simplifies MESH in every way there is, here and in CGAL, and judges each result by the same figures:\n"
-      "norms of functional maps, eigenvalues, distances, shape, time. Beside them, or without --vertices\n"
+      "Simplifies MESH in every way there is, here and in CGAL, and judges each result by the same "
+      "figures:\n"
+      "norms of functional maps, eigenvalues, distances, shape, time. Beside them, or without "
+      "--vertices\n"
       "alone, it judges what other tools made of MESH: meshes, or operators without one.");
   line.argument(a.mesh);
   line.group("Size");
-  line.option("vertices", a.vertices, "N|P%,...", "sizes of the simplified meshes, such as 600 or 3%");
+  line.option("vertices", a.vertices, "N|P%,...",
+              "sizes of the simplified meshes, such as 600 or 3%");
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep and to judge by, the constant one included");
@@ -61,18 +64,21 @@ inline Command_line described(Compare_arguments& a)
   line.option("sources", a.sources, "S", "how many random vertices distances are measured from");
   line.option("seed", a.seed, "X", "of these vertices");
   line.group("Simplifiers and rivals");
-  line.option(
-      "only", a.only, "TEXT",
-      "only simplifiers with TEXT in their names; may be given several times, for those with any of them");
+  line.option("only", a.only, "TEXT",
+              "only simplifiers with TEXT in their names; may be given several times, for those "
+              "with any of them");
   line.option("without", a.without, "TEXT", "no simplifiers with TEXT in their names");
-  line.option("rival", a.rival_meshes, "NAME=B[,P.mtx]",
-              "judge this mesh, with the P of the closest points and its own, coarse x fine; may be given "
-              "several times. It stands at the nearest of the sizes of --vertices. What is refused is listed "
-              "with the "
-              "reason, and the exit status is 1 in the end");
-  line.option("rival-operators", a.rival_operators, "NAME=L.mtx,M.mtx,P.mtx",
-              "the same for an operator (Matrix Market, L positive semidefinite) with its mass and its "
-              "restriction");
+  line.option(
+      "rival", a.rival_meshes, "NAME=B[,P.mtx]",
+      "judge this mesh, with the P of the closest points and its own, coarse x fine; may be given "
+      "several times. It stands at the nearest of the sizes of --vertices. What is refused is "
+      "listed "
+      "with the "
+      "reason, and the exit status is 1 in the end");
+  line.option(
+      "rival-operators", a.rival_operators, "NAME=L.mtx,M.mtx,P.mtx",
+      "the same for an operator (Matrix Market, L positive semidefinite) with its mass and its "
+      "restriction");
   line.group("Input");
   line.flag("repair", a.repair, "change meshes that cannot be used, as spectral_simplify does");
   line.strict(a.strict);
@@ -80,7 +86,8 @@ inline Command_line described(Compare_arguments& a)
   line.option("report", a.report, "FILE.html", "a page with tables and figures");
   line.option("json", a.json, "FILE", "all figures for programs");
   line.option("coloured", a.coloured, "DIR",
-              "the fine and the coarse meshes as PLY with eigenvectors, hks and a distance as properties of "
+              "the fine and the coarse meshes as PLY with eigenvectors, hks and a distance as "
+              "properties of "
               "vertices");
   line.group("Run");
   line.threads(a.threads);
@@ -98,7 +105,8 @@ inline void check(const Compare_arguments& a)
   if(std::find(a.only.begin(), a.only.end(), "") != a.only.end())
     refuse("--only has an empty value: say which, or leave it out.");
   if(a.vertices.empty() && !(a.only.empty() && a.without.empty()))
-    refuse("--only and --without choose among simplifiers: say with --vertices how far these go, or leave "
+    refuse("--only and --without choose among simplifiers: say with --vertices how far these go, "
+           "or leave "
            "them out.");
   if(!a.coloured.empty() && a.vertices.empty() &&
      std::all_of(a.rivals.begin(), a.rivals.end(), [](const Rival& r) { return r.mesh.empty(); }))
@@ -113,7 +121,8 @@ inline std::vector<Rival> rivals(const Compare_arguments& a)
 {
   std::vector<Rival> result;
   for(const std::string& text : a.rival_meshes) {
-    std::vector<std::string> parts = named_files("--rival", text, "NAME=MESH or NAME=MESH,P.mtx", 1, 2);
+    std::vector<std::string> parts =
+        named_files("--rival", text, "NAME=MESH or NAME=MESH,P.mtx", 1, 2);
     parts.resize(3);
     result.push_back({"--rival " + parts[0], parts[0], parts[1], {}, {}, parts[2]});
   }
@@ -148,8 +157,9 @@ inline std::vector<std::size_t> target_sizes(const Compare_arguments& a, std::si
   for(const Vertex_target& target : a.targets) {
     const std::size_t size = target.of(n);
     if(size < 4 || size > n)
-      throw std::runtime_error("--vertices asks for " + std::to_string(size) + ", but '" + a.mesh + "' has " +
-                               std::to_string(n) + " vertices and fewer than 4 are no mesh.");
+      throw std::runtime_error("--vertices asks for " + std::to_string(size) + ", but '" + a.mesh +
+                               "' has " + std::to_string(n) +
+                               " vertices and fewer than 4 are no mesh.");
     if(std::find(result.begin(), result.end(), size) == result.end())
       result.push_back(size);
   }

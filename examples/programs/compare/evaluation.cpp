@@ -37,8 +37,9 @@ double relative_error(const Eigen::SparseMatrix<double>& P, const Eigen::MatrixX
   return (difference.array() / size.array()).mean();
 }
 
-// Distances from the paired sources on the coarse mesh against those of the fine mesh restricted by P, and
-// the signatures of all vertices, both meshes at unit area, K modes; times and energies of the fine mesh.
+// Distances from the paired sources on the coarse mesh against those of the fine mesh restricted by
+// P, and the signatures of all vertices, both meshes at unit area, K modes; times and energies of
+// the fine mesh.
 Distance_errors distance_errors(const Fine_reference& reference, const Coarse_candidate& candidate,
                                 const SG::Eigenpairs& coarse_pairs)
 {
@@ -104,7 +105,8 @@ paired_sources(const std::vector<Eigen::Index>& sources, const Eigen::SparseMatr
         coarse = entry.row();
       }
     largest = -1;
-    for(Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(rows, coarse); entry; ++entry)
+    for(Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator entry(rows, coarse); entry;
+        ++entry)
       if(entry.value() > largest) {
         largest = entry.value();
         fine = entry.col();
@@ -131,8 +133,8 @@ Judged judge(const Fine_reference& reference, const Coarse_candidate& candidate,
     const auto& P = carried ? candidate.carried : candidate.closest;
     if(!P)
       continue;
-    const SG::Spectral_evaluation e =
-        SG::evaluate_spectrum(reference.op, reference.pairs, candidate.op, result.aligned, *P, reference.K);
+    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
+        reference.op, reference.pairs, candidate.op, result.aligned, *P, reference.K);
     add_evaluation(j, e, carried);
     C = e.C;
   }

@@ -53,8 +53,8 @@ Fine_reference fine_reference(const CGAL::Spectral_geometry::Mesh_matrices& mesh
                               const std::vector<Eigen::Index>& sources,
                               const std::function<bool(double)>& progress);
 
-// For each source the coarse vertex that its value goes to most, and the fine vertex that counts most in that
-// one: the two stand for the same place as well as any.
+// For each source the coarse vertex that its value goes to most, and the fine vertex that counts
+// most in that one: the two stand for the same place as well as any.
 std::pair<std::vector<Eigen::Index>, std::vector<Eigen::Index>>
 paired_sources(const std::vector<Eigen::Index>& sources, const Eigen::SparseMatrix<double>& P);
 

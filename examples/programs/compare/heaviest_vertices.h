@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <vector>
 
-// For each coarse vertex the fine one of largest weight in a restriction (coarse x fine): where functions that are not
-// linear in the eigenvectors, such as signatures, are read.
+// For each coarse vertex the fine one of largest weight in a restriction (coarse x fine): where
+// functions that are not linear in the eigenvectors, such as signatures, are read.
 inline std::vector<Eigen::Index> heaviest_vertices(const Eigen::SparseMatrix<double>& P)
 {
   std::vector<Eigen::Index> result(static_cast<std::size_t>(P.rows()), 0);

@@ -21,10 +21,15 @@ inline std::string not_on(const CGAL::Spectral_geometry::Mesh_matrices& coarse,
                           const CGAL::Spectral_geometry::Mesh_matrices& fine)
 {
   using CGAL::Spectral_geometry::closest_point_interpolation;
-  const double size = std::sqrt(CGAL::Spectral_geometry::laplace_operator(fine.V, fine.T).mass.sum());
+  const double size =
+      std::sqrt(CGAL::Spectral_geometry::laplace_operator(fine.V, fine.T).mass.sum());
   const double distance =
-      (std::max)((closest_point_interpolation(coarse.V, fine) * fine.V - coarse.V).rowwise().norm().mean(),
-                 (closest_point_interpolation(fine.V, coarse) * coarse.V - fine.V).rowwise().norm().mean()) /
+      (std::max)(
+          (closest_point_interpolation(coarse.V, fine) * fine.V - coarse.V).rowwise().norm().mean(),
+          (closest_point_interpolation(fine.V, coarse) * coarse.V - fine.V)
+              .rowwise()
+              .norm()
+              .mean()) /
       size;
   const double in_edges = distance * std::sqrt(double(coarse.V.rows()));
   if(distance < 0.01 || (distance < 0.05 && in_edges < 0.3))
@@ -32,7 +37,8 @@ inline std::string not_on(const CGAL::Spectral_geometry::Mesh_matrices& coarse,
   char percent[32];
   std::snprintf(percent, sizeof(percent), "%.3g", 100 * distance);
   return std::string("does not lie on it, both are ") + percent +
-         " % of the square root of the area apart on average: is it in another unit, moved or turned? "
+         " % of the square root of the area apart on average: is it in another unit, moved or "
+         "turned? "
          "Simplify "
          "that mesh, and leave it where it is and in its unit of length";
 }

@@ -43,8 +43,9 @@ double miss(std::size_t n, std::size_t N)
   return std::abs(static_cast<double>(n) / static_cast<double>(N) - 1);
 }
 
-// The best of some attempts at a remeshing with N vertices. `next(n, attempt)` says what to ask for where the mesh before had n, and
-// `remesh(mesh, wanted)` does it. The time is that of the best run alone.
+// The best of some attempts at a remeshing with N vertices. `next(n, attempt)` says what to ask for
+// where the mesh before had n, and `remesh(mesh, wanted)` does it. The time is that of the best run
+// alone.
 template <class Remesh, class Next>
 Coarse_mesh closest_in_number(const Mesh& input, std::size_t N, double wanted, int attempts,
                               const Remesh& remesh, const Next& next, const std::string& what)
@@ -52,7 +53,8 @@ Coarse_mesh closest_in_number(const Mesh& input, std::size_t N, double wanted, i
   const Robust_mesh fine = converted<Robust_mesh>(input);
   Robust_mesh best;
   Coarse_mesh result;
-  for(int attempt = 0; attempt < attempts && (attempt == 0 || miss(best.number_of_vertices(), N) > 0.003);
+  for(int attempt = 0;
+      attempt < attempts && (attempt == 0 || miss(best.number_of_vertices(), N) > 0.003);
       ++attempt) {
     Robust_mesh mesh = fine;
     CGAL::Real_timer timer;
@@ -69,29 +71,34 @@ Coarse_mesh closest_in_number(const Mesh& input, std::size_t N, double wanted, i
   }
   result.mesh = converted<Mesh>(best);
   if(miss(result.mesh.number_of_vertices(), N) > 0.01)
-    result.note = "No " + what + " was found that gives " + std::to_string(N) + " vertices within 1 %.";
+    result.note =
+        "No " + what + " was found that gives " + std::to_string(N) + " vertices within 1 %.";
   return result;
 }
 
-// The number of vertices falls about as the square of the edge length, with jumps: a search by that law.
+// The number of vertices falls about as the square of the edge length, with jumps: a search by that
+// law.
 Coarse_mesh isotropic(const Mesh& input, std::size_t N)
 {
   const auto remesh = [](Robust_mesh& mesh, double edge_length) {
-    PMP::isotropic_remeshing(faces(mesh), edge_length, mesh,
-                             CGAL::parameters::number_of_iterations(5).number_of_relaxation_steps(1));
+    PMP::isotropic_remeshing(
+        faces(mesh), edge_length, mesh,
+        CGAL::parameters::number_of_iterations(5).number_of_relaxation_steps(1));
   };
   const auto next = [N](double length, std::size_t n, int attempt) {
     if(n < 4)
       return length / 2;
     // the damping keeps a jump from being answered by the jump back
-    return length * std::pow(static_cast<double>(n) / static_cast<double>(N), attempt < 4 ? 0.5 : 0.3);
+    return length *
+           std::pow(static_cast<double>(n) / static_cast<double>(N), attempt < 4 ? 0.5 : 0.3);
   };
   const double length = std::sqrt(2 / std::sqrt(3.) * PMP::area(input) / static_cast<double>(N));
   return closest_in_number(input, N, length, 12, remesh, next, "edge length");
 }
 
 #ifdef SPECTRAL_COMPARE_HAS_ACVD
-// It adds vertices where a cluster would not give a manifold, on borders for instance: then fewer are asked for.
+// It adds vertices where a cluster would not give a manifold, on borders for instance: then fewer
+// are asked for.
 Coarse_mesh centroidal(const Mesh& input, std::size_t N)
 {
   const auto remesh = [](Robust_mesh& mesh, double clusters) {
@@ -117,10 +124,12 @@ std::vector<Simplifier> remeshers(const Mesh& fine, std::vector<std::string>& no
   if(PMP::connected_components(mesh, components) == 1)
     result.push_back({"centroidal Voronoi remeshing", "none", "none", 0, centroidal});
   else
-    notes.push_back("Centroidal Voronoi remeshing was left out: CGAL's takes meshes of one component only.");
+    notes.push_back(
+        "Centroidal Voronoi remeshing was left out: CGAL's takes meshes of one component only.");
 #else
   (void)fine;
-  notes.push_back("Centroidal Voronoi remeshing was left out: this CGAL does not have it (6.1 does).");
+  notes.push_back(
+      "Centroidal Voronoi remeshing was left out: this CGAL does not have it (6.1 does).");
 #endif
   return result;
 }

@@ -41,10 +41,12 @@ Face_quality face_quality(const Mesh& mesh)
     double longest2 = 0;
     const Kernel::Point_3* corners[] = {&p, &q, &r};
     for(int i = 0; i < 3; ++i) {
-      const Kernel::Vector_3 a = *corners[(i + 1) % 3] - *corners[i], b = *corners[(i + 2) % 3] - *corners[i];
+      const Kernel::Vector_3 a = *corners[(i + 1) % 3] - *corners[i],
+                             b = *corners[(i + 2) % 3] - *corners[i];
       longest2 = (std::max)(longest2, a.squared_length());
       const double area2 = std::sqrt(CGAL::cross_product(a, b).squared_length());
-      result.smallest_angle = (std::min)(result.smallest_angle, std::atan2(area2, a * b) * 180 / CGAL_PI);
+      result.smallest_angle =
+          (std::min)(result.smallest_angle, std::atan2(area2, a * b) * 180 / CGAL_PI);
     }
     const double area2 = std::sqrt(CGAL::cross_product(q - p, r - p).squared_length());
     result.largest_aspect_ratio = (std::max)(result.largest_aspect_ratio, longest2 / area2);
@@ -54,7 +56,8 @@ Face_quality face_quality(const Mesh& mesh)
 
 double number_of_self_intersections(const Mesh& mesh)
 {
-  using Robust_mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
+  using Robust_mesh =
+      CGAL::Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3>;
   Robust_mesh robust;
   CGAL::copy_face_graph(mesh, robust);
   std::vector<std::pair<Robust_mesh::Face_index, Robust_mesh::Face_index>> pairs;
@@ -62,13 +65,16 @@ double number_of_self_intersections(const Mesh& mesh)
   return static_cast<double>(pairs.size());
 }
 
-// From 100,000 points on each side, always the same ones: the seed chooses triangles, CGAL's own generator points in them.
+// From 100,000 points on each side, always the same ones: the seed chooses triangles, CGAL's own
+// generator points in them.
 double symmetric_hausdorff(const Mesh& fine, const Mesh& coarse)
 {
   CGAL::get_default_random() = CGAL::Random(0);
   const auto sampling = CGAL::parameters::random_seed(0).number_of_points_on_faces(100000);
-  const double there = PMP::approximate_Hausdorff_distance<CGAL::Sequential_tag>(fine, coarse, sampling);
-  const double back = PMP::approximate_Hausdorff_distance<CGAL::Sequential_tag>(coarse, fine, sampling);
+  const double there =
+      PMP::approximate_Hausdorff_distance<CGAL::Sequential_tag>(fine, coarse, sampling);
+  const double back =
+      PMP::approximate_Hausdorff_distance<CGAL::Sequential_tag>(coarse, fine, sampling);
   return (std::max)(there, back);
 }
 

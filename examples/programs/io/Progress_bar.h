@@ -12,8 +12,8 @@
 #include <cstdio>
 #include <string>
 
-// One line on the terminal with the phase, how far it is and how long it will take. Prints nothing where standard error
-// is no terminal.
+// One line on the terminal with the phase, how far it is and how long it will take. Prints nothing
+// where standard error is no terminal.
 class Progress_bar
 {
 public:
@@ -37,7 +37,8 @@ public:
       return; // a terminal is slow
     }
     m_last = now;
-    draw((std::max)(0., (std::min)(fraction, 1.)), std::chrono::duration<double>(now - m_start).count());
+    draw((std::max)(0., (std::min)(fraction, 1.)),
+         std::chrono::duration<double>(now - m_start).count());
   }
 
   void clear()

@@ -32,7 +32,8 @@ struct Attribute
   std::string type; // "float", "uchar" and so on, as PLY has it
   std::vector<double> values;
   Kind kind = Kind::function;
-  std::vector<std::string> words = {}; // what the values count from 0, as names of materials; or empty
+  std::vector<std::string> words =
+      {}; // what the values count from 0, as names of materials; or empty
 
   bool is_integer() const { return type != "float" && type != "double"; }
 };
@@ -46,8 +47,8 @@ struct Attributes
 
   const Attribute* find(const std::string& name) const
   {
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&](const Attribute& a) { return a.name == name; });
+    const auto found = std::find_if(known.begin(), known.end(),
+                                    [&](const Attribute& a) { return a.name == name; });
     return found == known.end() ? nullptr : &*found;
   }
 
@@ -72,7 +73,8 @@ struct Attributes
   {
     known.erase(std::remove_if(known.begin(), known.end(),
                                [&](const Attribute& a) {
-                                 return std::find(names.begin(), names.end(), a.name) != names.end();
+                                 return std::find(names.begin(), names.end(), a.name) !=
+                                        names.end();
                                }),
                 known.end());
   }
@@ -161,7 +163,8 @@ inline void add_colours(Attributes& attributes, std::vector<std::vector<double>>
 {
   bool small = true;
   for(const auto& channel : channels)
-    small = small && std::all_of(channel.begin(), channel.end(), [](const double x) { return x <= 1; });
+    small =
+        small && std::all_of(channel.begin(), channel.end(), [](const double x) { return x <= 1; });
   const std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
   for(std::size_t c = 0; c < channels.size(); ++c) {
     for(double& x : channels[c])
@@ -177,7 +180,8 @@ inline void find_colours(Attributes& attributes)
   const auto is_colour = [&](const std::string& name) {
     const Attribute* const a = attributes.find(name);
     return a != nullptr && !a->is_integer() &&
-           std::all_of(a->values.begin(), a->values.end(), [](const double x) { return x >= 0 && x <= 1; });
+           std::all_of(a->values.begin(), a->values.end(),
+                       [](const double x) { return x >= 0 && x <= 1; });
   };
   std::vector<std::string> names = {"red", "green", "blue"};
   if(!std::all_of(names.begin(), names.end(), is_colour))
@@ -263,7 +267,8 @@ inline Attributes restricted(const Attributes& fine, const Eigen::SparseMatrix<d
         value = elected(votes);
       else if(weight != all && weight != 0)
         value *= all / weight;
-      if(a.kind == Kind::colour && !votes.empty()) // in the range of what it is made of, whatever that is
+      if(a.kind == Kind::colour &&
+         !votes.empty()) // in the range of what it is made of, whatever that is
         value = (std::min)((std::max)(least, std::round(value)), most);
     }
   }

@@ -27,9 +27,10 @@ inline std::string command_line(const char* program, const int argc, const char*
   std::string command = program;
   for(int k = 1; k < argc; ++k) {
     const std::string word = argv[k];
-    const bool plain = !word.empty() &&
-                       word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
-                                              "_./=,%+:@-") == std::string::npos;
+    const bool plain =
+        !word.empty() &&
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                               "_./=,%+:@-") == std::string::npos;
     command += ' ';
     if(plain) {
       command += word;
@@ -43,9 +44,11 @@ inline std::string command_line(const char* program, const int argc, const char*
   return command;
 }
 
-// NAME and files of NAME=FILE,..., at least and at most so many; `form` says in an error what it must be.
+// NAME and files of NAME=FILE,..., at least and at most so many; `form` says in an error what it
+// must be.
 inline std::vector<std::string> named_files(const std::string& option, const std::string& text,
-                                            const std::string& form, std::size_t least, std::size_t most)
+                                            const std::string& form, std::size_t least,
+                                            std::size_t most)
 {
   const std::size_t equals = text.find('=');
   std::vector<std::string> parts{text.substr(0, equals)};
@@ -60,8 +63,8 @@ inline std::vector<std::string> named_files(const std::string& option, const std
   return parts;
 }
 
-// The arguments and options of a program, options in groups. One table is what is read, what --help says and what
-// doc/commands.md shows.
+// The arguments and options of a program, options in groups. One table is what is read, what --help
+// says and what doc/commands.md shows.
 class Command_line
 {
   using Options = boost::program_options::options_description;
@@ -76,9 +79,13 @@ public:
   // The next argument without a name.
   void argument(std::string& value) { m_arguments.push_back(&value); }
 
-  // Begins a group of options; --help leaves out the advanced ones, which only --help advanced shows.
+  // Begins a group of options; --help leaves out the advanced ones, which only --help advanced
+  // shows.
   void group(const std::string& name) { m_groups.push_back({name, Options(name, 100, 60), false}); }
-  void advanced_group(const std::string& name) { m_groups.push_back({name, Options(name, 100, 60), true}); }
+  void advanced_group(const std::string& name)
+  {
+    m_groups.push_back({name, Options(name, 100, 60), true});
+  }
 
   // An option that is given or is not.
   void flag(const char* name, bool& value, const std::string& description)
@@ -86,7 +93,8 @@ public:
     put(name, boost::program_options::bool_switch(&value), description);
   }
 
-  // An option with a value, `form` in the help. What `value` holds already is the default; none if that is nothing.
+  // An option with a value, `form` in the help. What `value` holds already is the default; none if
+  // that is nothing.
   template <class Value>
   void option(const char* name, Value& value, const char* form, const std::string& description)
   {
@@ -98,13 +106,15 @@ public:
         semantic->default_value(value);
       semantic->notifier([name = std::string(name)](const std::string& given) {
         if(given.empty())
-          throw std::runtime_error("--" + name + " has an empty value: say which, or leave it out.");
+          throw std::runtime_error("--" + name +
+                                   " has an empty value: say which, or leave it out.");
       });
     }
     put(name, semantic, description);
   }
   template <class Value>
-  void option(const char* name, std::optional<Value>& value, const char* form, const std::string& description)
+  void option(const char* name, std::optional<Value>& value, const char* form,
+              const std::string& description)
   {
     auto* semantic = boost::program_options::value<Value>()->value_name(form);
     put(name, semantic->notifier([&value](const Value& given) { value = given; }), description);
@@ -120,8 +130,8 @@ public:
     semantic->notifier([name = std::string(name), words](const std::string& given) {
       if(std::find(words.begin(), words.end(), given) == words.end())
         throw std::runtime_error("--" + name + " is '" + given + "', it must be " +
-                                 joined({words.begin(), words.end() - 1}, ", ") + " or " + words.back() +
-                                 ".");
+                                 joined({words.begin(), words.end() - 1}, ", ") + " or " +
+                                 words.back() + ".");
     });
     put(name, semantic, description);
   }
@@ -129,10 +139,12 @@ public:
   // The options that several programs have, in the same words.
   void threads(int& value)
   {
-    auto* semantic = boost::program_options::value(&value)->value_name("T")->default_value(value, "all");
+    auto* semantic =
+        boost::program_options::value(&value)->value_name("T")->default_value(value, "all");
     put("threads", semantic->notifier([](const int given) {
       if(given < 1)
-        throw std::runtime_error("--threads is " + std::to_string(given) + ", it must be at least 1.");
+        throw std::runtime_error("--threads is " + std::to_string(given) +
+                                 ", it must be at least 1.");
     }),
         "all cores by default; the result does not depend on it");
   }
@@ -141,16 +153,19 @@ public:
     flag("strict", value, "change nothing of a mesh: refuse what cannot be used as it is");
   }
 
-  // Stores all arguments and options, and returns the text that --help, --help advanced or --help markdown asks for, or nothing. No
-  // abbreviations: what --mass means must not depend on what else there is. No short options: a negative number is a
-  // value. Throws std::runtime_error with one sentence.
+  // Stores all arguments and options, and returns the text that --help, --help advanced or --help
+  // markdown asks for, or nothing. No abbreviations: what --mass means must not depend on what else
+  // there is. No short options: a negative number is a value. Throws std::runtime_error with one
+  // sentence.
   std::string read(const int argc, const char* const* argv) const
   {
     namespace po = boost::program_options;
     for(int k = 1; k < argc; ++k) {
       const std::string word = argv[k];
       if(word == "--help" || word.rfind("--help=", 0) == 0) {
-        const std::string which = word != "--help" ? word.substr(7) : k + 1 < argc ? argv[k + 1] : "";
+        const std::string which = word != "--help" ? word.substr(7)
+                                  : k + 1 < argc   ? argv[k + 1]
+                                                   : "";
         if(word != "--help" && which != "advanced" && which != "markdown")
           throw std::runtime_error("'" + word +
                                    "' is unknown: use --help, --help advanced or --help markdown.");
@@ -163,7 +178,8 @@ public:
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_short &
                       ~po::command_line_style::allow_guessing;
     try {
-      const po::parsed_options parsed = po::command_line_parser(argc, argv).options(all).style(style).run();
+      const po::parsed_options parsed =
+          po::command_line_parser(argc, argv).options(all).style(style).run();
       std::size_t arguments = 0;
       for(const po::option& option : parsed.options)
         if(option.string_key.empty())
@@ -173,7 +189,8 @@ public:
       po::store(parsed, values);
       po::notify(values);
     } catch(const po::error& error) {
-      throw std::runtime_error(std::string(error.what()) + "; " + all_options() + " shows every option.");
+      throw std::runtime_error(std::string(error.what()) + "; " + all_options() +
+                               " shows every option.");
     }
     return "";
   }
@@ -198,7 +215,8 @@ private:
       throw std::runtime_error("'" + word + "' is no option, options begin with two dashes; " +
                                all_options() + " shows every one.");
     if(number >= m_arguments.size())
-      throw std::runtime_error("'" + word + "' is one argument too many; --help shows what there is.");
+      throw std::runtime_error("'" + word +
+                               "' is one argument too many; --help shows what there is.");
     *m_arguments[number] = word;
   }
 
@@ -240,8 +258,8 @@ private:
       stream << "\n| " << group.name << " | |\n|---|---|\n";
       for(const auto& option : group.options.options()) {
         const std::string form = option->format_parameter();
-        stream << "| `--" << option->long_name() << (form.empty() ? "" : " ") << table_cell(form) << "` | "
-               << table_cell(option->description()) << " |\n";
+        stream << "| `--" << option->long_name() << (form.empty() ? "" : " ") << table_cell(form)
+               << "` | " << table_cell(option->description()) << " |\n";
       }
     }
     return stream.str();

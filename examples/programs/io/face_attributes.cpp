@@ -45,7 +45,8 @@ template <class Function>
 void for_each_part(const Eigen::Matrix3d& t, const int n, const Function& function)
 {
   const auto at = [&](const double i, const double j) {
-    return Eigen::Vector3d(t.col(0) + (t.col(1) - t.col(0)) * (i / n) + (t.col(2) - t.col(0)) * (j / n));
+    return Eigen::Vector3d(t.col(0) + (t.col(1) - t.col(0)) * (i / n) +
+                           (t.col(2) - t.col(0)) * (j / n));
   };
   for(int i = 0; i < n; ++i)
     for(int j = 0; i + j < n; ++j) {
@@ -57,13 +58,15 @@ void for_each_part(const Eigen::Matrix3d& t, const int n, const Function& functi
 
 // The face whose closest point is closest.
 template <class Faces>
-Face closest(const Eigen::Vector3d& query, const std::vector<Eigen::Matrix3d>& triangles, const Faces& faces)
+Face closest(const Eigen::Vector3d& query, const std::vector<Eigen::Matrix3d>& triangles,
+             const Faces& faces)
 {
   double least = std::numeric_limits<double>::infinity();
   Face result = *faces.begin();
   for(const Face f : faces) {
     const double d =
-        CGAL::Spectral_geometry::internal::closest_point_of_triangle(query, triangles[f]).squared_distance;
+        CGAL::Spectral_geometry::internal::closest_point_of_triangle(query, triangles[f])
+            .squared_distance;
     if(d < least) {
       least = d;
       result = f;
@@ -97,7 +100,8 @@ std::vector<Eigen::Matrix3d> triangles_of(const Mesh& mesh)
 Shares shares_of(const Mesh& fine, const Mesh& coarse, const std::vector<std::size_t>& map)
 {
   const std::vector<Vertex> handles(coarse.vertices().begin(), coarse.vertices().end());
-  const std::vector<Eigen::Matrix3d> triangles = triangles_of(coarse), fine_triangles = triangles_of(fine);
+  const std::vector<Eigen::Matrix3d> triangles = triangles_of(coarse),
+                                     fine_triangles = triangles_of(fine);
   std::vector<std::size_t> place(coarse.num_faces()), fine_place(fine.num_faces()),
       number(fine.num_vertices());
   double area = 0;
@@ -112,7 +116,8 @@ Shares shares_of(const Mesh& fine, const Mesh& coarse, const std::vector<std::si
     number[v] = i++;
 
   Shares shares(coarse.number_of_faces());
-  std::vector<std::vector<Face>> members(coarse.num_vertices()); // fine faces with a vertex that went there
+  std::vector<std::vector<Face>> members(
+      coarse.num_vertices()); // fine faces with a vertex that went there
   std::vector<Face> near;
   i = 0;
   for(const Face f : fine.faces()) {
@@ -125,8 +130,8 @@ Shares shares_of(const Mesh& fine, const Mesh& coarse, const std::vector<std::si
     }
     sort_unique(near);
     const double size = area_of(fine_triangles[f]);
-    const int n =
-        int((std::min)((std::max)(std::ceil(4 * std::sqrt(size / area)), 1.), 8.)); // a sixteenth each
+    const int n = int(
+        (std::min)((std::max)(std::ceil(4 * std::sqrt(size / area)), 1.), 8.)); // a sixteenth each
     for_each_part(fine_triangles[f], n, [&](const Eigen::Vector3d& part) {
       auto& share = shares[place[closest(part, triangles, near)]];
       if(share.empty() || share.back().first != fine_place[f])
@@ -142,7 +147,8 @@ Shares shares_of(const Mesh& fine, const Mesh& coarse, const std::vector<std::si
         near.insert(near.end(), members[w].begin(), members[w].end());
       sort_unique(near);
       if(!near.empty())
-        share.emplace_back(fine_place[closest(triangles[f].rowwise().mean(), fine_triangles, near)], 1.);
+        share.emplace_back(fine_place[closest(triangles[f].rowwise().mean(), fine_triangles, near)],
+                           1.);
     }
   return shares;
 }
@@ -186,7 +192,8 @@ Attributes carried_by_area(const Attributes& fine_attributes, const Mesh& fine, 
           sum += area * x;
           weight += area;
         }
-      result.known[k].values[f] = weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
+      result.known[k].values[f] =
+          weight > 0 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
     }
   }
   for(const std::vector<std::size_t>& together : electorates(fine_attributes)) {

@@ -30,7 +30,8 @@ inline void require_readable(const std::string& path)
 // from 0. Throws at the first line that is anything else, or that names a vertex of one mesh again.
 // With `or_none`, lines may hold -1, and vertices may repeat.
 inline std::vector<std::vector<std::size_t>>
-read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes, const bool or_none = false)
+read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes,
+                  const bool or_none = false)
 {
   require_readable(path);
   const std::string form = sizes.size() == 1 ? "one index per line" : "two indices per line";
@@ -57,8 +58,9 @@ read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes
                                  " where the index of a vertex is expected: write " + form +
                                  ", counted from 0.");
       if(word.size() > 18 || std::stoull(word) >= sizes[c])
-        throw std::runtime_error(place(file.line()) + "has " + word.substr(0, 40) + ", but the mesh has " +
-                                 std::to_string(sizes[c]) + " vertices: use indices from 0 to " +
+        throw std::runtime_error(place(file.line()) + "has " + word.substr(0, 40) +
+                                 ", but the mesh has " + std::to_string(sizes[c]) +
+                                 " vertices: use indices from 0 to " +
                                  std::to_string(sizes[c] - 1) + ".");
       row.push_back(std::stoull(word));
       largest = (std::max)(largest, row.back());
@@ -78,8 +80,9 @@ read_vertex_lines(const std::string& path, const std::vector<std::size_t>& sizes
   if(rows.empty())
     throw std::runtime_error("'" + path + "' names no vertex: write " + form + ", counted from 0.");
   if(!or_none && !twice.empty())
-    throw std::runtime_error(
-        twice + (largest <= 1 && sizes.size() == 1 ? "; a mask of 0 and 1 is no list of indices." : "."));
+    throw std::runtime_error(twice + (largest <= 1 && sizes.size() == 1
+                                          ? "; a mask of 0 and 1 is no list of indices."
+                                          : "."));
   return rows;
 }
 

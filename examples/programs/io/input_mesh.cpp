@@ -43,7 +43,8 @@ void close_edges(const Polygon_soup& soup, Mended& mended)
         sets.union_set(v, w);
     }
   std::size_t merged = 0;
-  std::vector<std::size_t> first_of(mended.vertex.size(), mended.vertex.size()); // by representatives
+  std::vector<std::size_t> first_of(mended.vertex.size(),
+                                    mended.vertex.size()); // by representatives
   for(std::size_t v = 0; v < mended.vertex.size(); ++v) {
     std::size_t& first = first_of[sets.find_set(v)];
     first = (std::min)(first, v);
@@ -73,7 +74,8 @@ void remove_copies(Mended& mended)
                                          return !known.insert(std::move(p)).second;
                                        }),
                         mended.polygons.end());
-  mended.log.add("copy of a face removed", "copies of faces removed", before - mended.polygons.size());
+  mended.log.add("copy of a face removed", "copies of faces removed",
+                 before - mended.polygons.size());
 }
 
 // Sets of faces that agree with one of them, or are contrary to it.
@@ -118,10 +120,12 @@ private:
   std::vector<char> m_contrary; // to its parent
 };
 
-// Turns the smaller part of each component round where its faces then agree along all edges, and no faces otherwise.
+// Turns the smaller part of each component round where its faces then agree along all edges, and no
+// faces otherwise.
 void orient(Mended& mended)
 {
-  std::vector<std::tuple<std::size_t, std::size_t, std::size_t, bool>> sides; // ends, face, direction
+  std::vector<std::tuple<std::size_t, std::size_t, std::size_t, bool>>
+      sides; // ends, face, direction
   for(std::size_t f = 0; f < mended.polygons.size(); ++f) {
     const auto& p = mended.polygons[f];
     for(std::size_t i = 0; i < p.size(); ++i) {
@@ -138,11 +142,13 @@ void orient(Mended& mended)
   for(std::size_t i = 0; i < sides.size(); ++i)
     if(same_edge(i, i + 1)) {
       const bool contrary = std::get<3>(sides[i]) == std::get<3>(sides[i + 1]);
-      if(same_edge(i, i + 2) || !faces.unite(std::get<2>(sides[i]), std::get<2>(sides[i + 1]), contrary))
+      if(same_edge(i, i + 2) ||
+         !faces.unite(std::get<2>(sides[i]), std::get<2>(sides[i + 1]), contrary))
         return; // branched, or one-sided
       ++i;
     }
-  std::vector<std::ptrdiff_t> majority(mended.polygons.size(), 0); // those that agree less those that do not
+  std::vector<std::ptrdiff_t> majority(mended.polygons.size(),
+                                       0); // those that agree less those that do not
   for(std::size_t f = 0; f < majority.size(); ++f) {
     const auto [first, contrary] = faces.find(f);
     majority[first] += contrary ? -1 : 1;
@@ -194,8 +200,9 @@ std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
   return mending == Mending::full ? ", which --repair could not do" : ", or add --repair";
 }
 
-// Makes the mesh of a soup without what `diagnosis` calls isolated vertices. `vertex` says which vertex of the soup stands for
-// each vertex of the file, or is `no_vertex`; `origin` says where each vertex of the soup is in the file.
+// Makes the mesh of a soup without what `diagnosis` calls isolated vertices. `vertex` says which
+// vertex of the soup stands for each vertex of the file, or is `no_vertex`; `origin` says where
+// each vertex of the soup is in the file.
 void build(Input_mesh& input, const std::string& name, const Mending mending, Polygon_soup soup,
            const std::vector<std::size_t>& vertex, const std::vector<std::size_t>& origin)
 {
@@ -226,13 +233,15 @@ void build(Input_mesh& input, const std::string& name, const Mending mending, Po
   std::vector<std::size_t> mesh_vertices;
   for(const std::size_t v : vertex)
     mesh_vertices.push_back(v == no_vertex ? no_vertex : place[v]);
-  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, input.mesh);
+  CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(soup.points, soup.polygons,
+                                                              input.mesh);
   input.numbering = Vertex_numbering(std::move(mesh_vertices), std::move(file_vertices));
   for(CGAL::Spectral_geometry::Mesh_component& c : diagnosis.components)
     c.first = origin[c.first];
 }
 
-// The coordinates at the corners of polygons, which each vertex has the same of where the file has them at vertices.
+// The coordinates at the corners of polygons, which each vertex has the same of where the file has
+// them at vertices.
 Corner_texture texture_of(const Polygon_soup& soup)
 {
   Corner_texture texture = soup.texture;
@@ -286,7 +295,8 @@ private:
   std::size_t vertex(const std::size_t v) const
   {
     const Vertex_numbering& numbering = m_input.numbering;
-    const std::size_t w = v < numbering.number_of_file_vertices() ? numbering.mesh_vertex(v) : no_vertex;
+    const std::size_t w =
+        v < numbering.number_of_file_vertices() ? numbering.mesh_vertex(v) : no_vertex;
     return w == no_vertex ? w : numbering.file_vertex(w);
   }
 
@@ -343,7 +353,8 @@ void set_face_attributes(Input_mesh& input, const Polygons& polygons, const Attr
   for(const auto f : input.mesh.faces()) {
     const std::size_t p = origins.nearest(f);
     for(std::size_t k = 0; k < attributes.known.size(); ++k)
-      input.face_attributes.known[k].values.push_back(p == no_vertex ? 0. : attributes.known[k].values[p]);
+      input.face_attributes.known[k].values.push_back(
+          p == no_vertex ? 0. : attributes.known[k].values[p]);
   }
 }
 
@@ -357,7 +368,8 @@ std::string Input_mesh::changes_of(const std::string& path) const
   return list.empty() ? "" : "'" + path + "':" + list + ".";
 }
 
-Input_mesh read_input_mesh(const std::string& path, const Mending mending, const bool with_attributes)
+Input_mesh read_input_mesh(const std::string& path, const Mending mending,
+                           const bool with_attributes)
 {
   return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes);
 }
@@ -367,8 +379,10 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
 {
   Input_mesh input;
   const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
-  const Attributes face_attributes = with_attributes ? std::move(soup.face_attributes) : Attributes();
-  const Polygons polygons = texture.empty() && face_attributes.known.empty() ? Polygons() : soup.polygons;
+  const Attributes face_attributes =
+      with_attributes ? std::move(soup.face_attributes) : Attributes();
+  const Polygons polygons =
+      texture.empty() && face_attributes.known.empty() ? Polygons() : soup.polygons;
   if(with_attributes) {
     input.face_attributes.unknown = face_attributes.unknown;
     input.material_libraries = std::move(soup.material_libraries);
@@ -384,7 +398,8 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
     try {
       repaired = repaired_soup(soup, log, vertex, origin);
     } catch(const CGAL::Failure_exception&) {
-      throw std::runtime_error(name + " cannot be repaired: CGAL's functions contradict themselves on it.");
+      throw std::runtime_error(
+          name + " cannot be repaired: CGAL's functions contradict themselves on it.");
     }
     input.diagnosis = diagnose(repaired);
     input.still_cut = still_cut(input.diagnosis, origin);

@@ -30,12 +30,14 @@ struct Input_mesh
   Corner_texture texture;      // by halfedges, at the target in the face; or empty
   std::string without_texture; // why it is empty, the end of a sentence
 
-  // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was changed.
+  // "'bunny.obj': 2 faces turned round, 1113 isolated vertices left out."; empty if nothing was
+  // changed.
   std::string changes_of(const std::string& path) const;
 };
 
-// What may be changed: nothing; what leaves the surface as it is, that is isolated vertices, copies of faces, edges
-// without length, faces turned the other way than their neighbours; or anything, see `repaired_soup()`.
+// What may be changed: nothing; what leaves the surface as it is, that is isolated vertices, copies
+// of faces, edges without length, faces turned the other way than their neighbours; or anything,
+// see `repaired_soup()`.
 enum class Mending { none, plain, full };
 
 // What the options --strict and --repair ask for.
@@ -46,8 +48,9 @@ inline Mending mending(const bool strict, const bool repair)
   return strict ? Mending::none : repair ? Mending::full : Mending::plain;
 }
 
-// Reads a triangle mesh, its vertices in the order of the file (of first appearance for STL). Throws with the first
-// obstacle that is left. `with_attributes`: keeps what vertices and corners have beside positions.
+// Reads a triangle mesh, its vertices in the order of the file (of first appearance for STL).
+// Throws with the first obstacle that is left. `with_attributes`: keeps what vertices and corners
+// have beside positions.
 Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false);
 
 // A mesh that has been read, or was never in a file; `name` begins what is said of it.

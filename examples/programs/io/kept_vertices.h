@@ -39,8 +39,9 @@ struct Kept
       char* end = nullptr;
       const double degrees = std::strtod(number.c_str(), &end);
       if(number.empty() || *end != '\0' || !(degrees > 0 && degrees <= 180))
-        throw std::runtime_error(option + " has '" + word +
-                                 "', an angle must follow, above 0 and up to 180 degrees, such as sharp:60.");
+        throw std::runtime_error(
+            option + " has '" + word +
+            "', an angle must follow, above 0 and up to 180 degrees, such as sharp:60.");
       if(sharp && *sharp != degrees)
         throw std::runtime_error(option + " names two angles: choose one.");
       sharp = degrees;

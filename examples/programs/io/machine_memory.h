@@ -39,9 +39,10 @@ inline double number_beside(const std::string& key, const std::filesystem::path&
   return 0;
 }
 
-// What is left in the control group at `path` below `mount` and in those around it, of which some may not be visible.
-inline double left_in_group(const std::filesystem::path& mount, const std::string& path, const char* limit,
-                            const char* usage, const char* idle)
+// What is left in the control group at `path` below `mount` and in those around it, of which some
+// may not be visible.
+inline double left_in_group(const std::filesystem::path& mount, const std::string& path,
+                            const char* limit, const char* usage, const char* idle)
 {
   double left = std::numeric_limits<double>::infinity();
   for(std::filesystem::path group = mount / std::filesystem::path(path).relative_path();;
@@ -67,7 +68,8 @@ inline double left_in_groups(const std::filesystem::path& root)
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",",
                       path = line.substr(second + 1);
     if(controllers == ",,")
-      left = (std::min)(left, left_in_group(mount, path, "memory.max", "memory.current", "inactive_file"));
+      left = (std::min)(
+          left, left_in_group(mount, path, "memory.max", "memory.current", "inactive_file"));
     else if(controllers.find(",memory,") != std::string::npos)
       left = (std::min)(left, left_in_group(mount / "memory", path, "memory.limit_in_bytes",
                                             "memory.usage_in_bytes", "total_inactive_file"));
@@ -77,13 +79,15 @@ inline double left_in_groups(const std::filesystem::path& root)
 
 } // namespace machine_memory_internal
 
-// Bytes that a program can still take: what Linux calls available, within the limits of its control groups; elsewhere all
-// memory of the machine; 0 when unknown. The files of Linux are looked for below `root`.
+// Bytes that a program can still take: what Linux calls available, within the limits of its control
+// groups; elsewhere all memory of the machine; 0 when unknown. The files of Linux are looked for
+// below `root`.
 inline double available_memory(const std::filesystem::path& root = "/")
 {
   using namespace machine_memory_internal;
   const std::filesystem::path file = root / "proc/meminfo";
-  const double sum = 1024 * (number_beside("MemAvailable:", file) + number_beside("SwapFree:", file));
+  const double sum =
+      1024 * (number_beside("MemAvailable:", file) + number_beside("SwapFree:", file));
   if(sum > 0)
     return (std::min)(sum, left_in_groups(root));
 #if defined(_SC_PHYS_PAGES) && defined(_SC_PAGESIZE)

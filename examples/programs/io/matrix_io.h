@@ -17,7 +17,8 @@
 
 // Matrices for other programs. Each function writes the file `file`, which errors call `name`.
 
-// Matrix Market, coordinate real general, indices from 1, 17 digits: scipy.io.mmread, MATLAB's mmread.
+// Matrix Market, coordinate real general, indices from 1, 17 digits: scipy.io.mmread, MATLAB's
+// mmread.
 inline void write_matrix_market(const std::string& file, const Eigen::SparseMatrix<double>& matrix,
                                 const std::string& name)
 {
@@ -27,7 +28,8 @@ inline void write_matrix_market(const std::string& file, const Eigen::SparseMatr
   char line[80];
   for(Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
     for(Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      std::snprintf(line, sizeof(line), "%lld %lld %.17g\n", static_cast<long long>(entry.row() + 1),
+      std::snprintf(line, sizeof(line), "%lld %lld %.17g\n",
+                    static_cast<long long>(entry.row() + 1),
                     static_cast<long long>(entry.col() + 1), entry.value());
       stream << line;
     }
@@ -35,7 +37,8 @@ inline void write_matrix_market(const std::string& file, const Eigen::SparseMatr
   finish_writing(stream, name);
 }
 
-// NumPy's format, doubles, a matrix in column-major order and a vector as a one-dimensional array: numpy.load.
+// NumPy's format, doubles, a matrix in column-major order and a vector as a one-dimensional array:
+// numpy.load.
 template <class Matrix>
 void write_npy(const std::string& file, const Matrix& matrix, const std::string& name)
 {

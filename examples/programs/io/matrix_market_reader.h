@@ -19,12 +19,14 @@
 #include <string>
 #include <vector>
 
-// What is wrong with a matrix of so many rows, columns and nonzeros, as "'P.mtx' " begins it; empty if nothing is.
+// What is wrong with a matrix of so many rows, columns and nonzeros, as "'P.mtx' " begins it; empty
+// if nothing is.
 using Size_objection = std::function<std::string(long long, long long, long long)>;
 
-// Reads a sparse matrix as other programs write it: Matrix Market, coordinate, real or integer, general or symmetric,
-// the words of the header in upper or lower case. Errors name the file and the first line that is wrong. `objection` is
-// asked before memory is taken: rows and columns cost some, and the file may promise any number of them.
+// Reads a sparse matrix as other programs write it: Matrix Market, coordinate, real or integer,
+// general or symmetric, the words of the header in upper or lower case. Errors name the file and
+// the first line that is wrong. `objection` is asked before memory is taken: rows and columns cost
+// some, and the file may promise any number of them.
 inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
                                                       const Size_objection& objection)
 {
@@ -41,7 +43,8 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
   std::istringstream(line) >> banner >> object >> format >> field >> symmetry;
   if(banner != "%%matrixmarket" || object != "matrix" || format != "coordinate" ||
      (field != "real" && field != "integer") || (symmetry != "general" && symmetry != "symmetric"))
-    refuse("it must begin with '%%MatrixMarket matrix coordinate real general' (or integer, or symmetric).");
+    refuse("it must begin with '%%MatrixMarket matrix coordinate real general' (or integer, or "
+           "symmetric).");
 
   std::size_t number = 1;
   do {
@@ -50,9 +53,10 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
   } while(stream && (line.empty() || line[0] == '%'));
   long long rows = 0, columns = 0, nonzeros = 0;
   constexpr long long largest = std::numeric_limits<int>::max();
-  if(!(std::istringstream(line) >> rows >> columns >> nonzeros) || rows < 1 || columns < 1 || nonzeros < 0 ||
-     rows > largest || columns > largest || nonzeros > largest)
-    refuse("line " + std::to_string(number) + " must give the numbers of rows, columns and nonzeros.");
+  if(!(std::istringstream(line) >> rows >> columns >> nonzeros) || rows < 1 || columns < 1 ||
+     nonzeros < 0 || rows > largest || columns > largest || nonzeros > largest)
+    refuse("line " + std::to_string(number) +
+           " must give the numbers of rows, columns and nonzeros.");
 
   if(symmetry == "symmetric" && rows != columns)
     refuse("line " + std::to_string(number) + " gives a symmetric matrix that is not square.");
@@ -66,7 +70,8 @@ inline Eigen::SparseMatrix<double> read_matrix_market(const std::string& path,
     ++number;
     long long i = 0, j = 0;
     double x = 0;
-    if(!std::getline(stream, line) || !(std::istringstream(line) >> i >> j >> x) || !std::isfinite(x))
+    if(!std::getline(stream, line) || !(std::istringstream(line) >> i >> j >> x) ||
+       !std::isfinite(x))
       refuse("line " + std::to_string(number) + " must hold a row, a column and a number.");
     if(i < 1 || i > rows || j < 1 || j > columns)
       refuse("the entry of line " + std::to_string(number) + " lies outside of the matrix.");

@@ -36,11 +36,11 @@ std::string mesh_format(const std::string& path)
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if(extension != ".off" && extension != ".obj" && extension != ".ply" && extension != ".stl")
-    throw std::runtime_error("the format of '" + path +
-                             "' is unknown: its name must end in .off, .obj, .ply or .stl" +
-                             (extension == ".vtk" || extension == ".vtp" || extension == ".gii"
-                                  ? "; the Python package takes what meshio and nibabel read of such files."
-                                  : "."));
+    throw std::runtime_error(
+        "the format of '" + path + "' is unknown: its name must end in .off, .obj, .ply or .stl" +
+        (extension == ".vtk" || extension == ".vtp" || extension == ".gii"
+             ? "; the Python package takes what meshio and nibabel read of such files."
+             : "."));
   return extension;
 }
 
@@ -76,8 +76,8 @@ Polygon_soup read_polygon_soup(const std::string& path)
   } catch(const std::bad_alloc&) {
     throw;
   } catch(const std::exception& fault) {
-    throw std::runtime_error("cannot read '" + path + "': it is not a valid " + format.substr(1) + " file; " +
-                             fault.what() + ".");
+    throw std::runtime_error("cannot read '" + path + "': it is not a valid " + format.substr(1) +
+                             " file; " + fault.what() + ".");
   }
   if(soup.polygons.empty())
     throw std::runtime_error("'" + path + "' holds points but no faces.");
@@ -128,9 +128,10 @@ bool is_integer(const Attribute* const a)
 // The label of faces that has one number a face in OFF and STL files.
 const Attribute* face_label(const Attributes& attributes)
 {
-  const auto found = std::find_if(attributes.known.begin(), attributes.known.end(), [](const Attribute& a) {
-    return a.is_integer() && a.words.empty() && colour_channel_of(a.name).first == 4;
-  });
+  const auto found =
+      std::find_if(attributes.known.begin(), attributes.known.end(), [](const Attribute& a) {
+        return a.is_integer() && a.words.empty() && colour_channel_of(a.name).first == 4;
+      });
   return found == attributes.known.end() ? nullptr : &*found;
 }
 
@@ -154,11 +155,13 @@ Attributes writable_at_faces(const Attributes& attributes, const std::string& na
   if(std::all_of(colour.begin(), colour.end(), is_integer)) {
     for(const Attribute* const a : colour)
       result.known.push_back(*a);
-    if(const Attribute* const alpha = attributes.find("alpha"); format == ".stl" && is_integer(alpha))
+    if(const Attribute* const alpha = attributes.find("alpha");
+       format == ".stl" && is_integer(alpha))
       result.known.push_back(*alpha);
   } else if(label != nullptr &&
-            (format == ".off" || (*std::min_element(label->values.begin(), label->values.end()) >= 0 &&
-                                  *std::max_element(label->values.begin(), label->values.end()) < 32768)))
+            (format == ".off" ||
+             (*std::min_element(label->values.begin(), label->values.end()) >= 0 &&
+              *std::max_element(label->values.begin(), label->values.end()) < 32768)))
     result.known.push_back(*label);
   return result;
 }
@@ -179,7 +182,8 @@ void add_property(Mesh& mesh, const Attribute& a, const bool of_faces)
   if(of_faces)
     fill<Number>(a, faces(mesh), mesh.add_property_map<Mesh::Face_index, Number>(a.name).first);
   else
-    fill<Number>(a, vertices(mesh), mesh.add_property_map<Mesh::Vertex_index, Number>(a.name).first);
+    fill<Number>(a, vertices(mesh),
+                 mesh.add_property_map<Mesh::Vertex_index, Number>(a.name).first);
 }
 
 // Property maps, which CGAL's writer of PLY files writes.
@@ -227,7 +231,8 @@ bool write_off(std::ostream& stream, const Mesh& mesh, const Attributes& at_vert
          << mesh.number_of_vertices() << ' ' << mesh.number_of_faces() << " 0\n\n";
   std::vector<std::size_t> number(mesh.num_vertices());
   std::size_t i = 0;
-  const double unit = c[0] != nullptr ? full_scale(c) : 1, face_unit = d[0] != nullptr ? full_scale(d) : 1;
+  const double unit = c[0] != nullptr ? full_scale(c) : 1,
+               face_unit = d[0] != nullptr ? full_scale(d) : 1;
   for(const auto v : vertices(mesh)) {
     stream << mesh.point(v);
     for(const Attribute* const a : n)
@@ -299,8 +304,10 @@ bool write_stl(std::ostream& stream, const Mesh& mesh, const Attributes& at_face
   return stream.good();
 }
 
-// Writes the lines vt, each value of a vertex once, and returns by halfedges which is that of the corner at the target.
-std::vector<std::size_t> write_texture(std::ostream& stream, const Mesh& mesh, const Corner_texture& texture)
+// Writes the lines vt, each value of a vertex once, and returns by halfedges which is that of the
+// corner at the target.
+std::vector<std::size_t> write_texture(std::ostream& stream, const Mesh& mesh,
+                                       const Corner_texture& texture)
 {
   std::vector<std::size_t> number(mesh.num_halfedges()), written; // corners of one vertex
   std::size_t n = 0;
@@ -309,8 +316,9 @@ std::vector<std::size_t> write_texture(std::ostream& stream, const Mesh& mesh, c
     for(const auto h : halfedges_around_target(v, mesh)) {
       if(mesh.is_border(h))
         continue;
-      const auto same = std::find_if(written.begin(), written.end(),
-                                     [&](const std::size_t other) { return texture[other] == texture[h]; });
+      const auto same = std::find_if(written.begin(), written.end(), [&](const std::size_t other) {
+        return texture[other] == texture[h];
+      });
       if(same != written.end()) {
         number[h] = number[*same];
         continue;
@@ -325,7 +333,8 @@ std::vector<std::size_t> write_texture(std::ostream& stream, const Mesh& mesh, c
 
 // CGAL's writer of OBJ files knows neither colours nor textures.
 bool write_obj(std::ostream& stream, const Mesh& mesh, const Attributes& attributes,
-               const Attributes& at_faces, Corner_texture texture, const std::vector<std::string>& libraries)
+               const Attributes& at_faces, Corner_texture texture,
+               const std::vector<std::string>& libraries)
 {
   for(const std::string& library : libraries)
     stream << "mtllib " << library << '\n';
@@ -402,9 +411,11 @@ std::string rounding(const Mesh& mesh, const std::string& name, const std::size_
     exact.insert(p);
     rounded.insert(q);
   }
-  const auto is_flat = [](const Kernel::Point_3& p, const Kernel::Point_3& q, const Kernel::Point_3& r) {
+  const auto is_flat = [](const Kernel::Point_3& p, const Kernel::Point_3& q,
+                          const Kernel::Point_3& r) {
     const Kernel::Vector_3 a = q - p, b = r - p, c = r - q;
-    const double longest = (std::max)((std::max)(a.squared_length(), b.squared_length()), c.squared_length());
+    const double longest =
+        (std::max)((std::max)(a.squared_length(), b.squared_length()), c.squared_length());
     return CGAL::cross_product(a, b).squared_length() <= 1e-20 * longest * longest;
   };
   std::size_t flat = 0;
@@ -416,30 +427,36 @@ std::string rounding(const Mesh& mesh, const std::string& name, const std::size_
   }
   std::vector<double> lengths;
   for(const auto e : edges(mesh))
-    lengths.push_back(
-        std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
-  std::nth_element(lengths.begin(), lengths.begin() + std::ptrdiff_t(lengths.size() / 2), lengths.end());
+    lengths.push_back(std::sqrt(
+        CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1)))));
+  std::nth_element(lengths.begin(), lengths.begin() + std::ptrdiff_t(lengths.size() / 2),
+                   lengths.end());
   const double edge =
       lengths[lengths.size() / 2] *
-      (simplified_to != 0 ? std::sqrt(double(mesh.number_of_vertices()) / double(simplified_to)) : 1.);
+      (simplified_to != 0 ? std::sqrt(double(mesh.number_of_vertices()) / double(simplified_to))
+                          : 1.);
   std::ostringstream figures;
   figures.precision(2);
   figures << "coordinates are rounded by up to " << largest << ", " << largest / edge
           << " times the median edge";
-  const std::string remedy = ": choose .ply, .obj or .off, which keep them, or move the mesh to the origin.";
+  const std::string remedy =
+      ": choose .ply, .obj or .off, which keep them, or move the mesh to the origin.";
   const std::size_t merged = exact.size() - rounded.size();
   if(!std::isfinite(largest))
-    throw Write_error(name, "an STL file holds single precision, in which coordinates overflow" + remedy);
+    throw Write_error(name,
+                      "an STL file holds single precision, in which coordinates overflow" + remedy);
   if(simplified_to != 0) {
     if(largest > edge / 2)
-      throw Write_error(name, "an STL file holds single precision, in which " + figures.str() + remedy);
+      throw Write_error(name,
+                        "an STL file holds single precision, in which " + figures.str() + remedy);
     return "";
   }
   if(merged + flat != 0)
-    throw Write_error(name, "an STL file holds single precision, in which " + figures.str() + ", so that " +
-                                (flat != 0 ? std::to_string(flat) + " faces lose their area"
-                                           : std::to_string(merged) + " vertices fall onto others") +
-                                remedy);
+    throw Write_error(
+        name, "an STL file holds single precision, in which " + figures.str() + ", so that " +
+                  (flat != 0 ? std::to_string(flat) + " faces lose their area"
+                             : std::to_string(merged) + " vertices fall onto others") +
+                  remedy);
   return largest > 1e-3 * edge ? "In '" + name + "' " + figures.str() + remedy : "";
 }
 
@@ -455,8 +472,8 @@ void write_mesh(const std::string& file, const Mesh& mesh, const std::string& na
   // CGAL's functions that open the file themselves do not say when the disk is full.
   const bool good = format == ".ply"   ? write_ply(stream, mesh, at_vertices, at_faces)
                     : format == ".stl" ? write_stl(stream, mesh, at_faces)
-                    : format == ".obj" ? write_obj(stream, mesh, at_vertices, at_faces, decoration.texture,
-                                                   decoration.libraries)
+                    : format == ".obj" ? write_obj(stream, mesh, at_vertices, at_faces,
+                                                   decoration.texture, decoration.libraries)
                                        : write_off(stream, mesh, at_vertices, at_faces);
   if(!good)
     throw Write_error(name, "the disk refused it, is it full?");

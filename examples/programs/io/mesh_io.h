@@ -17,9 +17,11 @@
 
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-// Reading and writing of meshes with errors of one sentence that name the file and the first offender.
+// Reading and writing of meshes with errors of one sentence that name the file and the first
+// offender.
 
-// Returns the extension of a mesh file in lower case; throws when the programs do not read and write it.
+// Returns the extension of a mesh file in lower case; throws when the programs do not read and
+// write it.
 std::string mesh_format(const std::string& path);
 
 Polygon_soup read_polygon_soup(const std::string& path);
@@ -36,13 +38,14 @@ Attributes writable_at_faces(const Attributes& attributes, const std::string& na
 // What a file has beside positions and faces.
 struct Decoration
 {
-  Attributes vertices, faces;              // in the order of `vertices(mesh)` and `faces(mesh)`
-  Corner_texture texture = {};             // by halfedges, or empty; only OBJ holds it, in place of s and t
+  Attributes vertices, faces;  // in the order of `vertices(mesh)` and `faces(mesh)`
+  Corner_texture texture = {}; // by halfedges, or empty; only OBJ holds it, in place of s and t
   std::vector<std::string> libraries = {}; // of materials, as OBJ files name them
 };
 
-// Writes a mesh, its vertices in the order of `vertices(mesh)`, with those of the attributes that the format holds, to the file
-// `file`, which errors call `name`. Throws where the format cannot hold the positions.
+// Writes a mesh, its vertices in the order of `vertices(mesh)`, with those of the attributes that
+// the format holds, to the file `file`, which errors call `name`. Throws where the format cannot
+// hold the positions.
 void write_mesh(const std::string& file, const Mesh& mesh, const std::string& name,
                 const Decoration& decoration = {});
 

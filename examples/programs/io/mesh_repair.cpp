@@ -2,9 +2,11 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The repair of meshes, apart from the programs that use it because CGAL's templates take their time.
+// The repair of meshes, apart from the programs that use it because CGAL's templates take their
+// time.
 
-// What CGAL asserts holds for any file in a release build as well: where it does not, CGAL's functions follow handles to nothing.
+// What CGAL asserts holds for any file in a release build as well: where it does not, CGAL's
+// functions follow handles to nothing.
 #define CGAL_DEBUG
 
 #include "mesh_repair.h"
@@ -74,7 +76,8 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
     const auto exists = [&](const std::size_t v) { return v < finite.size(); };
     if(!std::all_of(polygon.begin(), polygon.end(), exists))
       ++foreign;
-    else if(!std::all_of(polygon.begin(), polygon.end(), [&](const std::size_t v) { return finite[v]; }))
+    else if(!std::all_of(polygon.begin(), polygon.end(),
+                         [&](const std::size_t v) { return finite[v]; }))
       ++infinite;
     else
       result.polygons.push_back(polygon);
@@ -86,7 +89,8 @@ Exact_soup usable_part(const Polygon_soup& soup, Repair_log& log)
   return result;
 }
 
-// Takes repetitions out of polygons, and what is no polygon then; true if no vertex is left twice in any of them.
+// Takes repetitions out of polygons, and what is no polygon then; true if no vertex is left twice
+// in any of them.
 bool without_repetitions(Exact_soup& soup, Repair_log& log)
 {
   bool simple = true;
@@ -122,15 +126,16 @@ double area(const Exact_soup& soup, const std::vector<std::size_t>& polygon)
 {
   double sum = 0;
   for(std::size_t i = 2; i < polygon.size(); ++i)
-    sum += std::sqrt(
-        CGAL::squared_area(soup.points[polygon[0]], soup.points[polygon[i - 1]], soup.points[polygon[i]]));
+    sum += std::sqrt(CGAL::squared_area(soup.points[polygon[0]], soup.points[polygon[i - 1]],
+                                        soup.points[polygon[i]]));
   return sum;
 }
 
-// Where a thin part of a closed surface has collapsed to a fin, each of its faces lies on one that runs the other way, and at its root
-// two faces of the rest meet, which run along it in opposite directions: they meet still when both copies have gone, while one alone
-// would be a third face of that edge. What hangs on such faces goes with them. Larger fins, above a hundredth of the area, may be meant: of
-// them, and of a surface whose faces are all there twice, one copy stays.
+// Where a thin part of a closed surface has collapsed to a fin, each of its faces lies on one that
+// runs the other way, and at its root two faces of the rest meet, which run along it in opposite
+// directions: they meet still when both copies have gone, while one alone would be a third face of
+// that edge. What hangs on such faces goes with them. Larger fins, above a hundredth of the area,
+// may be meant: of them, and of a surface whose faces are all there twice, one copy stays.
 void remove_fins(Exact_soup& soup, Repair_log& log)
 {
   using Vertices = std::vector<std::size_t>;
@@ -143,7 +148,8 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
   }
   std::sort(faces.begin(), faces.end());
   constexpr std::size_t none = std::size_t(-1);
-  std::vector<std::size_t> fold_of(soup.polygons.size(), none); // of each polygon that lies on another
+  std::vector<std::size_t> fold_of(soup.polygons.size(),
+                                   none); // of each polygon that lies on another
   std::vector<Vertices> folded;
   for(std::size_t i = 0, j; i < faces.size(); i = j) {
     bool differ = false;
@@ -223,7 +229,8 @@ void clean(Exact_soup& soup, Repair_log& log)
 {
   log.add("isolated vertex removed", "isolated vertices removed",
           PMP::remove_isolated_points_in_polygon_soup(soup.points, soup.polygons));
-  log.add("vertex merged that had the position of another", "vertices merged that had the same position",
+  log.add("vertex merged that had the position of another",
+          "vertices merged that had the same position",
           PMP::merge_duplicate_points_in_polygon_soup(soup.points, soup.polygons));
   const bool simple = without_repetitions(soup, log);
   remove_fins(soup, log);
@@ -237,7 +244,8 @@ void clean(Exact_soup& soup, Repair_log& log)
             before - soup.polygons.size());
 }
 
-// Moves border vertices that all but lie on others there, also in `input`: where a surface was cut or coordinates were rounded.
+// Moves border vertices that all but lie on others there, also in `input`: where a surface was cut
+// or coordinates were rounded.
 void close_cracks(Exact_soup& soup, Polygon_soup& input, Repair_log& log)
 {
   std::map<std::array<double, 3>, Kernel::Point_3> moved;
@@ -252,7 +260,8 @@ void close_cracks(Exact_soup& soup, Polygon_soup& input, Repair_log& log)
   for(Kernel::Point_3& p : input.points)
     if(const auto found = moved.find(position(p)); found != moved.end())
       p = found->second;
-  log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others", moved.size());
+  log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others",
+          moved.size());
   clean(soup, log);
 }
 
@@ -274,11 +283,11 @@ void add_parts(const Split_triangle& t, std::vector<std::vector<std::size_t>>& t
     side.insert(side.end(), t.on_side[i].begin(), t.on_side[i].end());
     side.push_back(t.corners[j]);
     for(std::size_t s = 0; s + 1 < side.size(); ++s)
-      add_parts(
-          {{side[s], side[s + 1], opposite},
-           {std::vector<std::size_t>(), s + 2 == side.size() ? t.on_side[j] : std::vector<std::size_t>(),
-            s == 0 ? t.on_side[k] : std::vector<std::size_t>()}},
-          triangles);
+      add_parts({{side[s], side[s + 1], opposite},
+                 {std::vector<std::size_t>(),
+                  s + 2 == side.size() ? t.on_side[j] : std::vector<std::size_t>(),
+                  s == 0 ? t.on_side[k] : std::vector<std::size_t>()}},
+                triangles);
     return;
   }
   triangles.push_back({t.corners[0], t.corners[1], t.corners[2]});
@@ -305,11 +314,12 @@ vertices_on_edges(const Exact_soup& soup)
   std::sort(border.begin(), border.end());
   border.erase(std::unique(border.begin(), border.end()), border.end());
   const auto before = [&](const std::size_t v, const double x) { return soup.points[v].x() < x; };
-  std::sort(border.begin(), border.end(),
-            [&](const std::size_t v, const std::size_t w) { return before(v, soup.points[w].x()); });
+  std::sort(border.begin(), border.end(), [&](const std::size_t v, const std::size_t w) {
+    return before(v, soup.points[w].x());
+  });
   const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
-  const double largest =
-      1e-5 * std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
+  const double largest = 1e-5 * std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) +
+                                          CGAL::square(box.z_span()));
   for(const auto& [edge, corners] : opposite) {
     if(corners.size() != 1)
       continue;
@@ -320,7 +330,8 @@ vertices_on_edges(const Exact_soup& soup)
       continue;
     const double reach = (std::min)(largest, 0.01 * std::sqrt(squared));
     std::vector<std::pair<double, std::size_t>> found;
-    for(auto v = std::lower_bound(border.begin(), border.end(), (std::min)(p.x(), q.x()) - reach, before);
+    for(auto v = std::lower_bound(border.begin(), border.end(), (std::min)(p.x(), q.x()) - reach,
+                                  before);
         v != border.end() && soup.points[*v].x() <= (std::max)(p.x(), q.x()) + reach; ++v) {
       const Vector there = soup.points[*v] - p;
       const double t = there * along / squared;
@@ -357,8 +368,8 @@ void close_t_junctions(Exact_soup& soup, Repair_log& log)
     add_parts(split, triangles);
   }
   soup.polygons = std::move(triangles);
-  log.add("edge split at the vertices that lie on it", "edges split at the vertices that lie on them",
-          on_edge.size());
+  log.add("edge split at the vertices that lie on it",
+          "edges split at the vertices that lie on them", on_edge.size());
   clean(soup, log);
 }
 
@@ -379,7 +390,8 @@ void turn_inside_out(Exact_soup& soup, Repair_log& log)
           turned.size());
 }
 
-// Splitting gives new vertices old positions, so that the direction of a face shows in its positions.
+// Splitting gives new vertices old positions, so that the direction of a face shows in its
+// positions.
 bool same_direction(const Exact_soup& before, const Exact_soup& after, const std::size_t f)
 {
   const std::vector<std::size_t>&p = before.polygons[f], &q = after.polygons[f];
@@ -415,7 +427,8 @@ Exact_soup to_soup(const Exact_mesh& mesh)
   return soup;
 }
 
-// The triangles of one polygon in its plane; where it has none, of the minimal surface that it bounds, or a fan.
+// The triangles of one polygon in its plane; where it has none, of the minimal surface that it
+// bounds, or a fan.
 std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
                                                    const std::vector<std::size_t>& polygon)
 {
@@ -425,8 +438,8 @@ std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
   for(const std::size_t v : polygon)
     corners.push_back(mesh.add_vertex(soup.points[v]));
   // Of corners on a line CGAL's function makes faces whose halfedges never come round.
-  if(PMP::triangulate_face(mesh.add_face(corners), mesh) && mesh.number_of_faces() == polygon.size() - 2 &&
-     CGAL::is_triangle_mesh(mesh)) {
+  if(PMP::triangulate_face(mesh.add_face(corners), mesh) &&
+     mesh.number_of_faces() == polygon.size() - 2 && CGAL::is_triangle_mesh(mesh)) {
     for(const auto f : mesh.faces()) {
       triangles.emplace_back();
       for(const auto v : vertices_around_face(mesh.halfedge(f), mesh))
@@ -445,8 +458,8 @@ std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
       triples.emplace_back(0, i - 1, i);
   }
   for(const auto& t : triples)
-    triangles.push_back(
-        {polygon[std::size_t(t.first)], polygon[std::size_t(t.second)], polygon[std::size_t(t.third)]});
+    triangles.push_back({polygon[std::size_t(t.first)], polygon[std::size_t(t.second)],
+                         polygon[std::size_t(t.third)]});
   return triangles;
 }
 
@@ -472,8 +485,9 @@ void triangulate(Exact_soup& soup, Repair_log& log)
           PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
 }
 
-// Needles are collapsed, caps flipped; thresholds: edges of a ratio of a million, an angle of 179.9999 degrees. Where CGAL's
-// function loses its way, as it may beside borders, the faces stay and the diagnosis names them.
+// Needles are collapsed, caps flipped; thresholds: edges of a ratio of a million, an angle of
+// 179.9999 degrees. Where CGAL's function loses its way, as it may beside borders, the faces stay
+// and the diagnosis names them.
 void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
 {
   const std::size_t before = mesh.number_of_faces();
@@ -481,8 +495,8 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   const double ratio = 1e6, cosine = std::cos(std::acos(-1.) * 179.9999 / 180);
   try {
 #if CGAL_VERSION_NR >= CGAL_VERSION_NUMBER(6, 0, 0)
-    PMP::remove_almost_degenerate_faces(mesh,
-                                        CGAL::parameters::needle_threshold(ratio).cap_threshold(cosine));
+    PMP::remove_almost_degenerate_faces(
+        mesh, CGAL::parameters::needle_threshold(ratio).cap_threshold(cosine));
 #else
     PMP::experimental::remove_almost_degenerate_faces(mesh, cosine, ratio, 0.);
 #endif
@@ -494,10 +508,12 @@ void remove_degenerate_faces(Exact_mesh& mesh, Repair_log& log)
   log.add("degenerate face removed", "degenerate faces removed", before - mesh.number_of_faces());
 }
 
-// The result in the order of `input`, and how the vertices of both belong together: by their positions, as what follows the closing of
-// cracks moves no vertex, and leaves one where several had been.
-Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input, const std::vector<bool>& used,
-                      std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin)
+// The result in the order of `input`, and how the vertices of both belong together: by their
+// positions, as what follows the closing of cracks moves no vertex, and leaves one where several
+// had been.
+Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input,
+                      const std::vector<bool>& used, std::vector<std::size_t>& vertex,
+                      std::vector<std::size_t>& origin)
 {
   std::map<std::array<double, 3>, std::size_t> places; // and the first vertex of the input there
   const auto position = [](const auto& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
@@ -531,8 +547,8 @@ Polygon_soup in_order(const Exact_soup& result, const Polygon_soup& input, const
 
 } // namespace
 
-Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log, std::vector<std::size_t>& vertex,
-                           std::vector<std::size_t>& origin)
+Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log,
+                           std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin)
 {
   const Silence silence; // what CGAL warns of, the diagnosis says better
   Polygon_soup input{file.points, {}};
@@ -548,14 +564,16 @@ Polygon_soup repaired_soup(const Polygon_soup& file, Repair_log& log, std::vecto
   orient(soup, log);
   turn_inside_out(soup, log);
   Exact_mesh mesh = to_mesh(soup);
-  log.add("pair of border edges stitched", "pairs of border edges stitched", PMP::stitch_borders(mesh));
+  log.add("pair of border edges stitched", "pairs of border edges stitched",
+          PMP::stitch_borders(mesh));
   mesh.collect_garbage();
   const auto diagnosis = diagnose(to_soup(mesh));
   if(diagnosis.zero_area_faces.count != 0 || diagnosis.overflowing_faces.count != 0)
     remove_degenerate_faces(mesh, log);
   log.add("vertex doubled to separate sheets", "vertices doubled to separate sheets",
           PMP::duplicate_non_manifold_vertices(mesh));
-  log.add("isolated vertex removed", "isolated vertices removed", PMP::remove_isolated_vertices(mesh));
+  log.add("isolated vertex removed", "isolated vertices removed",
+          PMP::remove_isolated_vertices(mesh));
   mesh.collect_garbage();
 
   return in_order(to_soup(mesh), input, used, vertex, origin);

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-// Something that was changed, and how often: "1 copy of a face removed", "2 copies of faces removed".
+// Something that was changed, and how often: "1 copy of a face removed", "2 copies of faces
+// removed".
 struct Repair
 {
   std::string one, many;
@@ -42,10 +43,11 @@ private:
   std::vector<Repair> m_changes;
 };
 
-// Makes what can be made an oriented 2-manifold of triangles with area out of the polygons of a file, with CGAL's own repair
-// functions. Vertices keep their order as far as they stay: `vertex` says which is each of the file, or `no_vertex`, and
-// `origin` which of the file each is. What is still wrong afterwards is for `diagnose_polygon_soup()` to say.
-Polygon_soup repaired_soup(const Polygon_soup& soup, Repair_log& log, std::vector<std::size_t>& vertex,
-                           std::vector<std::size_t>& origin);
+// Makes what can be made an oriented 2-manifold of triangles with area out of the polygons of a
+// file, with CGAL's own repair functions. Vertices keep their order as far as they stay: `vertex`
+// says which is each of the file, or `no_vertex`, and `origin` which of the file each is. What is
+// still wrong afterwards is for `diagnose_polygon_soup()` to say.
+Polygon_soup repaired_soup(const Polygon_soup& soup, Repair_log& log,
+                           std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin);
 
 #endif // SPECTRAL_EXAMPLES_IO_MESH_REPAIR_H

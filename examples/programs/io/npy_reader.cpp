@@ -55,12 +55,14 @@ void read_shape(Header& header, const std::string& shape, const std::string& pat
     sizes.push_back(std::stoull(word));
   }
   if(sizes.empty() || sizes.size() > 2)
-    refuse(path, "its array has " + std::to_string(sizes.size()) + " dimensions: save one of one or two");
+    refuse(path,
+           "its array has " + std::to_string(sizes.size()) + " dimensions: save one of one or two");
   header.rows = sizes[0];
   header.columns = sizes.size() == 2 ? sizes[1] : 1;
 }
 
-// The format of numpy.lib.format: magic, version, length of the text, and a Python dictionary as text.
+// The format of numpy.lib.format: magic, version, length of the text, and a Python dictionary as
+// text.
 Header read_header(const std::string& bytes, const std::string& path)
 {
   const auto byte = [&](std::size_t i) {
@@ -85,7 +87,8 @@ Header read_header(const std::string& bytes, const std::string& path)
     refuse(path, "it does not hold plain numbers: save an array of float64 or float32");
   const std::string type = found[1];
   if(type != "<f8" && type != ">f8" && type != "<f4" && type != ">f4")
-    refuse(path, "its numbers are of type " + quoted(type) + ": save an array of float64 or float32");
+    refuse(path,
+           "its numbers are of type " + quoted(type) + ": save an array of float64 or float32");
   header.size_of_number = type[2] == '8' ? 8 : 4;
   header.swapped = (type[0] == '<') != is_little_endian();
   if(!std::regex_search(text, found, std::regex("'fortran_order' *: *(True|False)")))
@@ -124,12 +127,15 @@ Eigen::MatrixXd read_npy(const std::string& path)
   // Divided, not multiplied: the header may promise anything.
   const bool complete = header.rows == 0 || header.columns == 0
                             ? bytes.size() == header.length
-                            : numbers / header.rows == header.columns && numbers % header.rows == 0 &&
+                            : numbers / header.rows == header.columns &&
+                                  numbers % header.rows == 0 &&
                                   (bytes.size() - header.length) % header.size_of_number == 0;
   if(!complete)
     refuse(path, "its header announces " + std::to_string(header.rows) + " x " +
-                     std::to_string(header.columns) + " numbers, but it holds " + std::to_string(numbers));
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(header.rows), static_cast<Eigen::Index>(header.columns));
+                     std::to_string(header.columns) + " numbers, but it holds " +
+                     std::to_string(numbers));
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(header.rows),
+                         static_cast<Eigen::Index>(header.columns));
   // By the numbers that are there: the header may promise rows or columns without any.
   for(std::size_t k = 0; k < numbers; ++k) {
     const char* at = bytes.data() + header.length + k * header.size_of_number;

@@ -10,8 +10,8 @@
 #include <cstddef>
 #include <string>
 
-// Reads a matrix that numpy.save wrote: one or two dimensions, float64 or float32 of either byte order, C or Fortran
-// order. Throws with one sentence that names the file and what is wrong.
+// Reads a matrix that numpy.save wrote: one or two dimensions, float64 or float32 of either byte
+// order, C or Fortran order. Throws with one sentence that names the file and what is wrong.
 
 // Returns the array of the file, a vector as a single column.
 Eigen::MatrixXd read_npy(const std::string& path);

@@ -49,8 +49,8 @@ SG::Operator_coefficients read_coefficients(const std::string& file, const std::
     if(columns == 7)
       return SG::anisotropic_coefficients(given.rightCols(6), given.col(0));
     if(columns == 1 || columns == 2)
-      return SG::weighted_coefficients(columns == 2 ? Eigen::VectorXd(given.col(0)) : Eigen::VectorXd(),
-                                       given.col(columns - 1));
+      return SG::weighted_coefficients(
+          columns == 2 ? Eigen::VectorXd(given.col(0)) : Eigen::VectorXd(), given.col(columns - 1));
   } catch(const std::invalid_argument& error) {
     throw std::runtime_error("cannot use '" + file + "': " + error.what());
   }
@@ -66,7 +66,8 @@ SG::Operator_coefficients operator_coefficients(const Operator_word& word, const
                                                 const Vertex_numbering& numbering)
 {
   if(word.kind == "weighted")
-    return numbering.rows_of_mesh(read_coefficients(word.file, numbering.number_of_file_vertices()));
+    return numbering.rows_of_mesh(
+        read_coefficients(word.file, numbering.number_of_file_vertices()));
   if(word.kind == "anisotropic") {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
     return SG::curvature_coefficients(matrices.V, matrices.T, word.anisotropy);

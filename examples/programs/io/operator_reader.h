@@ -22,9 +22,11 @@ struct Operator_word
 // Throws with one sentence for what is none of these.
 Operator_word parsed_operator(const std::string& word);
 
-// The coefficients at the vertices of a mesh; none for `cotangent`. A file is a NumPy array with a row for each vertex of INPUT: the
-// conductivity in one column, density and conductivity in two, or density and the tensor xx, xy, xz, yy, yz, zz in seven.
+// The coefficients at the vertices of a mesh; none for `cotangent`. A file is a NumPy array with a
+// row for each vertex of INPUT: the conductivity in one column, density and conductivity in two, or
+// density and the tensor xx, xy, xz, yy, yz, zz in seven.
 CGAL::Spectral_geometry::Operator_coefficients
-operator_coefficients(const Operator_word& word, const Mesh& mesh, const Vertex_numbering& numbering);
+operator_coefficients(const Operator_word& word, const Mesh& mesh,
+                      const Vertex_numbering& numbering);
 
 #endif // SPECTRAL_EXAMPLES_OPERATOR_READER_H

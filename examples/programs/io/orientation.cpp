@@ -27,7 +27,8 @@ struct Component
 
 std::vector<Component> components_of(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
 {
-  const std::vector<Index> component = CGAL::Spectral_geometry::internal::connected_components(V.rows(), T);
+  const std::vector<Index> component =
+      CGAL::Spectral_geometry::internal::connected_components(V.rows(), T);
   std::vector<Component> result;
   std::vector<std::pair<int, int>> edges; // directed
   for(Index t = 0; t < T.rows(); ++t) {
@@ -63,7 +64,8 @@ double winding_number(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const 
     const Eigen::RowVector3d a = V.row(T(t, 0)) - point, b = V.row(T(t, 1)) - point,
                              c = V.row(T(t, 2)) - point;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    sum +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return sum / (2 * std::acos(-1.));
 }

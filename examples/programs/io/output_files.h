@@ -37,9 +37,9 @@ inline void finish_writing(std::ofstream& stream, const std::string& name)
 
 // The files that a program writes: either all of them appear, complete, or none.
 //
-// Each file is written under another name in the folder where it will be. `commit()` renames them at the end; what it is
-// never asked for, the destructor removes. Because they are made at the start, a name that cannot be
-// written is reported before the work, not after it.
+// Each file is written under another name in the folder where it will be. `commit()` renames them
+// at the end; what it is never asked for, the destructor removes. Because they are made at the
+// start, a name that cannot be written is reported before the work, not after it.
 class Output_files
 {
 public:
@@ -76,7 +76,8 @@ public:
     const fs::path folder = target.parent_path();
     if(!fs::is_directory(folder, error))
       throw Write_error(path, "there is no folder '" + folder.string() + "'.");
-    if(target.filename().empty() || (fs::exists(target, error) && !fs::is_regular_file(target, error)))
+    if(target.filename().empty() ||
+       (fs::exists(target, error) && !fs::is_regular_file(target, error)))
       throw Write_error(path, "it is not an ordinary file.");
     if(input == Input::is_kept && m_inputs.count(target.string()) > 0)
       throw Write_error(path, "it is read as an input, give another name.");
@@ -86,8 +87,9 @@ public:
       throw Write_error(path, std::strerror(errno) + std::string("."));
 
     // The extension stays: CGAL chooses the format by it.
-    const fs::path temporary = folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + "-" +
-                                         std::to_string(m_targets.size()) + target.extension().string());
+    const fs::path temporary =
+        folder / ("." + target.stem().string() + "." + std::to_string(getpid()) + "-" +
+                  std::to_string(m_targets.size()) + target.extension().string());
     const int descriptor = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if(descriptor < 0)
       throw Write_error(path, std::strerror(errno) + std::string("."));
@@ -112,7 +114,8 @@ public:
     if(std::filesystem::is_directory(path, error))
       return;
     if(!std::filesystem::create_directory(path, error)) {
-      const std::string reason = error ? error.message() : std::string("there is a file of that name");
+      const std::string reason =
+          error ? error.message() : std::string("there is a file of that name");
       throw std::runtime_error("cannot make the folder '" + path + "': " + reason + ".");
     }
     m_new_folders.push_back(path);
@@ -137,8 +140,8 @@ private:
     std::filesystem::path former; // a second name of the file that `target` was
   };
 
-  // Gives the files from `begin` on their names, after their contents have reached the disk. If one of them cannot have it,
-  // the files that were there before are back when the error is thrown.
+  // Gives the files from `begin` on their names, after their contents have reached the disk. If one
+  // of them cannot have it, the files that were there before are back when the error is thrown.
   void commit(const std::vector<File>::iterator begin)
   {
     for(auto file = begin; file != m_files.end(); ++file) {

@@ -24,9 +24,10 @@
 #include <utility>
 #include <vector>
 
-// PLY files: text or binary of either byte order, numbers of any type, faces or, as scanned models have them, strips of
-// triangles (element tristrips). CGAL's reader knows neither strips nor indices of fewer than 32 bits, crashes on coordinates
-// that are integers, and reserves gigabytes for a face that claims to have a billion vertices.
+// PLY files: text or binary of either byte order, numbers of any type, faces or, as scanned models
+// have them, strips of triangles (element tristrips). CGAL's reader knows neither strips nor
+// indices of fewer than 32 bits, crashes on coordinates that are integers, and reserves gigabytes
+// for a face that claims to have a billion vertices.
 class Ply_reader
 {
 public:
@@ -112,7 +113,10 @@ private:
     return static_cast<Type>((known - type_names.begin()) / 2 + 1);
   }
 
-  static const char* name_of(const Type type) { return type_names[2 * (static_cast<std::size_t>(type) - 1)]; }
+  static const char* name_of(const Type type)
+  {
+    return type_names[2 * (static_cast<std::size_t>(type) - 1)];
+  }
 
   void read_header()
   {
@@ -137,9 +141,10 @@ private:
         m_elements.emplace_back();
         std::string count;
         words >> m_elements.back().name >> count;
-        if(count.empty() || count.size() > 15 || count.find_first_not_of("0123456789") != std::string::npos)
-          refuse("its header has the element " + quoted(m_elements.back().name) + " with " + quoted(count) +
-                 " where a number is expected");
+        if(count.empty() || count.size() > 15 ||
+           count.find_first_not_of("0123456789") != std::string::npos)
+          refuse("its header has the element " + quoted(m_elements.back().name) + " with " +
+                 quoted(count) + " where a number is expected");
         m_elements.back().count = static_cast<std::size_t>(std::stoull(count));
         const std::string& name = m_elements.back().name;
         if(name != "vertex" && name != "face" && name != "tristrips")
@@ -238,8 +243,8 @@ private:
         if(!(property.count_type == Type::none ? read_single(property, point, attributes)
                                                : read_list(property)))
           refuse((m_refused.empty() ? "it is damaged or cut off" : m_refused) + " at " +
-                 quoted(element.name) + " " + std::to_string(i) + " of " + std::to_string(element.count) +
-                 " (counted from 0)");
+                 quoted(element.name) + " " + std::to_string(i) + " of " +
+                 std::to_string(element.count) + " (counted from 0)");
         if(property.vertices) {
           m_soup.polygons.emplace_back();
           for(const double v : m_list)
@@ -266,7 +271,8 @@ private:
     if(!read_value(property.type, value))
       return false;
     if(property.attribute != no_vertex && !holds(property.type, value)) {
-      m_refused = "its property " + quoted(property.name) + " has a number that its type does not hold";
+      m_refused =
+          "its property " + quoted(property.name) + " has a number that its type does not hold";
       return false;
     }
     if(property.coordinate < 3)
@@ -290,7 +296,8 @@ private:
     return true;
   }
 
-  // Each vertex makes a triangle with the two before it, every other one turned round; a negative one ends the strip.
+  // Each vertex makes a triangle with the two before it, every other one turned round; a negative
+  // one ends the strip.
   void add_strip()
   {
     std::size_t begin = 0;
@@ -340,7 +347,8 @@ private:
   {
     if(type == Type::float32 || type == Type::float64)
       return true;
-    const int number = static_cast<int>(type) - 1; // signed and unsigned ones of 8, 16, 32 bits in turn
+    const int number =
+        static_cast<int>(type) - 1; // signed and unsigned ones of 8, 16, 32 bits in turn
     const int bits = 8 << number / 2;
     const bool is_signed = number % 2 == 0;
     const double end = std::ldexp(1., is_signed ? bits - 1 : bits);
@@ -352,7 +360,8 @@ private:
   {
     char* end = nullptr;
     value = std::strtod(m_at, &end);
-    const bool good = end != m_at && (*end == '\0' || std::isspace(static_cast<unsigned char>(*end)));
+    const bool good =
+        end != m_at && (*end == '\0' || std::isspace(static_cast<unsigned char>(*end)));
     if(!good) {
       const char* begin = m_at;
       while(begin != m_end && std::isspace(static_cast<unsigned char>(*begin)))
@@ -390,7 +399,7 @@ private:
   bool m_text = false, m_big_endian = false;
   std::vector<Element> m_elements;
   std::vector<double> m_list;
-  std::string m_refused;                             // why the last value was refused, where that is known
+  std::string m_refused; // why the last value was refused, where that is known
   std::vector<std::vector<std::size_t>> m_triangles; // of strips
   Polygon_soup m_soup;
 };

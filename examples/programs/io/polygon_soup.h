@@ -27,11 +27,12 @@ struct Polygon_soup
 {
   std::vector<Kernel::Point_3> points;
   std::vector<std::vector<std::size_t>> polygons;
-  Attributes attributes = {};                       // of the points, as long as they are those of the file
-  Attributes face_attributes = {};                  // of the polygons, likewise
+  Attributes attributes = {};      // of the points, as long as they are those of the file
+  Attributes face_attributes = {}; // of the polygons, likewise
   std::vector<std::string> material_libraries = {}; // files, as an OBJ file names them
-  Corner_texture texture = {};                      // at the corners of one polygon after the other, or empty
-  std::string without_texture = "it has no texture coordinates"; // why it is empty, the end of a sentence
+  Corner_texture texture = {}; // at the corners of one polygon after the other, or empty
+  std::string without_texture =
+      "it has no texture coordinates"; // why it is empty, the end of a sentence
 };
 
 // An index that no file can mean; the diagnosis names the face that uses it.

@@ -17,10 +17,11 @@
 #include <new>
 #include <string>
 
-// What the programs have in common: how they are interrupted, what they say when something is wrong, how they end.
+// What the programs have in common: how they are interrupted, what they say when something is
+// wrong, how they end.
 
-// Set by Ctrl-C. Loops and callbacks look at it, so that a program ends by its own way and leaves no file behind; the
-// second time the signal does what it does to any program.
+// Set by Ctrl-C. Loops and callbacks look at it, so that a program ends by its own way and leaves
+// no file behind; the second time the signal does what it does to any program.
 inline std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
 
@@ -36,7 +37,8 @@ inline void stop_if_interrupted()
     throw CGAL::Spectral_geometry::Cancelled();
 }
 
-// The text as a terminal may show it: what is no UTF-8 or would control the terminal becomes a question mark.
+// The text as a terminal may show it: what is no UTF-8 or would control the terminal becomes a
+// question mark.
 inline std::string printable(const std::string& text)
 {
   std::string result;
@@ -97,7 +99,8 @@ int run_program(const std::string& name, const Body& body)
     complain("interrupted, nothing was written.");
     return 130;
   } catch(const std::bad_alloc&) {
-    complain("the memory does not suffice for meshes of this size and this number of eigenvectors.");
+    complain(
+        "the memory does not suffice for meshes of this size and this number of eigenvectors.");
   } catch(const std::exception& error) {
     complain(error.what());
   }

@@ -48,7 +48,8 @@ public:
       throw std::runtime_error("it is cut off in the header");
     else if(size < 84 + 50 * faces)
       throw std::runtime_error("its header announces " + std::to_string(faces) +
-                               " faces, but it is cut off after " + std::to_string((size - 84) / 50));
+                               " faces, but it is cut off after " +
+                               std::to_string((size - 84) / 50));
     else
       reader.read_binary(file, faces, start.find("COLOR=") != std::string::npos);
     return std::move(reader.m_soup);
@@ -90,7 +91,9 @@ private:
     Text_lines file(path);
     std::vector<std::size_t> polygon;
     bool in_solid = false, in_name = false; // which may go on in the next lines
-    const auto next_word = [&file] { return file.more_or_next() ? lower(file.word()) : std::string(); };
+    const auto next_word = [&file] {
+      return file.more_or_next() ? lower(file.word()) : std::string();
+    };
     const auto close_face = [&] {
       if(polygon.empty())
         return;
@@ -109,13 +112,15 @@ private:
       } else if(word == "vertex") {
         std::array<double, 3> p;
         for(double& x : p)
-          x = file.more_or_next() ? file.number() : throw std::runtime_error("it ends within a vertex");
+          x = file.more_or_next() ? file.number()
+                                  : throw std::runtime_error("it ends within a vertex");
         add_vertex(p, polygon);
       } else if(word == "facet" || word == "endloop" || word == "endfacet") {
         close_face();
         in_solid = true;
         in_name = false;
-        if(word == "facet" && file.more() && std::tolower(static_cast<unsigned char>(file.peek())) == 'n') {
+        if(word == "facet" && file.more() &&
+           std::tolower(static_cast<unsigned char>(file.peek())) == 'n') {
           next_word();
           for(int i = 0; i < 3 && file.more_or_next(); ++i)
             file.word(); // the normal, which follows from the vertices and is often none
@@ -156,7 +161,8 @@ private:
     return word;
   }
 
-  void read_binary(std::ifstream& file, const std::uintmax_t faces, const bool in_order_of_materialise)
+  void read_binary(std::ifstream& file, const std::uintmax_t faces,
+                   const bool in_order_of_materialise)
   {
     std::vector<double> marks; // of the faces
     std::array<char, 50> face;
@@ -165,7 +171,8 @@ private:
       for(std::size_t i = 0; i < 3; ++i) {
         std::array<double, 3> p;
         for(std::size_t c = 0; c < 3; ++c) {
-          const auto bits = static_cast<std::uint32_t>(number(face.data() + 12 + 12 * i + 4 * c, 4));
+          const auto bits =
+              static_cast<std::uint32_t>(number(face.data() + 12 + 12 * i + 4 * c, 4));
           float x = 0;
           std::memcpy(&x, &bits, 4);
           p[c] = x;
@@ -179,7 +186,9 @@ private:
       return;
     // Five bits a channel, and one that says that they are a colour; Materialise counts the other
     // way round.
-    const auto is_coloured = [&](const double mark) { return (mark >= 32768) != in_order_of_materialise; };
+    const auto is_coloured = [&](const double mark) {
+      return (mark >= 32768) != in_order_of_materialise;
+    };
     if(std::none_of(marks.begin(), marks.end(), is_coloured)) {
       m_soup.face_attributes.add("label", "ushort", std::move(marks));
       return;

@@ -24,7 +24,8 @@ inline std::string joined(const std::vector<std::string>& words, const std::stri
   return list;
 }
 
-// The beginning of a word of a file, in quotation marks and fit for a message: damaged files hold anything.
+// The beginning of a word of a file, in quotation marks and fit for a message: damaged files hold
+// anything.
 inline std::string quoted(std::string word)
 {
   word.resize((std::min)(word.size(), std::size_t(40)));
@@ -34,10 +35,12 @@ inline std::string quoted(std::string word)
   return "'" + word + "'";
 }
 
-// What ends the lines of a text that begins so: the carriage return of the first Macintoshes where there is no line feed.
+// What ends the lines of a text that begins so: the carriage return of the first Macintoshes where
+// there is no line feed.
 inline char line_end(const std::string& start)
 {
-  return start.find('\n') == std::string::npos && start.find('\r') != std::string::npos ? '\r' : '\n';
+  return start.find('\n') == std::string::npos && start.find('\r') != std::string::npos ? '\r'
+                                                                                        : '\n';
 }
 
 // Written at the beginning of a text by editors under Windows.
@@ -109,7 +112,8 @@ public:
   // The next word as an integer.
   long long integer() { return integers<1>('\0').front(); }
 
-  // The next word as an integer that `mark` may end; after it, and again, further ones may follow, 0 where they are left out.
+  // The next word as an integer that `mark` may end; after it, and again, further ones may follow,
+  // 0 where they are left out.
   template <std::size_t n>
   std::array<long long, n> integers(const char mark)
   {

@@ -19,9 +19,10 @@
 #include <utility>
 #include <vector>
 
-// OBJ and OFF as programs write them. CGAL's readers refuse OBJ files with lines, tabs or continued lines, take the first
-// coordinate of an OFF file without a number of edges for that number, and reserve gigabytes for a face that claims to have a
-// billion vertices. What is wrong is thrown as the end of a sentence: "line 5 holds 'x' where a number is expected".
+// OBJ and OFF as programs write them. CGAL's readers refuse OBJ files with lines, tabs or continued
+// lines, take the first coordinate of an OFF file without a number of edges for that number, and
+// reserve gigabytes for a face that claims to have a billion vertices. What is wrong is thrown as
+// the end of a sentence: "line 5 holds 'x' where a number is expected".
 
 namespace text_mesh_internal {
 
@@ -87,7 +88,10 @@ public:
   }
 
   // The next corner of a face; `index` as in the file, 0 for none.
-  void add_corner(const long long index) { m_corners.push_back(obj_index(index, m_columns.front().size())); }
+  void add_corner(const long long index)
+  {
+    m_corners.push_back(obj_index(index, m_columns.front().size()));
+  }
 
   // After all lines.
   void find_vertices(const std::vector<std::vector<std::size_t>>& polygons, const std::size_t n)
@@ -101,19 +105,22 @@ public:
           ++m_missing;
         else if(m_of[vertex] == no_vertex)
           m_of[vertex] = value;
-        else if(!std::all_of(m_columns.begin(), m_columns.end(),
-                             [&](const auto& column) { return column[m_of[vertex]] == column[value]; }))
+        else if(!std::all_of(m_columns.begin(), m_columns.end(), [&](const auto& column) {
+                  return column[m_of[vertex]] == column[value];
+                }))
           ++m_seams;
       }
   }
 
-  void add_to(Attributes& attributes, const std::string& what, const std::vector<const char*>& names)
+  void add_to(Attributes& attributes, const std::string& what,
+              const std::vector<const char*>& names)
   {
     if(m_columns.front().empty())
       return;
     if(m_seams + m_missing > 0) {
-      attributes.unknown.push_back(what + (m_missing > 0 ? " (some corners have none)"
-                                                         : " (they differ between the corners of a vertex)"));
+      attributes.unknown.push_back(what + (m_missing > 0
+                                               ? " (some corners have none)"
+                                               : " (they differ between the corners of a vertex)"));
       return;
     }
     for(std::size_t c = 0; c < names.size(); ++c) {
@@ -249,7 +256,8 @@ inline Polygon_soup read_obj(const std::string& path)
 
 namespace text_mesh_internal {
 
-// What follows the coordinates, in this order: a normal, a colour of three or four numbers, coordinates of a texture.
+// What follows the coordinates, in this order: a normal, a colour of three or four numbers,
+// coordinates of a texture.
 inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vector<double>> columns,
                                Attributes& attributes)
 {
@@ -258,7 +266,8 @@ inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vect
                                  ? (std::min)(columns.size() - normal - texture, std::size_t(4))
                                  : 0;
   if(columns.size() < normal + colour + texture || (keyword.colour && colour == 0)) {
-    attributes.unknown.push_back("what its first word announces (some vertices have fewer numbers)");
+    attributes.unknown.push_back(
+        "what its first word announces (some vertices have fewer numbers)");
     return;
   }
   auto next = columns.begin();
@@ -275,8 +284,9 @@ inline void add_off_attributes(const Off_keyword& keyword, std::vector<std::vect
 
 inline bool are_integers(const std::vector<double>& values)
 {
-  return std::all_of(values.begin(), values.end(),
-                     [](const double x) { return x == std::floor(x) && std::abs(x) < 2147483648.; });
+  return std::all_of(values.begin(), values.end(), [](const double x) {
+    return x == std::floor(x) && std::abs(x) < 2147483648.;
+  });
 }
 
 // A line for each vertex, whose end means nothing but what the first word announces, and for each
@@ -303,7 +313,8 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
 
   const auto go_on = [&](const long long done, const long long all, const char* what) {
     if(!(packed ? file.more_or_next() : file.next()))
-      throw std::runtime_error("it ends after " + std::to_string(done) + " of " + std::to_string(all) + what);
+      throw std::runtime_error("it ends after " + std::to_string(done) + " of " +
+                               std::to_string(all) + what);
   };
   if(packed && file.more())
     file.integer();                         // edges

@@ -21,13 +21,15 @@ Texture_seams::Texture_seams(const Mesh& mesh, Corner_texture corners)
   , m_corners(std::move(corners))
   , m_is_seam(mesh.num_edges(), false)
 {
-  std::vector<std::tuple<Kernel::Point_3, Kernel::Point_3, Mesh::Edge_index>> border; // ends in order
+  std::vector<std::tuple<Kernel::Point_3, Kernel::Point_3, Mesh::Edge_index>>
+      border; // ends in order
   for(const auto e : m_mesh.edges()) {
     const Halfedge h = m_mesh.halfedge(e), g = m_mesh.opposite(h);
     if(m_mesh.is_border(e)) {
       const auto &p = m_mesh.point(m_mesh.source(h)), &q = m_mesh.point(m_mesh.target(h));
       border.emplace_back((std::min)(p, q), (std::max)(p, q), e);
-    } else if(m_corners[h] != m_corners[m_mesh.prev(g)] || m_corners[g] != m_corners[m_mesh.prev(h)]) {
+    } else if(m_corners[h] != m_corners[m_mesh.prev(g)] ||
+              m_corners[g] != m_corners[m_mesh.prev(h)]) {
       m_is_seam[e] = true;
       ++m_number_of_edges;
     }
@@ -52,7 +54,8 @@ Texture_seams::Texture_seams(const Mesh& mesh, Corner_texture corners)
   }
 }
 
-Corner_texture Texture_seams::simplified(const Mesh& coarse, const std::vector<std::size_t>& map) const
+Corner_texture Texture_seams::simplified(const Mesh& coarse,
+                                         const std::vector<std::size_t>& map) const
 {
   const std::vector<Vertex> handles(coarse.vertices().begin(), coarse.vertices().end());
   Corner_texture result(coarse.num_halfedges());
@@ -61,9 +64,11 @@ Corner_texture Texture_seams::simplified(const Mesh& coarse, const std::vector<s
   return result;
 }
 
-// Each side of each seam, at both ends: the coordinates go on round the vertex up to the next seam or border.
+// Each side of each seam, at both ends: the coordinates go on round the vertex up to the next seam
+// or border.
 void Texture_seams::set_beside_seams(const Mesh& coarse, const std::vector<Vertex>& handles,
-                                     const std::vector<std::size_t>& map, Corner_texture& result) const
+                                     const std::vector<std::size_t>& map,
+                                     Corner_texture& result) const
 {
   std::vector<std::pair<Halfedge, Halfedge>> sides; // fine and coarse
   std::vector<char> is_end(coarse.num_edges(), false);
@@ -72,7 +77,8 @@ void Texture_seams::set_beside_seams(const Mesh& coarse, const std::vector<Verte
   for(const Halfedge h : m_mesh.halfedges()) {
     if(!is_seam(h) || m_mesh.is_border(h))
       continue;
-    const Halfedge g = coarse.halfedge(handles[map[m_mesh.source(h)]], handles[map[m_mesh.target(h)]]);
+    const Halfedge g =
+        coarse.halfedge(handles[map[m_mesh.source(h)]], handles[map[m_mesh.target(h)]]);
     if(!g.is_valid() || coarse.is_border(g))
       throw std::logic_error("the simplification did not keep the vertices of seams.");
     sides.emplace_back(h, g);
@@ -125,8 +131,10 @@ void Texture_seams::set_elsewhere(const Mesh& coarse, const std::vector<Vertex>&
   }
 }
 
-// At the closest point of the faces that are reached from `faces` without crossing a seam, each with a vertex that is `near`.
-Texture_point Texture_seams::closest(const Kernel::Point_3& query, std::vector<Mesh::Face_index> faces,
+// At the closest point of the faces that are reached from `faces` without crossing a seam, each
+// with a vertex that is `near`.
+Texture_point Texture_seams::closest(const Kernel::Point_3& query,
+                                     std::vector<Mesh::Face_index> faces,
                                      const std::vector<char>& near) const
 {
   const auto vector = [](const Kernel::Point_3& p) { return Eigen::Vector3d(p.x(), p.y(), p.z()); };
@@ -141,7 +149,8 @@ Texture_point Texture_seams::closest(const Kernel::Point_3& query, std::vector<M
     Eigen::Matrix3d triangle;
     for(int j = 0; j < 3; ++j)
       triangle.col(j) = vector(m_mesh.point(m_mesh.target(sides[std::size_t(j)])));
-    const auto point = CGAL::Spectral_geometry::internal::closest_point_of_triangle(vector(query), triangle);
+    const auto point =
+        CGAL::Spectral_geometry::internal::closest_point_of_triangle(vector(query), triangle);
     if(point.squared_distance < least) {
       least = point.squared_distance;
       for(std::size_t k = 0; k < 2; ++k) {

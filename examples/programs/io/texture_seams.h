@@ -10,11 +10,11 @@
 #include <cstddef>
 #include <vector>
 
-// The texture of a mesh and its seams: edges whose two faces have other coordinates at one of its ends, and border edges in the
-// place of another, where a file has copies of vertices.
+// The texture of a mesh and its seams: edges whose two faces have other coordinates at one of its
+// ends, and border edges in the place of another, where a file has copies of vertices.
 //
-// A simplification that keeps the vertices of seams keeps their edges: a collapse takes no edge away that
-// joins two vertices which stay.
+// A simplification that keeps the vertices of seams keeps their edges: a collapse takes no edge
+// away that joins two vertices which stay.
 class Texture_seams
 {
 public:
@@ -27,9 +27,10 @@ public:
   // Of the vertices in the order of `vertices(mesh)`, those at seams.
   const std::vector<std::size_t>& vertices() const { return m_vertices; }
 
-  // The coordinates at the corners of what the mesh was simplified to, with these vertices kept; `map` has for each vertex
-  // the one that it went to, in the order of `vertices(coarse)`. Beside a seam each side has its own coordinates as before; any other
-  // vertex has those of the closest point of the surface on its side of the seams.
+  // The coordinates at the corners of what the mesh was simplified to, with these vertices kept;
+  // `map` has for each vertex the one that it went to, in the order of `vertices(coarse)`. Beside a
+  // seam each side has its own coordinates as before; any other vertex has those of the closest
+  // point of the surface on its side of the seams.
   Corner_texture simplified(const Mesh& coarse, const std::vector<std::size_t>& map) const;
 
 private:

@@ -15,7 +15,8 @@ inline int all_threads()
   return static_cast<int>((std::max)(1u, std::thread::hardware_concurrency()));
 }
 
-// As many as are wanted, but no more than that; hands `say` a sentence then, in which `option` stands before the number.
+// As many as are wanted, but no more than that; hands `say` a sentence then, in which `option`
+// stands before the number.
 template <class Say>
 int usable_threads(const int wanted, const std::string& option, const Say& say)
 {

@@ -16,15 +16,16 @@
 #include <utility>
 #include <vector>
 
-// Which vertices of a mesh are which of the file that it was made of. A vertex of the file may be missing in the mesh,
-// several may be one there, and one may be several. Matrices, maps and lists of vertices that leave or enter a program
-// number those of the file.
+// Which vertices of a mesh are which of the file that it was made of. A vertex of the file may be
+// missing in the mesh, several may be one there, and one may be several. Matrices, maps and lists
+// of vertices that leave or enter a program number those of the file.
 class Vertex_numbering
 {
 public:
   Vertex_numbering() = default;
 
-  // For each vertex of the file one of the mesh, or `no_vertex`, and for each of the mesh one of the file.
+  // For each vertex of the file one of the mesh, or `no_vertex`, and for each of the mesh one of
+  // the file.
   Vertex_numbering(std::vector<std::size_t> mesh_vertices, std::vector<std::size_t> file_vertices)
     : m_mesh_vertices(std::move(mesh_vertices))
     , m_file_vertices(std::move(file_vertices))
@@ -40,7 +41,8 @@ public:
         spread.emplace_back(int(v), int(m_mesh_vertices[v]), 1.);
     for(std::size_t w = 0; w < m_file_vertices.size(); ++w)
       picked.emplace_back(int(w), int(m_file_vertices[w]), 1.);
-    const Eigen::Index n = Eigen::Index(m_mesh_vertices.size()), m = Eigen::Index(m_file_vertices.size());
+    const Eigen::Index n = Eigen::Index(m_mesh_vertices.size()),
+                       m = Eigen::Index(m_file_vertices.size());
     m_spread.resize(n, m);
     m_spread.setFromTriplets(spread.begin(), spread.end());
     m_picked.resize(m, n);
@@ -57,8 +59,8 @@ public:
   std::size_t mesh_vertex(const std::size_t v) const { return m_mesh_vertices[v]; }
   std::size_t file_vertex(const std::size_t w) const { return m_file_vertices[w]; }
 
-  // Columns for the vertices of the mesh become columns for those of the file: copies share what one has or, if the matrix
-  // is to stay `binary`, one of them gets it.
+  // Columns for the vertices of the mesh become columns for those of the file: copies share what
+  // one has or, if the matrix is to stay `binary`, one of them gets it.
   Eigen::SparseMatrix<double> columns_of_file(const Eigen::SparseMatrix<double>& P,
                                               const bool binary = false) const
   {

@@ -29,7 +29,8 @@ struct Vertex_target
 };
 
 // The targets of an option, separated by commas, as they stand there.
-inline std::vector<Vertex_target> parsed_vertex_targets(const std::string& option, const std::string& list,
+inline std::vector<Vertex_target> parsed_vertex_targets(const std::string& option,
+                                                        const std::string& list,
                                                         const std::string& things = "vertices")
 {
   std::vector<Vertex_target> targets;
@@ -40,10 +41,11 @@ inline std::vector<Vertex_target> parsed_vertex_targets(const std::string& optio
     const double number = std::strtod(digits.c_str(), nullptr);
     if(digits.empty() || digits.size() > 15 ||
        digits.find_first_not_of(percent ? "0123456789." : "0123456789") != std::string::npos ||
-       std::count(digits.begin(), digits.end(), '.') > 1 || !(number > 0) || (percent && number > 100))
+       std::count(digits.begin(), digits.end(), '.') > 1 || !(number > 0) ||
+       (percent && number > 100))
       throw std::runtime_error(option + (word == list ? " is '" : " has '") + word +
-                               (word == list ? "'" : "' in it") + ", it must be a number of " + things +
-                               " above 0 or a percentage, such as 600 or 3%.");
+                               (word == list ? "'" : "' in it") + ", it must be a number of " +
+                               things + " above 0 or a percentage, such as 600 or 3%.");
     targets.push_back({number, percent});
   }
   return targets;

@@ -91,7 +91,8 @@ std::vector<int> preimages(const Map& map, Index targets)
   return result;
 }
 
-// Which vertices have an edge whose ends are mapped further apart than the ends of any edge of either mesh?
+// Which vertices have an edge whose ends are mapped further apart than the ends of any edge of
+// either mesh?
 std::vector<bool> torn(const Surface& from, const Surface& to, const Map& map)
 {
   const double longest = (std::max)(from.longest_edge, to.longest_edge);
@@ -103,7 +104,8 @@ std::vector<bool> torn(const Surface& from, const Surface& to, const Map& map)
   return result;
 }
 
-// Torn vertices, and islands between them, go where the nearest vertex of a large torn-free region goes.
+// Torn vertices, and islands between them, go where the nearest vertex of a large torn-free region
+// goes.
 Map without_outliers(const Surface& from, const Surface& to, const Map& map)
 {
   constexpr double smallest_region = 0.08; // of all vertices
@@ -145,8 +147,9 @@ double stretch(const Surface& from, const Surface& to, const Map& map, Index v, 
   return sum;
 }
 
-// Vertices go to the mean of where their neighbours are, of all vertices in and beside these images: the torn ones always, the
-// others with `all`, if that leaves no vertex uncovered and stretches less.
+// Vertices go to the mean of where their neighbours are, of all vertices in and beside these
+// images: the torn ones always, the others with `all`, if that leaves no vertex uncovered and
+// stretches less.
 Map smoothed(const Surface& from, const Surface& to, Map map, bool all)
 {
   const std::vector<bool> is_torn = torn(from, to, map);
@@ -154,7 +157,8 @@ Map smoothed(const Surface& from, const Surface& to, Map map, bool all)
   for(Index v = 0; v < from.size(); ++v) {
     Index& present = map[static_cast<std::size_t>(v)];
     const bool at_once = is_torn[static_cast<std::size_t>(v)];
-    if(from.ring(v).empty() || (!at_once && (!all || count[static_cast<std::size_t>(present)] == 1)))
+    if(from.ring(v).empty() ||
+       (!at_once && (!all || count[static_cast<std::size_t>(present)] == 1)))
       continue;
     std::set<Index> candidates;
     for(const Index u : from.ring(v)) {
@@ -181,8 +185,9 @@ Map smoothed(const Surface& from, const Surface& to, Map map, bool all)
   return map;
 }
 
-// Vertices that nothing is mapped to get one: of those that share their image with others the one that is nearest to where the
-// map back goes, if it thereby comes no further away from its own way there and back.
+// Vertices that nothing is mapped to get one: of those that share their image with others the one
+// that is nearest to where the map back goes, if it thereby comes no further away from its own way
+// there and back.
 Map covering(const Surface& from, const Surface& to, Map map, const Map& back)
 {
   std::vector<int> count = preimages(map, to.size());
@@ -268,8 +273,8 @@ private:
     map = covering(from, to, std::move(map), back);
   }
 
-  void find(const Eigen::MatrixXd& X_in_X, const Eigen::MatrixXd& X_in_Y, const Eigen::MatrixXd& Y_in_X,
-            const Eigen::MatrixXd& Y_in_Y)
+  void find(const Eigen::MatrixXd& X_in_X, const Eigen::MatrixXd& X_in_Y,
+            const Eigen::MatrixXd& Y_in_X, const Eigen::MatrixXd& Y_in_Y)
   {
     Eigen::MatrixXd x(X_in_X.rows(), X_in_X.cols() + X_in_Y.cols()), y(Y_in_X.rows(), x.cols());
     x << X_in_X, X_in_Y;
@@ -278,7 +283,8 @@ private:
     m_maps.Y_to_X = SG::nearest_rows(x, y, m_threads);
   }
 
-  static Eigen::MatrixXd functional_map(const Surface& source, const Surface& target, const Map& map)
+  static Eigen::MatrixXd functional_map(const Surface& source, const Surface& target,
+                                        const Map& map)
   {
     return SG::functional_map_of_vertex_map(source.modes, target.modes, target.shape.op.B, map);
   }
@@ -305,8 +311,8 @@ private:
 
 } // namespace
 
-Vertex_maps bcicp(const Shape& X, const Shape& Y, Vertex_maps maps, Eigen::Index modes, int iterations,
-                  int threads, const Keep_going& keep_going)
+Vertex_maps bcicp(const Shape& X, const Shape& Y, Vertex_maps maps, Eigen::Index modes,
+                  int iterations, int threads, const Keep_going& keep_going)
 {
   auto [of_X, of_Y] = side_by_side(
       threads, [&] { return Surface(X, modes); }, [&] { return Surface(Y, modes); });

@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-// A triangle mesh that is as rigid as possible (Sorkine and Alexa 2007), drawn by springs of any stiffness matrix. CGAL's
-// Surface_mesh_deformation has fixed vertices only.
+// A triangle mesh that is as rigid as possible (Sorkine and Alexa 2007), drawn by springs of any
+// stiffness matrix. CGAL's Surface_mesh_deformation has fixed vertices only.
 class Elastic_surface
 {
 public:
@@ -36,7 +36,8 @@ public:
     for(Eigen::Index t = 0; t < m_rest.T.rows(); ++t)
       for(int k = 0; k < 3; ++k) {
         const int o = m_rest.T(t, k), i = m_rest.T(t, (k + 1) % 3), j = m_rest.T(t, (k + 2) % 3);
-        const Eigen::Vector3d a = m_rest.V.row(i) - m_rest.V.row(o), b = m_rest.V.row(j) - m_rest.V.row(o);
+        const Eigen::Vector3d a = m_rest.V.row(i) - m_rest.V.row(o),
+                              b = m_rest.V.row(j) - m_rest.V.row(o);
         const double sine = a.cross(b).norm(), cotangent = sine > 0 ? 0.5 * a.dot(b) / sine : 0.;
         entries.emplace_back(i, j, cotangent);
         entries.emplace_back(j, i, cotangent);
@@ -49,7 +50,8 @@ public:
   const CGAL::Spectral_geometry::Mesh_matrices& rest() const { return m_rest; }
   const std::vector<Eigen::Matrix3d>& rotations() const { return m_rotations; }
 
-  // Takes targets, one column per vertex, to the smooth points near to them: solves (A + L) P = A targets with A of these weights.
+  // Takes targets, one column per vertex, to the smooth points near to them: solves (A + L) P = A
+  // targets with A of these weights.
   auto smoothing(const Eigen::VectorXd& weights) const
   {
     const Eigen::VectorXd sums = m_weights * Eigen::VectorXd::Ones(m_weights.cols());
@@ -62,8 +64,9 @@ public:
     };
   }
 
-  // The rotation of each vertex that takes its edges at rest nearest to those of P, one column per vertex, and with `likeness` also to
-  // where the last rotations of its neighbours take them (Levi and Gotsman 2015): shells then resist twists.
+  // The rotation of each vertex that takes its edges at rest nearest to those of P, one column per
+  // vertex, and with `likeness` also to where the last rotations of its neighbours take them (Levi
+  // and Gotsman 2015): shells then resist twists.
   void fit_rotations(const Eigen::MatrixXd& P, double likeness = 0)
   {
     for(Eigen::Index i = 0; i < P.cols(); ++i) {
@@ -71,7 +74,8 @@ public:
       for(Eigen::SparseMatrix<double>::InnerIterator it(m_weights, i); it; ++it) {
         const Eigen::RowVector3d edge = m_rest.V.row(i) - m_rest.V.row(it.row());
         S += it.value() * (P.col(i) - P.col(it.row())) * edge;
-        S += likeness * it.value() * edge.squaredNorm() * m_rotations[static_cast<std::size_t>(it.row())];
+        S += likeness * it.value() * edge.squaredNorm() *
+             m_rotations[static_cast<std::size_t>(it.row())];
       }
       const Eigen::JacobiSVD<Eigen::Matrix3d> svd(S, Eigen::ComputeFullU | Eigen::ComputeFullV);
       Eigen::Matrix3d U = svd.matrixU();
@@ -81,8 +85,8 @@ public:
     }
   }
 
-  // The points, one column each, of least energy for these rotations and the springs p_i^T D_i p_i - 2 p_i^T f_i, of which
-  // all D_i must be positive definite.
+  // The points, one column each, of least energy for these rotations and the springs p_i^T D_i p_i
+  // - 2 p_i^T f_i, of which all D_i must be positive definite.
   Eigen::MatrixXd solve(const std::vector<Eigen::Matrix3d>& D, const Eigen::MatrixXd& f)
   {
     const Eigen::Index n = m_rest.V.rows();
@@ -93,10 +97,12 @@ public:
       double sum = 0;
       for(Eigen::SparseMatrix<double>::InnerIterator it(m_weights, i); it; ++it) {
         const Eigen::Vector3d edge = m_rest.V.row(i) - m_rest.V.row(it.row());
-        right.col(i) += it.value() * 0.5 * ((R + m_rotations[static_cast<std::size_t>(it.row())]) * edge);
+        right.col(i) +=
+            it.value() * 0.5 * ((R + m_rotations[static_cast<std::size_t>(it.row())]) * edge);
         sum += it.value();
         for(int k = 0; k < 3; ++k)
-          entries.emplace_back(static_cast<int>(3 * i) + k, static_cast<int>(3 * it.row()) + k, -it.value());
+          entries.emplace_back(static_cast<int>(3 * i) + k, static_cast<int>(3 * it.row()) + k,
+                               -it.value());
       }
       for(int k = 0; k < 3; ++k)
         for(int l = 0; l < 3; ++l)
@@ -108,9 +114,11 @@ public:
     if(m_solver.rows() == 0)
       m_solver.analyzePattern(A);
     m_solver.factorize(A);
-    const Eigen::VectorXd p = m_solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()));
+    const Eigen::VectorXd p =
+        m_solver.solve(Eigen::Map<const Eigen::VectorXd>(right.data(), right.size()));
     if(m_solver.info() != Eigen::Success || !p.allFinite())
-      throw std::runtime_error("a mesh cannot be bent, its coordinates span too many magnitudes: repair it.");
+      throw std::runtime_error(
+          "a mesh cannot be bent, its coordinates span too many magnitudes: repair it.");
     return Eigen::Map<const Eigen::MatrixXd>(p.data(), 3, n);
   }
 

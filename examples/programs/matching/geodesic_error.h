@@ -21,8 +21,8 @@
 #include <random>
 #include <vector>
 
-// How far a map from X to Y leads from the true one: geodesic distances on Y in square roots of its area, at the
-// vertices of X that were drawn. A vertex whose true one is negative has none.
+// How far a map from X to Y leads from the true one: geodesic distances on Y in square roots of its
+// area, at the vertices of X that were drawn. A vertex whose true one is negative has none.
 class Geodesic_error
 {
 public:
@@ -42,11 +42,14 @@ public:
     }
   }
 
-  // One column of errors for each map, ascending. Solves for each sample once, by CGAL's heat method.
-  std::vector<std::vector<double>> measure(const std::vector<const std::vector<Eigen::Index>*>& maps,
-                                           const std::function<void(double)>& progress)
+  // One column of errors for each map, ascending. Solves for each sample once, by CGAL's heat
+  // method.
+  std::vector<std::vector<double>>
+  measure(const std::vector<const std::vector<Eigen::Index>*>& maps,
+          const std::function<void(double)>& progress)
   {
-    CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<Mesh, CGAL::Heat_method_3::Intrinsic_Delaunay>
+    CGAL::Heat_method_3::Surface_mesh_geodesic_distances_3<Mesh,
+                                                           CGAL::Heat_method_3::Intrinsic_Delaunay>
         heat(m_Y);
     auto distance = m_Y.add_property_map<Mesh::Vertex_index, double>("v:distance", 0.).first;
     std::vector<std::vector<double>> errors(maps.size());

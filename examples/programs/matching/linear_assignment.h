@@ -14,14 +14,16 @@
 #include <stdexcept>
 #include <vector>
 
-// Returns the permutation p that maximises sum_i scores(i, p[i]), with the scores rounded to a millionth of their range:
-// a transport of one unit from each row to each column, by LEMON's network simplex. With fewer rows than columns each row has a column
-// of its own; with more each column has a row of its own, and the rows that are left take their best columns.
+// Returns the permutation p that maximises sum_i scores(i, p[i]), with the scores rounded to a
+// millionth of their range: a transport of one unit from each row to each column, by LEMON's
+// network simplex. With fewer rows than columns each row has a column of its own; with more each
+// column has a row of its own, and the rows that are left take their best columns.
 inline std::vector<Eigen::Index> linear_assignment(const Eigen::MatrixXd& scores)
 {
   const Eigen::Index n = scores.rows(), m = scores.cols();
   if(n == 0 || m == 0 || !scores.allFinite())
-    throw std::invalid_argument("linear assignment: the scores must be a matrix of finite numbers.");
+    throw std::invalid_argument(
+        "linear assignment: the scores must be a matrix of finite numbers.");
   using Graph = lemon::SmartDigraph;
   Graph graph;
   graph.reserveNode(static_cast<int>(n + m));
@@ -30,7 +32,8 @@ inline std::vector<Eigen::Index> linear_assignment(const Eigen::MatrixXd& scores
     graph.addNode();
   for(Eigen::Index i = 0; i < n; ++i)
     for(Eigen::Index j = 0; j < m; ++j)
-      graph.addArc(Graph::nodeFromId(static_cast<int>(i)), Graph::nodeFromId(static_cast<int>(n + j)));
+      graph.addArc(Graph::nodeFromId(static_cast<int>(i)),
+                   Graph::nodeFromId(static_cast<int>(n + j)));
 
   // Integers: with floating point costs the simplex may go round in circles.
   const double largest = scores.maxCoeff(), range = largest - scores.minCoeff();
@@ -38,7 +41,8 @@ inline std::vector<Eigen::Index> linear_assignment(const Eigen::MatrixXd& scores
   Graph::ArcMap<long long> cost(graph);
   for(Eigen::Index i = 0; i < n; ++i)
     for(Eigen::Index j = 0; j < m; ++j)
-      cost[Graph::arcFromId(static_cast<int>(i * m + j))] = std::llround(scale * (largest - scores(i, j)));
+      cost[Graph::arcFromId(static_cast<int>(i * m + j))] =
+          std::llround(scale * (largest - scores(i, j)));
   Graph::NodeMap<int> supply(graph, 1);
   for(Eigen::Index j = 0; j < m; ++j)
     supply[Graph::nodeFromId(static_cast<int>(n + j))] = -1;

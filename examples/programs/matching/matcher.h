@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-// What makes the map between the proxies a bijection, as nearly as it can: linear assignments (Vestner et al. 2017), or bcicp().
+// What makes the map between the proxies a bijection, as nearly as it can: linear assignments
+// (Vestner et al. 2017), or bcicp().
 enum class Matcher { product_manifold_filter, bcicp };
 
 struct Matching_options
@@ -34,20 +35,20 @@ using Landmarks = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
 struct Match
 {
-  std::vector<Eigen::Index> map;               // for each vertex of X as read the vertex of Y as read
-  Eigen::MatrixXd C;                           // functional map from fine Y to fine X
+  std::vector<Eigen::Index> map; // for each vertex of X as read the vertex of Y as read
+  Eigen::MatrixXd C;             // functional map from fine Y to fine X
   double condition = 1, relative_residual = 0; // of the lift
   double seconds_coarse = 0, seconds_lift = 0;
   double peak_coarse = 0; // bytes that the process had at most before the lift
 };
 
 // Matches fine X to fine Y over their proxies.
-Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y, const Proxy& coarse_Y,
-                         const Landmarks& landmarks, const Matching_options& options,
-                         const Keep_going& keep_going);
+Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y,
+                         const Proxy& coarse_Y, const Landmarks& landmarks,
+                         const Matching_options& options, const Keep_going& keep_going);
 
-// The same without proxies, from one start and without the filter: several starts and the assignment are beyond meshes of
-// full size.
+// The same without proxies, from one start and without the filter: several starts and the
+// assignment are beyond meshes of full size.
 Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
                      const Matching_options& options, const Keep_going& keep_going);
 

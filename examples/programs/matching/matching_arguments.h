@@ -62,7 +62,8 @@ struct Matching_arguments
     for(std::string name; std::getline(stream, name, ',');) {
       const auto kind = std::find_if(std::begin(all_proxies), std::end(all_proxies),
                                      [&](Proxy_kind k) { return name == proxy_name(k); });
-      if(kind == std::end(all_proxies) || std::find(result.begin(), result.end(), *kind) != result.end())
+      if(kind == std::end(all_proxies) ||
+         std::find(result.begin(), result.end(), *kind) != result.end())
         throw std::runtime_error("--proxy has '" + name + "', name each of " + proxy_names() +
                                  " at most once.");
       result.push_back(*kind);
@@ -93,19 +94,22 @@ namespace matching_arguments_internal {
 
 inline Command_line described(Matching_arguments& a)
 {
-  Command_line line(
-      "shape_matching X Y --output map.txt [options]",
-      "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds to it: simplifies both\n"
-      "to the same number of vertices, matches these (functional map from signatures, ZoomOut, Product\n"
-      "Manifold Filter or BCICP) and lifts the functional map to X and Y (section 5.2 of Lescoat et al.\n"
-      "2020).");
+  Command_line line("shape_matching X Y --output map.txt [options]",
+                    "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds "
+                    "to it: simplifies both\n"
+                    "to the same number of vertices, matches these (functional map from "
+                    "signatures, ZoomOut, Product\n"
+                    "Manifold Filter or BCICP) and lifts the functional map to X and Y (section "
+                    "5.2 of Lescoat et al.\n"
+                    "2020).");
   line.argument(a.X);
   line.argument(a.Y);
   line.group("Size");
   line.option("vertices", a.vertices, "N|P%", "of both simplified meshes; 3% is a part of X's");
   line.option(
       "pre-simplify", a.pre_simplify, "N0",
-      "first reduce larger X and Y to this number by quadrics alone, match these, and carry the map to X "
+      "first reduce larger X and Y to this number by quadrics alone, match these, and carry the "
+      "map to X "
       "and Y by bending the one onto the other; for meshes of 100,000 vertices and more; 0: never");
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K", "of all meshes; best N >= 3 K");
@@ -127,24 +131,28 @@ inline Command_line described(Matching_arguments& a)
   line.threads(a.threads);
   line.flag("quiet", a.quiet, "no table");
   line.advanced_group("Stages of the match (advanced)");
-  line.option("proxy", a.proxies, "NAME,...",
-              "how to simplify, one or several of " + proxy_names() +
-                  " (no matcher then), of which the first is written; spectral, if no proxy is given");
-  line.option("proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
-              "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "
-              "points; may be given several times. Without --proxy these alone");
+  line.option(
+      "proxy", a.proxies, "NAME,...",
+      "how to simplify, one or several of " + proxy_names() +
+          " (no matcher then), of which the first is written; spectral, if no proxy is given");
+  line.option(
+      "proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
+      "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "
+      "points; may be given several times. Without --proxy these alone");
   line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
               "of the simplified meshes: fitted to the spectra of X and Y, or their own");
   line.option("initial", a.initial_modes, "k", "modes of the functional map from signatures");
-  line.choice("matcher", a.matcher, {"product_manifold_filter", "bcicp"},
-              "what makes the map between the simplified meshes bijective: assignments, or bijective and "
-              "continuous ICP (Ren et al. 2018)");
+  line.choice(
+      "matcher", a.matcher, {"product_manifold_filter", "bcicp"},
+      "what makes the map between the simplified meshes bijective: assignments, or bijective and "
+      "continuous ICP (Ren et al. 2018)");
   line.option("filter-iterations", a.filter_iterations, "I", "of the matcher; 0 leaves it out");
   line.option("fine-iterations", a.fine_iterations, "I",
               "of bending X onto Y in space, at the end; 0 leaves it out");
-  line.option("local-weight", a.local_weight, "w", "of curvature in these, at most; 0: positions alone");
+  line.option("local-weight", a.local_weight, "w",
+              "of curvature in these, at most; 0: positions alone");
   line.option("samples", a.samples, "S", "how many vertices of X errors are measured at");
   return line;
 }
@@ -160,7 +168,8 @@ inline void check(const Matching_arguments& a)
     throw std::runtime_error(
         "two meshes are needed: shape_matching X Y --output map.txt; --help shows what there is.");
   if(a.output.empty() && a.report.empty() && a.json.empty())
-    throw std::runtime_error("nothing is to be written: give --output, --report, --json or several.");
+    throw std::runtime_error(
+        "nothing is to be written: give --output, --report, --json or several.");
   at_least("pre-simplify", a.pre_simplify, 0);
   at_least("eigenvectors", a.eigenvectors, 10);
   at_least("initial", a.initial_modes, 4);
@@ -172,8 +181,8 @@ inline void check(const Matching_arguments& a)
         "map to the vertices that were left out.");
   if(a.pre_simplify > 0 && a.pre_simplify <= a.eigenvectors)
     throw std::runtime_error("--pre-simplify is " + std::to_string(a.pre_simplify) +
-                             ", it must be above --eigenvectors, which is " + std::to_string(a.eigenvectors) +
-                             ".");
+                             ", it must be above --eigenvectors, which is " +
+                             std::to_string(a.eigenvectors) + ".");
   at_least("samples", a.samples, 1);
   if(!(a.local_weight >= 0 && a.local_weight <= 100))
     throw std::runtime_error("--local-weight is " + std::to_string(a.local_weight) +
@@ -203,8 +212,10 @@ inline Matching_arguments parse_matching_arguments(int argc, const char* const* 
   return a;
 }
 
-// The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices; 0 where there are none.
-inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X, const std::size_t n_Y)
+// The number of vertices of the simplified meshes, for meshes of n_X and n_Y vertices; 0 where
+// there are none.
+inline std::size_t proxy_size(const Matching_arguments& a, const std::size_t n_X,
+                              const std::size_t n_Y)
 {
   const std::vector<Proxy_kind> kinds = a.kinds();
   if(std::all_of(kinds.begin(), kinds.end(), [](Proxy_kind k) { return k == Proxy_kind::none; }))

@@ -64,8 +64,9 @@ struct Matching_result
 
   double quantile(double q) const
   {
-    return errors.empty() ? std::numeric_limits<double>::quiet_NaN()
-                          : errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
+    return errors.empty()
+               ? std::numeric_limits<double>::quiet_NaN()
+               : errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
   }
 };
 
@@ -96,8 +97,9 @@ inline nlohmann::json to_json(const Matching_comparison& c)
   for(const Matching_result& r : c.results) {
     nlohmann::json stages = nlohmann::json::array();
     for(const Stage& stage : r.stages)
-      stages.push_back(
-          {{"stage", stage.name}, {"seconds", stage.seconds}, {"peak_megabytes_so_far", stage.peak / 1e6}});
+      stages.push_back({{"stage", stage.name},
+                        {"seconds", stage.seconds},
+                        {"peak_megabytes_so_far", stage.peak / 1e6}});
     json["results"].push_back({{"proxy", r.proxy},
                                {"vertices", r.vertices},
                                {"stages", stages},
@@ -150,8 +152,8 @@ inline std::string result_table(const Matching_comparison& c)
     html += "<tr>" + cell(escaped(r.proxy), "td", "l") + cell(std::to_string(r.vertices));
     for(const Stage& stage : r.stages)
       html += cell(formatted(stage.seconds));
-    for(const double x :
-        {r.seconds(), r.match.condition, r.mean_error(), r.quantile(0.5), r.quantile(0.9), r.quantile(1)})
+    for(const double x : {r.seconds(), r.match.condition, r.mean_error(), r.quantile(0.5),
+                          r.quantile(0.9), r.quantile(1)})
       html += cell(formatted(x));
     html += "</tr>\n";
   }
@@ -184,8 +186,8 @@ inline std::string error_curves(const Matching_comparison& c)
 
 inline std::string figure(const std::string& picture, const std::string& caption)
 {
-  return "<figure class='wide'><img alt='" + escaped(caption) + "' src='" + picture + "'><figcaption>" +
-         escaped(caption) + "</figcaption></figure>\n";
+  return "<figure class='wide'><img alt='" + escaped(caption) + "' src='" + picture +
+         "'><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
 }
 
 inline std::string pictures(const Matching_comparison& c)
@@ -213,9 +215,9 @@ inline std::string matching_page(const Matching_comparison& c)
   using html_internal::cell;
   std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
                      "<meta name='viewport' content='width=device-width'><title>Matching " +
-                     escaped(c.X) + " and " + escaped(c.Y) + "</title>\n<style>" + html_internal::style() +
-                     "</style></head><body>\n<h1>Matching of " + escaped(c.X) + " and " + escaped(c.Y) +
-                     "</h1>\n<table>\n";
+                     escaped(c.X) + " and " + escaped(c.Y) + "</title>\n<style>" +
+                     html_internal::style() + "</style></head><body>\n<h1>Matching of " +
+                     escaped(c.X) + " and " + escaped(c.Y) + "</h1>\n<table>\n";
   const auto fact = [&](const std::string& name, const std::string& value) {
     html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
   };
@@ -230,9 +232,10 @@ inline std::string matching_page(const Matching_comparison& c)
   fact("Landmarks", std::to_string(c.landmarks));
   fact("Command", "<code>" + escaped(c.command) + "</code>");
   html += "</table>\n<h2>Times and geodesic errors</h2>\n" + result_table(c);
-  html +=
-      "<p class='note'>Errors: geodesic distances on Y to the true vertex, in square roots of its area (heat "
-      "method). Condition: of the map that the lift inverts, fine to coarse; 1 when nothing was lost.</p>\n";
+  html += "<p class='note'>Errors: geodesic distances on Y to the true vertex, in square roots of "
+          "its area (heat "
+          "method). Condition: of the map that the lift inverts, fine to coarse; 1 when nothing "
+          "was lost.</p>\n";
   if(!c.results.empty() && !c.results.front().errors.empty())
     html += error_curves(c);
   html += "<h2>Colours of Y carried to X</h2>\n" + pictures(c);

@@ -66,13 +66,14 @@ Simplification simplified_by_quadrics(const Mesh& mesh, Proxy_kind kind, std::si
 {
   using Plane = SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>;
   using Probabilistic_plane = SMS::GarlandHeckbert_probabilistic_plane_policies<Mesh, Kernel>;
-  Coarse_mesh coarse = kind == Proxy_kind::garland_heckbert
-                           ? collapse_by_quadrics<Plane>(mesh, vertices)
-                           : collapse_by_probabilistic_quadrics<Probabilistic_plane>(mesh, vertices);
+  Coarse_mesh coarse =
+      kind == Proxy_kind::garland_heckbert
+          ? collapse_by_quadrics<Plane>(mesh, vertices)
+          : collapse_by_probabilistic_quadrics<Probabilistic_plane>(mesh, vertices);
   if(coarse.mesh.number_of_vertices() != vertices)
     throw std::runtime_error(std::string(proxy_name(kind)) + " ran out of edges at " +
-                             std::to_string(coarse.mesh.number_of_vertices()) + " vertices instead of " +
-                             std::to_string(vertices) + ".");
+                             std::to_string(coarse.mesh.number_of_vertices()) +
+                             " vertices instead of " + std::to_string(vertices) + ".");
   return {SG::mesh_matrices(coarse.mesh), std::move(*coarse.carried), std::move(coarse.vertex_map)};
 }
 
@@ -83,8 +84,8 @@ Simplification of_closest_points(const Mesh& coarse, const Shape& fine)
   result.restriction = SG::closest_point_restriction(result.matrices, fine.matrices);
   if(const std::string reason = not_on(result.matrices, fine.matrices); !reason.empty())
     throw std::runtime_error(reason + ".");
-  for(const Eigen::Index v :
-      heaviest_vertices(SG::closest_point_prolongation(fine.matrices, result.matrices, result.restriction)))
+  for(const Eigen::Index v : heaviest_vertices(
+          SG::closest_point_prolongation(fine.matrices, result.matrices, result.restriction)))
     result.vertex_map.push_back(static_cast<std::size_t>(v));
   return result;
 }
@@ -101,7 +102,9 @@ Proxy proxy_of(Simplification coarse, const Shape& fine, Eigen::Index modes, SG:
     fit = [&](SG::Laplace_operator& op) {
       SG::Operator_fit_options fit_options = SG::Operator_fit_options::for_mass(op.theta);
       fit_options.progress = [&](double) { return keep_going(); };
-      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs, fit_options).op;
+      op = SG::fit_operators(op, proxy.restriction, fine.spectral.op, fine.spectral.pairs,
+                             fit_options)
+               .op;
     };
   proxy.shape = make_shape(std::move(coarse.matrices), modes, mass, keep_going, fit);
   return proxy;
@@ -131,15 +134,17 @@ Mesh mesh_of(const SG::Mesh_matrices& matrices)
 Reduced_mesh reduced_by_quadrics(Mesh mesh, const std::size_t vertices,
                                  const std::function<bool()>& keep_going)
 {
-  const auto reduction = simplify_mesh_by_quadrics(mesh, vertices, [&](double) { return keep_going(); });
+  const auto reduction =
+      simplify_mesh_by_quadrics(mesh, vertices, [&](double) { return keep_going(); });
   Reduced_mesh result;
   result.vertex_map.assign(reduction.vertex_map.begin(), reduction.vertex_map.end());
-  result.mesh =
-      mesh_of(SG::mesh_matrices(mesh)); // without what was removed, in the order of the vertices left
+  result.mesh = mesh_of(
+      SG::mesh_matrices(mesh)); // without what was removed, in the order of the vertices left
   return result;
 }
 
-Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass, const Keep_going& keep_going,
+Shape make_shape(SG::Mesh_matrices matrices, Eigen::Index modes, SG::Mass mass,
+                 const Keep_going& keep_going,
                  const std::function<void(SG::Laplace_operator&)>& fit)
 {
   Shape shape;

@@ -42,7 +42,8 @@ struct Reduced_mesh
 Mesh mesh_of(const CGAL::Spectral_geometry::Mesh_matrices& matrices);
 
 // Reduces a larger mesh to so many vertices by quadrics alone.
-Reduced_mesh reduced_by_quadrics(Mesh mesh, std::size_t vertices, const std::function<bool()>& keep_going);
+Reduced_mesh reduced_by_quadrics(Mesh mesh, std::size_t vertices,
+                                 const std::function<bool()>& keep_going);
 
 enum class Proxy_kind { spectral, garland_heckbert, garland_heckbert_probabilistic, none };
 
@@ -52,9 +53,10 @@ const char* proxy_name(Proxy_kind kind);
 struct Proxy
 {
   Shape shape;
-  Eigen::SparseMatrix<double> restriction;  // coarse x fine, binary
-  std::vector<Eigen::Index> representative; // for each coarse vertex the fine one that the restriction picks
-  std::vector<std::size_t> vertex_map;      // for each fine vertex the coarse one it went to
+  Eigen::SparseMatrix<double> restriction; // coarse x fine, binary
+  std::vector<Eigen::Index>
+      representative; // for each coarse vertex the fine one that the restriction picks
+  std::vector<std::size_t> vertex_map; // for each fine vertex the coarse one it went to
 };
 
 // What a proxy computes with: its own cotangents and areas, or `fit_operators()`.
@@ -68,15 +70,17 @@ Shape make_shape(CGAL::Spectral_geometry::Mesh_matrices matrices, Eigen::Index m
                  CGAL::Spectral_geometry::Mass mass, const Keep_going& keep_going,
                  const std::function<void(CGAL::Spectral_geometry::Laplace_operator&)>& fit = {});
 
-// The mass is that of `options`, which say how to simplify spectrally, but for relocation: the matches are vertices of `mesh`.
-// Throws std::runtime_error where it cannot be reduced to exactly `vertices`.
+// The mass is that of `options`, which say how to simplify spectrally, but for relocation: the
+// matches are vertices of `mesh`. Throws std::runtime_error where it cannot be reduced to exactly
+// `vertices`.
 Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size_t vertices,
                  Eigen::Index modes,
                  const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
                  Proxy_operators operators, const Keep_going& keep_going);
 
-// The same of a coarse mesh, whoever made it. A coarse vertex stands for the nearest corner of the fine triangle that is closest
-// to it. Throws std::runtime_error, with the end of a sentence, where it does not lie on the fine mesh.
+// The same of a coarse mesh, whoever made it. A coarse vertex stands for the nearest corner of the
+// fine triangle that is closest to it. Throws std::runtime_error, with the end of a sentence, where
+// it does not lie on the fine mesh.
 Proxy make_foreign_proxy(const Mesh& coarse, const Shape& fine, Eigen::Index modes,
                          CGAL::Spectral_geometry::Mass mass, Proxy_operators operators,
                          const Keep_going& keep_going);

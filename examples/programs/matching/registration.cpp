@@ -46,10 +46,11 @@ Eigen::MatrixXd vertex_normals(const Eigen::MatrixXd& V, const Eigen::MatrixXi& 
   return normals;
 }
 
-// Mean curvature smoothed by two implicit steps of heat of ever longer times, four times the time from one to the next;
-// a band is the difference of two neighbours, scaled to variance 1. One row per band.
-Eigen::MatrixXd curvature_bands(const Shape& shape, const Eigen::MatrixXd& normals, double shortest_time,
-                                Eigen::Index bands)
+// Mean curvature smoothed by two implicit steps of heat of ever longer times, four times the time
+// from one to the next; a band is the difference of two neighbours, scaled to variance 1. One row
+// per band.
+Eigen::MatrixXd curvature_bands(const Shape& shape, const Eigen::MatrixXd& normals,
+                                double shortest_time, Eigen::Index bands)
 {
   const SG::Laplace_operator& op = shape.spectral.op;
   const Eigen::MatrixXd LV = op.L * shape.matrices.V;
@@ -62,8 +63,8 @@ Eigen::MatrixXd curvature_bands(const Shape& shape, const Eigen::MatrixXd& norma
   for(Eigen::Index band = 0; band <= bands; ++band) {
     solver.factorize(M + shortest_time * std::pow(4., static_cast<double>(band)) * op.L);
     if(solver.info() != Eigen::Success)
-      throw std::runtime_error(
-          "the curvature of a mesh cannot be smoothed, its Laplace operator is not semidefinite: repair it.");
+      throw std::runtime_error("the curvature of a mesh cannot be smoothed, its Laplace operator "
+                               "is not semidefinite: repair it.");
     const Eigen::VectorXd once = solver.solve(curvature);
     const Eigen::VectorXd smooth = solver.solve(Eigen::VectorXd(op.mass.cwiseProduct(once)));
     if(band > 0) {
@@ -76,9 +77,10 @@ Eigen::MatrixXd curvature_bands(const Shape& shape, const Eigen::MatrixXd& norma
   return result;
 }
 
-// The mesh with at most `vertices` vertices where edges can be collapsed, by Lindstrom and Turk's costs, which keep
-// the volume.
-SG::Mesh_matrices control_mesh(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, std::size_t vertices)
+// The mesh with at most `vertices` vertices where edges can be collapsed, by Lindstrom and Turk's
+// costs, which keep the volume.
+SG::Mesh_matrices control_mesh(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                               std::size_t vertices)
 {
   Mesh mesh = mesh_of({V.transpose(), T});
   if(mesh.number_of_vertices() > vertices)
@@ -100,8 +102,8 @@ Eigen::VectorXd vertex_areas(const SG::Mesh_matrices& mesh)
   return result / result.sum();
 }
 
-// Points of a fine mesh moved with a control mesh: by its vertex that is nearest at rest and the neighbours of that one, none of
-// which lies on another limb.
+// Points of a fine mesh moved with a control mesh: by its vertex that is nearest at rest and the
+// neighbours of that one, none of which lies on another limb.
 Eigen::MatrixXd carried(const Eigen::MatrixXd& fine, const Eigen::MatrixXd& fine_normals,
                         const Elastic_surface& elastic, const Eigen::MatrixXd& P, int threads)
 {
@@ -128,8 +130,8 @@ Eigen::MatrixXd carried(const Eigen::MatrixXd& fine, const Eigen::MatrixXd& fine
       const Eigen::Vector3d offset = fine.col(v) - V.col(c);
       const double closeness = 1.001 - (farthest > 0 ? offset.norm() / farthest : 1.);
       sum += closeness * closeness;
-      result.col(v) +=
-          closeness * closeness * (elastic.rotations()[static_cast<std::size_t>(c)] * offset + P.col(c));
+      result.col(v) += closeness * closeness *
+                       (elastic.rotations()[static_cast<std::size_t>(c)] * offset + P.col(c));
     }
     result.col(v) /= sum;
   }
@@ -172,7 +174,8 @@ Registration::Points Registration::points(const Shape& shape, const SG::Mesh_mat
   return result;
 }
 
-Registration::Surface Registration::surface(const Shape& shape, double shortest_time, Eigen::Index bands)
+Registration::Surface Registration::surface(const Shape& shape, double shortest_time,
+                                            Eigen::Index bands)
 {
   constexpr std::size_t control_vertices = 2000;
   Surface s;
@@ -190,10 +193,11 @@ Registration::Registration(const Shape& X, const Shape& Y, double largest_weight
   , m_largest_weight(largest_weight)
   , m_threads(threads)
 {
-  // The same bands for both, of times from that of half an edge of the coarser mesh to that of two thirds of the last mode's
-  // wavelength, sqrt(pi / modes): what is larger the modes know.
+  // The same bands for both, of times from that of half an edge of the coarser mesh to that of two
+  // thirds of the last mode's wavelength, sqrt(pi / modes): what is larger the modes know.
   const double vertices = static_cast<double>((std::min)(X.matrices.V.rows(), Y.matrices.V.rows()));
-  const double modes = static_cast<double>((std::min)(X.spectral.pairs.size(), Y.spectral.pairs.size()));
+  const double modes =
+      static_cast<double>((std::min)(X.spectral.pairs.size(), Y.spectral.pairs.size()));
   const double shortest_time = 0.3 / vertices, longest_time = 4 / (CGAL_PI * modes);
   Eigen::Index bands = 0;
   for(double time = 4 * shortest_time; time <= longest_time; time *= 4)
@@ -217,7 +221,8 @@ Eigen::MatrixXd Registration::at_control(const Eigen::MatrixXd& functions, const
 Eigen::VectorXd Registration::weights(const std::vector<Eigen::Index>& images) const
 {
   const Eigen::Index bands = m_bands_X.rows();
-  Eigen::VectorXd products = Eigen::VectorXd::Zero(bands), squares_X = products, squares_Y = products;
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(bands), squares_X = products,
+                  squares_Y = products;
   for(std::size_t i = 0; i < images.size(); ++i) {
     const auto of_x = m_bands_X.col(static_cast<Eigen::Index>(i)), of_y = m_Y.bands.col(images[i]);
     const double area = m_X.areas(static_cast<Eigen::Index>(i));
@@ -244,11 +249,13 @@ Eigen::MatrixXd Registration::features(const Eigen::MatrixXd& V, const Eigen::Ma
   return result;
 }
 
-Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations, const Keep_going& keep_going) const
+Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations,
+                                      const Keep_going& keep_going) const
 {
   const Eigen::MatrixXd phi = at_control(m_shape_X.spectral.pairs.vectors.leftCols(C.rows()), m_X),
                         psi = at_control(m_shape_Y.spectral.pairs.vectors.leftCols(C.cols()), m_Y),
-                        bands_X = m_bands_X.transpose(), bands_Y = at_control(m_Y.bands.transpose(), m_Y);
+                        bands_X = m_bands_X.transpose(),
+                        bands_Y = at_control(m_Y.bands.transpose(), m_Y);
   // Least squares, weighted by areas: the modes are orthonormal over all vertices, not over some.
   const Eigen::MatrixXd weighted = phi.transpose() * m_X.areas.asDiagonal();
   const Eigen::MatrixXd to_map = (weighted * phi).ldlt().solve(weighted);
@@ -263,7 +270,8 @@ Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations, const K
       for(const Eigen::Index y : next)
         fine.push_back(m_Y.nearest[static_cast<std::size_t>(y)]);
       const Eigen::VectorXd weights = this->weights(fine);
-      Eigen::MatrixXd points(psi.rows(), C.rows() + weights.size()), queries(phi.rows(), points.cols());
+      Eigen::MatrixXd points(psi.rows(), C.rows() + weights.size()),
+          queries(phi.rows(), points.cols());
       points << modes, bands_Y * weights.asDiagonal();
       queries << phi, bands_X * weights.asDiagonal();
       next = SG::nearest_rows(points, queries, m_threads);
@@ -285,22 +293,25 @@ Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations, const K
 Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations,
                                         const Keep_going& keep_going) const
 {
-  const Eigen::MatrixXd &phi = m_shape_X.spectral.pairs.vectors, &psi = m_shape_Y.spectral.pairs.vectors;
+  const Eigen::MatrixXd &phi = m_shape_X.spectral.pairs.vectors,
+                        &psi = m_shape_Y.spectral.pairs.vectors;
   if(iterations == 0)
     return {SG::target_to_source_map(C, psi, phi, m_threads), {}};
 
-  // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they are long. The surface is
-  // first drawn with both smoothed, which leaves limbs free to turn with what they grow out of, then at the vertices that face
-  // where their images do. Neighbouring rotations stay a little alike to the end: a paw that is free settles as it happens to be turned.
-  constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5, likeness = 10,
-                   last_likeness = 0.3;
+  // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they
+  // are long. The surface is first drawn with both smoothed, which leaves limbs free to turn with
+  // what they grow out of, then at the vertices that face where their images do. Neighbouring
+  // rotations stay a little alike to the end: a paw that is free settles as it happens to be
+  // turned.
+  constexpr double smoothing_time = 1e-2, first_stiffness = 1e3, second_stiffness = 1e5,
+                   likeness = 10, last_likeness = 0.3;
   constexpr int first_iterations = 20, second_iterations = 10;
   Elastic_surface elastic(m_X.control);
   const Eigen::Index n = m_X.control.V.rows();
   constexpr int settling_iterations = 4;
   std::vector<Eigen::Index> images =
-      SG::target_to_source_map(settled(C, (std::min)(iterations, settling_iterations), keep_going), psi,
-                               at_control(phi, m_X), m_threads);
+      SG::target_to_source_map(settled(C, (std::min)(iterations, settling_iterations), keep_going),
+                               psi, at_control(phi, m_X), m_threads);
   Eigen::MatrixXd targets(3, n);
   for(Eigen::Index i = 0; i < n; ++i)
     targets.col(i) = m_Y.V.col(images[static_cast<std::size_t>(i)]);
@@ -320,7 +331,8 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
     const Eigen::MatrixXd normals = vertex_normals(P, m_X.control.T);
     springs = Springs(n);
     for(Eigen::Index i = 0; i < n; ++i)
-      springs.add(i, normals.col(i), targets.col(i), m_Y.normals.col(images[static_cast<std::size_t>(i)]),
+      springs.add(i, normals.col(i), targets.col(i),
+                  m_Y.normals.col(images[static_cast<std::size_t>(i)]),
                   second_stiffness * m_X.areas(i), 1.);
     elastic.fit_rotations(P, likeness);
     P = elastic.solve(springs.D, springs.f);
@@ -367,7 +379,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   Maps result;
   result.map = map(m_X, m_shape_X.matrices.T, m_Y);
   if(m_shape_X.full || m_shape_Y.full)
-    result.of_full =
-        map(points(m_shape_X, m_shape_X.read()), m_shape_X.read().T, points(m_shape_Y, m_shape_Y.read()));
+    result.of_full = map(points(m_shape_X, m_shape_X.read()), m_shape_X.read().T,
+                         points(m_shape_Y, m_shape_Y.read()));
   return result;
 }

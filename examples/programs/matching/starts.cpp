@@ -28,14 +28,17 @@ public:
     const Eigen::Index steps = 20, spreads = 4;
     const Eigen::VectorXd times = SG::heat_kernel_times(X.pairs, steps);
     const SG::Wave_kernel_energies energies = SG::wave_kernel_energies(X.pairs, steps);
-    const Eigen::VectorXd spreading = SG::heat_kernel_times(X.pairs, spreads + 2).segment(1, spreads);
-    const auto compute = [&](const SG::Spectral_shape& shape, const std::vector<Eigen::Index>& sources) {
+    const Eigen::VectorXd spreading =
+        SG::heat_kernel_times(X.pairs, spreads + 2).segment(1, spreads);
+    const auto compute = [&](const SG::Spectral_shape& shape,
+                             const std::vector<Eigen::Index>& sources) {
       const Eigen::Index marks = static_cast<Eigen::Index>(sources.size());
       Eigen::MatrixXd result(shape.op.B.rows(), 2 * steps + spreads * marks);
       result.leftCols(steps) = SG::heat_kernel_signature(shape.pairs, times);
       result.middleCols(steps, steps) = SG::wave_kernel_signature(shape.pairs, energies);
       for(Eigen::Index t = 0; t < spreads && marks > 0; ++t)
-        result.middleCols(2 * steps + t * marks, marks) = SG::heat_kernel(shape.pairs, sources, spreading(t));
+        result.middleCols(2 * steps + t * marks, marks) =
+            SG::heat_kernel(shape.pairs, sources, spreading(t));
       // Functions without their means: constants tell nothing.
       return Eigen::MatrixXd(result.rowwise() - shape.op.mass.transpose() * result);
     };
@@ -108,13 +111,13 @@ public:
   Eigen::MatrixXd of_descriptors(const Descriptors& descriptors, double factor, double orientation,
                                  Eigen::Index modes) const
   {
-    const Eigen::Index k =
-        (std::min)(static_cast<Eigen::Index>(factor * static_cast<double>(m_options.initial_modes)), modes);
+    const Eigen::Index k = (std::min)(
+        static_cast<Eigen::Index>(factor * static_cast<double>(m_options.initial_modes)), modes);
     SG::Functional_map_weights weights = m_options.weights;
     weights.orientation *= orientation;
     return SG::zoom_out(
-        SG::functional_map_of_descriptors(m_Y, m_X, descriptors.f_Y, descriptors.f_X, k, weights), m_Y, m_X,
-        modes, 2 * m_options.zoom_step, 1);
+        SG::functional_map_of_descriptors(m_Y, m_X, descriptors.f_Y, descriptors.f_X, k, weights),
+        m_Y, m_X, modes, 2 * m_options.zoom_step, 1);
   }
 
   std::vector<Start> of_descriptors(const Descriptors& descriptors, Eigen::Index modes) const
@@ -130,14 +133,16 @@ public:
     return result;
   }
 
-  // A tree of maps as in MapTree (Ren, Melzi, Ovsjanikov, Wonka 2020). From the constants on, each map of k modes is
-  // continued by the next mode with either sign, and by the next two exchanged; each is made the map of points once and judged.
-  // Descriptors have one opinion of what a limb of Y is; this has all, and leaves the choice to what comes of them.
+  // A tree of maps as in MapTree (Ren, Melzi, Ovsjanikov, Wonka 2020). From the constants on, each
+  // map of k modes is continued by the next mode with either sign, and by the next two exchanged;
+  // each is made the map of points once and judged. Descriptors have one opinion of what a limb of
+  // Y is; this has all, and leaves the choice to what comes of them.
   std::vector<Start> grown(Eigen::Index modes) const
   {
     constexpr std::size_t width = 24;
     const Eigen::Index leaf = (std::min)(Eigen::Index(9), modes);
-    std::vector<std::vector<Start>> level(static_cast<std::size_t>(leaf) + 1); // by the number of modes
+    std::vector<std::vector<Start>> level(static_cast<std::size_t>(leaf) +
+                                          1); // by the number of modes
     level[1].push_back({Eigen::MatrixXd::Identity(1, 1), 0.});
     for(Eigen::Index k = 1; k < leaf; ++k) {
       std::vector<Start>& present = level[static_cast<std::size_t>(k)];
@@ -180,7 +185,8 @@ private:
   {
     std::vector<Start> result(maps.size());
     for_each_index(maps.size(), m_options.threads, m_keep_going, [&](std::size_t i) {
-      result[i] = judged(SG::zoom_out(maps[i], m_Y, m_X, (std::max)(last, maps[i].rows()), step, 1));
+      result[i] =
+          judged(SG::zoom_out(maps[i], m_Y, m_X, (std::max)(last, maps[i].rows()), step, 1));
     });
     return result;
   }
@@ -204,7 +210,8 @@ private:
 
 } // namespace
 
-double strangeness(const Eigen::MatrixXd& C, const SG::Spectral_shape& X, const SG::Spectral_shape& Y)
+double strangeness(const Eigen::MatrixXd& C, const SG::Spectral_shape& X,
+                   const SG::Spectral_shape& Y)
 {
   const Eigen::Index k = C.rows();
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(k, k);

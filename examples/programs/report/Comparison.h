@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-// What a comparison found: plain data, filled by the programs, written as a table, JSON or a page. A number
-// that was not computed is NaN.
+// What a comparison found: plain data, filled by the programs, written as a table, JSON or a page.
+// A number that was not computed is NaN.
 
 constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
 
@@ -48,7 +48,7 @@ struct Judgement
   Distance_errors distances;
   std::string distances_by;      // "carried" or "closest point": the P of the errors of distances
   Eigen::VectorXd coarse_values; // at unit area
-  Eigen::MatrixXd C;             // of the carried P if there is one, coarse modes aligned with fine ones
+  Eigen::MatrixXd C; // of the carried P if there is one, coarse modes aligned with fine ones
 
   // The norms that the tables show first.
   const Map_norms& norms() const { return carried ? *carried : *closest; }
@@ -61,9 +61,9 @@ struct Shape_measures
   double largest_aspect_ratio = not_computed;
   double self_intersections = not_computed;  // pairs of faces
   double rows_off_their_part = not_computed; // of the P that is judged first
-  double hausdorff = not_computed;           // symmetric, relative to the diagonal of the fine mesh's box
-  double volume_ratio = not_computed;        // coarse over fine; closed meshes only
-  double area_ratio = not_computed;          // coarse over fine
+  double hausdorff = not_computed;    // symmetric, relative to the diagonal of the fine mesh's box
+  double volume_ratio = not_computed; // coarse over fine; closed meshes only
+  double area_ratio = not_computed;   // coarse over fine
   double bytes_per_vertex =
       not_computed; // coordinates as doubles and indices of 4 bytes; an operator: its nonzeros
 };
@@ -85,7 +85,10 @@ struct Simplified
 
   bool has_mesh() const { return faces > 0; }
 
-  double seconds_total() const { return seconds + (seconds_eigenpairs > 0 ? seconds_eigenpairs : 0.); }
+  double seconds_total() const
+  {
+    return seconds + (seconds_eigenpairs > 0 ? seconds_eigenpairs : 0.);
+  }
 
   // The same for all sizes: names a curve.
   std::string name() const

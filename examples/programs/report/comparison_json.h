@@ -13,8 +13,8 @@
 #include <optional>
 #include <vector>
 
-// The comparison for programs: one object per result and mass under "rows", rivals that were refused under "refused". Numbers
-// that were not computed are null.
+// The comparison for programs: one object per result and mass under "rows", rivals that were
+// refused under "refused". Numbers that were not computed are null.
 
 namespace comparison_json_internal {
 

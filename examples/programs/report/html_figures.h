@@ -31,8 +31,8 @@ inline std::vector<std::size_t> sizes(const Comparison& c)
 }
 
 // What was judged in a mass at a size.
-inline std::vector<std::pair<const Simplified*, const Judgement*>> judged(const Comparison& c, std::size_t N,
-                                                                          const std::string& mass)
+inline std::vector<std::pair<const Simplified*, const Judgement*>>
+judged(const Comparison& c, std::size_t N, const std::string& mass)
 {
   std::vector<std::pair<const Simplified*, const Judgement*>> result;
   for(const Simplified& s : c.results)
@@ -51,8 +51,8 @@ inline std::vector<std::string> all_notes(const Comparison& c)
   return notes;
 }
 
-// The names of all curves in order of appearance, each with its style: the colour of its family, the first
-// word of the simplifier's name ("Garland-Heckbert"), and dashes by its place there.
+// The names of all curves in order of appearance, each with its style: the colour of its family,
+// the first word of the simplifier's name ("Garland-Heckbert"), and dashes by its place there.
 inline std::vector<std::pair<std::string, Line_style>> styles(const Comparison& c)
 {
   std::vector<std::pair<std::string, Line_style>> result;
@@ -66,8 +66,8 @@ inline std::vector<std::pair<std::string, Line_style>> styles(const Comparison& 
     auto place = std::find(families.begin(), families.end(), family);
     if(place == families.end())
       place = families.insert(place, family);
-    result.emplace_back(name,
-                        line_style(static_cast<std::size_t>(place - families.begin()), variants[family]++));
+    result.emplace_back(
+        name, line_style(static_cast<std::size_t>(place - families.begin()), variants[family]++));
   }
   return result;
 }
@@ -118,12 +118,13 @@ inline std::string shade_scale()
   std::string html = svg_begin(300, 34, "scale of the maps");
   for(int i = 0; i < 100; ++i) {
     const auto colour = sequential_colour((i + 0.5) / 100);
-    html += "<rect x='" + std::to_string(20 + 2 * i) + "' y='2' width='2.5' height='12' fill='rgb(" +
-            std::to_string(colour[0]) + "," + std::to_string(colour[1]) + "," + std::to_string(colour[2]) +
-            ")'/>";
+    html += "<rect x='" + std::to_string(20 + 2 * i) +
+            "' y='2' width='2.5' height='12' fill='rgb(" + std::to_string(colour[0]) + "," +
+            std::to_string(colour[1]) + "," + std::to_string(colour[2]) + ")'/>";
   }
   html += "<rect x='20' y='2' width='200' height='12' fill='none' stroke='#999'/>";
-  for(const auto& [x, label] : {std::pair<int, const char*>{20, "0"}, {120, "0.5"}, {220, "1 and above"}})
+  for(const auto& [x, label] :
+      {std::pair<int, const char*>{20, "0"}, {120, "0.5"}, {220, "1 and above"}})
     html += svg_internal::text(x, 28, label, "text-anchor='middle'");
   return html + "</svg>\n";
 }
@@ -132,9 +133,12 @@ inline std::string shade_scale()
 inline std::string functional_maps(const Comparison& c, const std::string& mass)
 {
   std::string html =
-      "<p class='note'>|C<sub>ij</sub>|: white is 0, darkest is 1 and above. Columns are fine modes, rows "
-      "coarse ones, from the upper left. Within groups of nearly equal fine eigenvalues (closer than a tenth "
-      "of their mean spacing) the coarse modes were rotated to the fine ones, so that an eigenspace with "
+      "<p class='note'>|C<sub>ij</sub>|: white is 0, darkest is 1 and above. Columns are fine "
+      "modes, rows "
+      "coarse ones, from the upper left. Within groups of nearly equal fine eigenvalues (closer "
+      "than a tenth "
+      "of their mean spacing) the coarse modes were rotated to the fine ones, so that an "
+      "eigenspace with "
       "another basis does not look like an error; the norms are those before.</p>\n" +
       shade_scale();
   for(const std::size_t N : sizes(c)) {
@@ -157,7 +161,8 @@ inline std::string eigenvalue_plots(const Comparison& c, const Fine_spectrum& fi
     values.title = "Eigenvalues, N = " + std::to_string(N) + ", " + fine.mass + " mass";
     values.x_label = ratios.x_label = "mode k";
     values.y_label = "λ (unit area)";
-    ratios.title = "Coarse over fine eigenvalues, N = " + std::to_string(N) + ", " + fine.mass + " mass";
+    ratios.title =
+        "Coarse over fine eigenvalues, N = " + std::to_string(N) + ", " + fine.mass + " mass";
     ratios.y_label = "coarse λ / fine λ";
     values.width = ratios.width = 600;
     values.height = ratios.height = 380;
@@ -221,8 +226,8 @@ inline std::string size_plots(const Comparison& c, const std::string& mass)
           [&](const Simplified&, const Judgement& j) {
             return norm_L ? j.norms().norm_L : j.norms().norm_D;
           });
-      plot.title = std::string(norm_L ? "|C|_L" : "|C|_D") + " over " + (over_ratio ? "K/N" : "output size") +
-                   ", " + mass + " mass";
+      plot.title = std::string(norm_L ? "|C|_L" : "|C|_D") + " over " +
+                   (over_ratio ? "K/N" : "output size") + ", " + mass + " mass";
       plot.x_label = over_ratio ? "K/N, eigenvectors per vertex" : "N, vertices";
       plot.y_label = std::string(norm_L ? "|C|_L" : "|C|_D") + " (unit area)";
       plot.width = 600;

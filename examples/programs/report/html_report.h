@@ -23,33 +23,42 @@ namespace html_internal {
 
 inline const char* style()
 {
-  return "body{font:15px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 1.5em}"
+  return "body{font:15px/1.5 sans-serif;color:#222;max-width:1280px;margin:2em auto;padding:0 "
+         "1.5em}"
          "h1{font-size:1.7em;margin-bottom:.2em;overflow-wrap:anywhere}"
          "h2{font-size:1.3em;margin-top:2em;border-bottom:1px solid #bbb}"
          "h3{font-size:1.05em;margin:1.4em 0 .4em}"
          "table{border-collapse:collapse;font-size:13px;margin:.6em 0}"
-         "th,td{padding:2px 9px;text-align:right;border-bottom:1px solid #e3e3e3;vertical-align:bottom}"
+         "th,td{padding:2px 9px;text-align:right;border-bottom:1px solid "
+         "#e3e3e3;vertical-align:bottom}"
          "th{border-bottom:1.5px solid #555;font-weight:600}"
          "th.l,td.l{text-align:left}tr.floor td{font-style:italic;border-bottom:1.5px solid #999}"
          "td.n{white-space:nowrap}td.best{font-weight:bold}"
          ".figures{display:flex;flex-wrap:wrap;gap:14px 18px;align-items:flex-start}"
          "figure{margin:0;width:190px;max-width:100%;break-inside:avoid}"
          "figcaption{font-size:12.5px;line-height:1.35}"
-         "figure img{width:188px;height:188px;border:1px solid #999;image-rendering:pixelated;display:block}"
+         "figure img{width:188px;height:188px;border:1px solid "
+         "#999;image-rendering:pixelated;display:block}"
          "figure.wide{width:460px}"
          "figure.wide img{box-sizing:border-box;width:100%;height:auto;image-rendering:auto}"
-         ".legend{max-width:none;columns:3;column-gap:2em;font-size:13px;list-style:none;padding:0;margin:."
+         ".legend{max-width:none;columns:3;column-gap:2em;font-size:13px;list-style:none;padding:0;"
+         "margin:."
          "4em 0}"
-         ".legend li{break-inside:avoid;display:block}.legend svg{vertical-align:middle;margin-right:.5em}"
+         ".legend li{break-inside:avoid;display:block}.legend "
+         "svg{vertical-align:middle;margin-right:.5em}"
          "svg{max-width:100%;height:auto}code{font-size:13px;overflow-wrap:anywhere}"
          "p,ul{max-width:62em}sub{line-height:0}.note{color:#555;font-size:13px}"
-         ".shapes{display:grid;grid-template-columns:1fr 1fr;gap:14px}.shapes figure{width:auto;min-width:0}"
+         ".shapes{display:grid;grid-template-columns:1fr 1fr;gap:14px}.shapes "
+         "figure{width:auto;min-width:0}"
          ".shapes figcaption{font-weight:600;font-size:14px}"
-         ".shapes img,.shapes canvas{box-sizing:border-box;width:100%;height:auto;aspect-ratio:400/287;"
+         ".shapes img,.shapes "
+         "canvas{box-sizing:border-box;width:100%;height:auto;aspect-ratio:400/287;"
          "display:block;border:1px solid #999;image-rendering:auto}"
          ".shapes canvas{touch-action:none;cursor:grab}"
-         ".scale{max-width:36em;margin:.6em 0;font-size:13px}#shape-bar{height:14px;border:1px solid #999}"
-         "#shape-ticks{display:flex}#shape-ticks span{flex:1}#shape-ticks span+span{text-align:center}"
+         ".scale{max-width:36em;margin:.6em 0;font-size:13px}#shape-bar{height:14px;border:1px "
+         "solid #999}"
+         "#shape-ticks{display:flex}#shape-ticks span{flex:1}#shape-ticks "
+         "span+span{text-align:center}"
          "#shape-ticks span+span+span{text-align:right}"
          "@media(max-width:700px){body{margin:1em auto;padding:0 .8em}table{display:block}"
          "table,.bars{overflow-x:auto;"
@@ -57,7 +66,8 @@ inline const char* style()
          "linear-gradient(90deg,#0000,#0003) 100% 0/12px 100% no-repeat scroll}"
          "td.n{white-space:normal;min-width:8em}"
          "td.n,th.l:first-child{position:sticky;left:0;background:#fff}"
-         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:none;font-"
+         "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:"
+         "none;font-"
          "size:12px}"
          ".legend{columns:1}.shapes{grid-template-columns:1fr}}"
          "@media print{#shape-controls{display:none}body{margin:0;max-width:none;font-size:10pt}"
@@ -66,10 +76,11 @@ inline const char* style()
          "@page{size:A4 landscape;margin:12mm}";
 }
 
-inline std::string cell(const std::string& content, const char* type = "td", const std::string& cls = "")
+inline std::string cell(const std::string& content, const char* type = "td",
+                        const std::string& cls = "")
 {
-  return std::string("<") + type + (cls.empty() ? "" : " class='" + cls + "'") + ">" + content + "</" + type +
-         ">";
+  return std::string("<") + type + (cls.empty() ? "" : " class='" + cls + "'") + ">" + content +
+         "</" + type + ">";
 }
 
 inline std::string heading_row(const std::vector<std::string>& names, std::size_t left)
@@ -96,11 +107,12 @@ inline std::string who(const Simplified& s)
          cell(std::to_string(s.vertices));
 }
 
-// A table of all results judged in one mass; `value(result, judgement)` gives the columns. The smallest entry
-// of a column among those of one size is bold where `best` says so.
+// A table of all results judged in one mass; `value(result, judgement)` gives the columns. The
+// smallest entry of a column among those of one size is bold where `best` says so.
 template <class Values>
-std::string table(const Comparison& c, const std::string& mass, const std::vector<std::string>& columns,
-                  const std::vector<bool>& best, bool floors, const Values& values)
+std::string table(const Comparison& c, const std::string& mass,
+                  const std::vector<std::string>& columns, const std::vector<bool>& best,
+                  bool floors, const Values& values)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   // Columns without any number are left out.
@@ -122,8 +134,9 @@ std::string table(const Comparison& c, const std::string& mass, const std::vecto
     std::vector<double> smallest(columns.size(), infinity);
     for(const auto& [s, j] : rows)
       for(std::size_t k = 0; k < columns.size(); ++k)
-        smallest[k] = (std::min)(smallest[k],
-                                 std::isfinite(values(*s, *j)[k].first) ? values(*s, *j)[k].first : infinity);
+        smallest[k] =
+            (std::min)(smallest[k],
+                       std::isfinite(values(*s, *j)[k].first) ? values(*s, *j)[k].first : infinity);
     html += "<tbody>\n";
     for(const auto& [s, j] : rows) {
       html += "<tr>" + who(*s);
@@ -138,8 +151,8 @@ std::string table(const Comparison& c, const std::string& mass, const std::vecto
     if(floors && !rows.empty()) {
       const Judgement& j = *rows.front().second;
       html += "<tr class='floor'>" + cell("ideal linear elements (estimate)", "td", "l") +
-              "<td></td><td></td><td></td>" + cell(std::to_string(N)) + cell(formatted(j.floor_norm_L)) +
-              cell(formatted(j.floor_norm_D));
+              "<td></td><td></td><td></td>" + cell(std::to_string(N)) +
+              cell(formatted(j.floor_norm_L)) + cell(formatted(j.floor_norm_D));
       for(std::size_t k = 2; k < columns.size(); ++k)
         html += shown[k] ? "<td></td>" : "";
       html += "</tr>\n";
@@ -152,35 +165,37 @@ std::string table(const Comparison& c, const std::string& mass, const std::vecto
 inline std::string spectrum_tables(const Comparison& c, const std::string& mass)
 {
   std::string html = "<h3>Norms</h3>\n";
-  html +=
-      table(c, mass,
-            {"|C|<sub>L</sub>", "|C|<sub>D</sub>", "|C|<sub>D</sub>, 1.1 K", "|C|<sub>L</sub> closest P",
-             "|C|<sub>D</sub> closest P", "|C|<sub>L</sub> input scale", "|C|<sub>D</sub> input scale"},
-            {true, true, false, true, true, false, false}, true, [](const Simplified&, const Judgement& j) {
-              const Map_norms& n = j.norms();
-              const Map_norms p = j.closest ? *j.closest : Map_norms();
-              return std::vector<std::pair<double, bool>>{{n.norm_L, false},
-                                                          {n.norm_D, false},
-                                                          {n.norm_D_extended, false},
-                                                          {p.norm_L, false},
-                                                          {p.norm_D, false},
-                                                          {n.norm_L_input_scale, false},
-                                                          {n.norm_D_input_scale, false}};
-            });
-  html += "<h3>Relative errors in percent: eigenvalues, distances, signatures</h3>\n";
   html += table(c, mass,
-                {"λ<sub>1..K</sub> mean", "λ<sub>1..K</sub> max", "λ<sub>2..K/5</sub> mean",
-                 "λ<sub>K+1..1.5K</sub> mean", "diffusion", "biharmonic", "commute time", "wave kernel",
-                 "HKS", "WKS"},
-                {true, true, true, true, true, true, true, true, true, true}, false,
+                {"|C|<sub>L</sub>", "|C|<sub>D</sub>", "|C|<sub>D</sub>, 1.1 K",
+                 "|C|<sub>L</sub> closest P", "|C|<sub>D</sub> closest P",
+                 "|C|<sub>L</sub> input scale", "|C|<sub>D</sub> input scale"},
+                {true, true, false, true, true, false, false}, true,
                 [](const Simplified&, const Judgement& j) {
-                  const Distance_errors& d = j.distances;
-                  return std::vector<std::pair<double, bool>>{
-                      {j.error_mean, true},           {j.error_max, true},   {j.error_low_mean, true},
-                      {j.error_beyond_mean, true},    {d.diffusion, true},   {d.biharmonic, true},
-                      {d.commute_time, true},         {d.wave_kernel, true}, {d.heat_kernel_signature, true},
-                      {d.wave_kernel_signature, true}};
+                  const Map_norms& n = j.norms();
+                  const Map_norms p = j.closest ? *j.closest : Map_norms();
+                  return std::vector<std::pair<double, bool>>{{n.norm_L, false},
+                                                              {n.norm_D, false},
+                                                              {n.norm_D_extended, false},
+                                                              {p.norm_L, false},
+                                                              {p.norm_D, false},
+                                                              {n.norm_L_input_scale, false},
+                                                              {n.norm_D_input_scale, false}};
                 });
+  html += "<h3>Relative errors in percent: eigenvalues, distances, signatures</h3>\n";
+  html += table(
+      c, mass,
+      {"λ<sub>1..K</sub> mean", "λ<sub>1..K</sub> max", "λ<sub>2..K/5</sub> mean",
+       "λ<sub>K+1..1.5K</sub> mean", "diffusion", "biharmonic", "commute time", "wave kernel",
+       "HKS", "WKS"},
+      {true, true, true, true, true, true, true, true, true, true}, false,
+      [](const Simplified&, const Judgement& j) {
+        const Distance_errors& d = j.distances;
+        return std::vector<std::pair<double, bool>>{
+            {j.error_mean, true},           {j.error_max, true},   {j.error_low_mean, true},
+            {j.error_beyond_mean, true},    {d.diffusion, true},   {d.biharmonic, true},
+            {d.commute_time, true},         {d.wave_kernel, true}, {d.heat_kernel_signature, true},
+            {d.wave_kernel_signature, true}};
+      });
   return html;
 }
 
@@ -188,16 +203,17 @@ inline std::string refused_rivals(const Comparison& c)
 {
   std::string html = "<table>\n" + heading_row({"refused", "why"}, 2);
   for(const Refused& r : c.refused)
-    html += "<tr>" + cell(escaped(r.name), "td", "l n") + cell(escaped(r.reason), "td", "l") + "</tr>\n";
+    html += "<tr>" + cell(escaped(r.name), "td", "l n") + cell(escaped(r.reason), "td", "l") +
+            "</tr>\n";
   return html + "</table>\n";
 }
 
 inline std::string shape_table(const Comparison& c)
 {
   return table(c, c.fine.front().mass,
-               {"eigenpairs, s", "simplification, s", "total, s", "smallest angle, °", "largest aspect ratio",
-                "self-inter&shy;sections", "Hausdorff, % diag.", "volume ratio", "area ratio",
-                "bytes per vertex"},
+               {"eigenpairs, s", "simplification, s", "total, s", "smallest angle, °",
+                "largest aspect ratio", "self-inter&shy;sections", "Hausdorff, % diag.",
+                "volume ratio", "area ratio", "bytes per vertex"},
                {false, false, true, false, false, false, true, false, false, false}, false,
                [](const Simplified& s, const Judgement&) {
                  const Shape_measures& m = s.shape;
@@ -224,8 +240,8 @@ inline std::string facts(const Comparison& c)
   const std::string components =
       std::to_string(c.components) + (c.components == 1 ? " component, " : " components, ");
   fact("Fine mesh",
-       escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " + std::to_string(c.faces) +
-           " triangles" +
+       escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " +
+           std::to_string(c.faces) + " triangles" +
            (c.components == 0 ? "" : ", " + components + (c.closed ? "closed" : "with boundary")));
   fact("Area", formatted(c.area) + " u² (u: the unit of the file)");
   if(std::isfinite(c.diagonal))
@@ -233,9 +249,9 @@ inline std::string facts(const Comparison& c)
   fact("K, number of eigenvectors", std::to_string(c.K));
   for(const Fine_spectrum& f : c.fine)
     if(std::isfinite(f.seconds))
-      fact("Reference eigenpairs, " + f.mass + " mass", std::to_string(f.values.size()) + " in " +
-                                                            formatted(f.seconds) + " s, largest residual " +
-                                                            formatted(f.largest_residual));
+      fact("Reference eigenpairs, " + f.mass + " mass",
+           std::to_string(f.values.size()) + " in " + formatted(f.seconds) +
+               " s, largest residual " + formatted(f.largest_residual));
   if(c.sources > 0)
     fact("Distances", std::to_string(c.sources) + " sources, seed " + std::to_string(c.seed));
   fact("Threads for the spectral costs", std::to_string(c.threads));
@@ -281,7 +297,8 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
                      "<meta name='viewport' content='width=device-width'><title>" +
                      escaped(c.mesh) + " – spectral comparison</title>\n<style>" + style() +
                      "</style></head><body>\n";
-  html += "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
+  html +=
+      "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
   html += facts(c);
   if(!c.refused.empty())
     html += refused_rivals(c);
@@ -292,9 +309,11 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
     if(c.results.size() > 1)
       html += "<h3>Norms (dashed: ideal linear elements)</h3>\n" + norm_bars(c, f.mass);
     html += "<h3>Functional maps</h3>\n" + functional_maps(c, f.mass);
-    html += "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) + eigenvalue_plots(c, f);
+    html +=
+        "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) + eigenvalue_plots(c, f);
     if(sizes(c).size() > 1)
-      html += "<h3>Norms over output size and over K/N</h3>\n" + legend(c, true) + size_plots(c, f.mass);
+      html += "<h3>Norms over output size and over K/N</h3>\n" + legend(c, true) +
+              size_plots(c, f.mass);
   }
   html += "<h2>Time and shape</h2>\n" + shape_table(c);
   if(sizes(c).size() > 1)

@@ -16,7 +16,8 @@ inline nlohmann::json number_json(const double x)
   return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
 }
 
-// The text of a JSON file. Names of files need not be UTF-8, JSON must be: what is not becomes U+FFFD.
+// The text of a JSON file. Names of files need not be UTF-8, JSON must be: what is not becomes
+// U+FFFD.
 inline std::string json_text(const nlohmann::json& json, const int indent)
 {
   return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";

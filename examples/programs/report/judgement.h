@@ -12,8 +12,10 @@
 
 #include <utility>
 
-// Takes over what an evaluation says of the spectrum, and its norms as those of the carried P or of the closest points.
-inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral_evaluation& e, bool carried)
+// Takes over what an evaluation says of the spectrum, and its norms as those of the carried P or of
+// the closest points.
+inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral_evaluation& e,
+                           bool carried)
 {
   (carried ? j.carried : j.closest) = Map_norms{e.norm_L,
                                                 e.norm_D,
@@ -32,8 +34,8 @@ inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral
   j.coarse_values = e.coarse_values;
 }
 
-// One evaluation as a comparison of one, for the page. `run` says what was evaluated: its judgements are
-// replaced.
+// One evaluation as a comparison of one, for the page. `run` says what was evaluated: its
+// judgements are replaced.
 inline Comparison single_run(const CGAL::Spectral_geometry::Spectral_evaluation& e, Simplified run)
 {
   Judgement j;

@@ -23,7 +23,8 @@
 
 // Pictures of coloured meshes, drawn here: a report needs no viewer.
 
-// What is seen of space: points, less the middle, are turned to the screen (x to the right, y up, z to the viewer).
+// What is seen of space: points, less the middle, are turned to the screen (x to the right, y up, z
+// to the viewer).
 struct Screen_frame
 {
   Eigen::Matrix3d turn;
@@ -36,8 +37,8 @@ struct Screen_frame
   }
 };
 
-// The frame of a mesh: the longest side of its box lies across, the shortest to the viewer, a little aslant. What is
-// up in the file stays up.
+// The frame of a mesh: the longest side of its box lies across, the shortest to the viewer, a
+// little aslant. What is up in the file stays up.
 inline Screen_frame screen_frame(const Eigen::MatrixXd& V)
 {
   const Eigen::RowVector3d extent = V.colwise().maxCoeff() - V.colwise().minCoeff();
@@ -47,9 +48,9 @@ inline Screen_frame screen_frame(const Eigen::MatrixXd& V)
   for(int i = 0; i < 3; ++i)
     turn(i, axis[static_cast<std::size_t>(i)]) = 1;
   turn.row(2) = turn.row(0).cross(turn.row(1)); // no mirror image
-  const Eigen::Matrix3d aslant =
-      (Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitY()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d aslant = (Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitX()) *
+                                  Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitY()))
+                                     .toRotationMatrix();
   Screen_frame frame{aslant * turn, Eigen::RowVector3d::Zero(), 0, 0};
   const Eigen::MatrixXd turned = frame.on_screen(V);
   const Eigen::RowVector3d low = turned.colwise().minCoeff(), high = turned.colwise().maxCoeff();
@@ -63,8 +64,8 @@ inline Screen_frame screen_frame(const Eigen::MatrixXd& V)
 struct Picture
 {
   int width = 460, height = 330;
-  Eigen::MatrixXd colours;           // one row per vertex, red, green and blue in [0, 1]
-  Eigen::VectorXd levels;            // optional, one per vertex: black lines where it passes an integer
+  Eigen::MatrixXd colours; // one row per vertex, red, green and blue in [0, 1]
+  Eigen::VectorXd levels;  // optional, one per vertex: black lines where it passes an integer
   std::optional<Screen_frame> frame; // the mesh's own unless it is given
 };
 
@@ -92,12 +93,14 @@ inline void draw_triangle(Raster& raster, const Eigen::Matrix3d& p, const Eigen:
   for(int y = first(p.row(1).minCoeff()); y <= y1; ++y)
     for(int x = first(p.row(0).minCoeff()); x <= x1; ++x) {
       const double dx = x - p(0, 0), dy = y - p(1, 0);
-      const double v = (dx * b.y() - dy * b.x()) / determinant, w = (a.x() * dy - a.y() * dx) / determinant;
+      const double v = (dx * b.y() - dy * b.x()) / determinant,
+                   w = (a.x() * dy - a.y() * dx) / determinant;
       if(v < -1e-9 || w < -1e-9 || v + w > 1 + 1e-9)
         continue;
       const Eigen::Vector3d weights(1 - v - w, v, w);
       const std::size_t pixel =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(x);
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) +
+          static_cast<std::size_t>(x);
       const double depth = p.row(2).dot(weights);
       if(depth <= raster.depth[pixel])
         continue;
@@ -114,9 +117,11 @@ inline void draw_lines(Raster& raster, double largest_step)
   for(int y = 0; y + 1 < raster.height; ++y)
     for(int x = 0; x + 1 < raster.width; ++x) {
       const std::size_t here =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(x);
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(raster.width) +
+          static_cast<std::size_t>(x);
       for(const std::size_t other : {here + 1, here + static_cast<std::size_t>(raster.width)})
-        if(level[here] != level[other] && std::abs(raster.depth[here] - raster.depth[other]) < largest_step)
+        if(level[here] != level[other] &&
+           std::abs(raster.depth[here] - raster.depth[other]) < largest_step)
           raster.colour[here] = raster.colour[other] = Eigen::Vector3d::Zero();
     }
 }
@@ -124,19 +129,21 @@ inline void draw_lines(Raster& raster, double largest_step)
 } // namespace mesh_picture_internal
 
 // A `data:` address of the picture of a mesh.
-inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& mesh, const Picture& picture)
+inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& mesh,
+                                const Picture& picture)
 {
   using namespace mesh_picture_internal;
   constexpr int samples = 2; // in each direction
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const int width = samples * picture.width, height = samples * picture.height;
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  Raster raster{width, height, std::vector<double>(pixels, -infinity), std::vector<double>(pixels, 0.),
+  Raster raster{width, height, std::vector<double>(pixels, -infinity),
+                std::vector<double>(pixels, 0.),
                 std::vector<Eigen::Vector3d>(pixels, Eigen::Vector3d::Ones())};
 
   const Screen_frame frame = picture.frame ? *picture.frame : screen_frame(mesh.V);
-  Eigen::MatrixXd V =
-      frame.on_screen(mesh.V) * (std::min)(width / (2 * frame.half_width), height / (2 * frame.half_height));
+  Eigen::MatrixXd V = frame.on_screen(mesh.V) *
+                      (std::min)(width / (2 * frame.half_width), height / (2 * frame.half_height));
   V.col(0).array() += width / 2.;
   V.col(1) = (height / 2. - V.col(1).array()).matrix();
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
@@ -161,9 +168,9 @@ inline std::string mesh_picture(const CGAL::Spectral_geometry::Mesh_matrices& me
       Eigen::Vector3d colour = Eigen::Vector3d::Zero();
       for(int i = 0; i < samples; ++i)
         for(int j = 0; j < samples; ++j)
-          colour +=
-              raster.colour[static_cast<std::size_t>(samples * y + i) * static_cast<std::size_t>(width) +
-                            static_cast<std::size_t>(samples * x + j)];
+          colour += raster.colour[static_cast<std::size_t>(samples * y + i) *
+                                      static_cast<std::size_t>(width) +
+                                  static_cast<std::size_t>(samples * x + j)];
       for(int c = 0; c < 3; ++c) {
         const long here = std::lround(255 * std::clamp(colour(c) / (samples * samples), 0., 1.));
         rows += static_cast<char>(here - std::exchange(left[static_cast<std::size_t>(c)], here));

@@ -23,14 +23,16 @@ inline std::string percent(double x)
 inline std::string about_eigenvalues(const Judgement& j)
 {
   std::string text = "The first " + std::to_string(j.C.rows()) + " eigenvalues are off by " +
-                     percent(j.error_mean) + " in the mean and by " + percent(j.error_max) + " at worst.";
+                     percent(j.error_mean) + " in the mean and by " + percent(j.error_max) +
+                     " at worst.";
   if(std::isfinite(j.error_low_mean)) {
     const double ratio = j.error_low_mean / j.error_mean;
     text += " The low modes, 2 to " + std::to_string(j.C.rows() / 5) + ", are kept " +
             (ratio > 1.1   ? "less well"
              : ratio < 0.9 ? "better"
                            : "alike") +
-            ", to " + percent(j.error_low_mean) + (ratio > 2 ? ": limbs may have lost their tips." : ".");
+            ", to " + percent(j.error_low_mean) +
+            (ratio > 2 ? ": limbs may have lost their tips." : ".");
   }
   return text;
 }
@@ -39,8 +41,8 @@ inline std::string about_eigenvalues(const Judgement& j)
 inline std::string about_norm(const std::string& meaning, double norm, double floor)
 {
   return meaning + " by " + formatted(norm) +
-         (floor > 0 ? ", " + formatted(norm / floor) + " times the estimate for ideal linear elements (" +
-                          formatted(floor) + ")"
+         (floor > 0 ? ", " + formatted(norm / floor) +
+                          " times the estimate for ideal linear elements (" + formatted(floor) + ")"
                     : std::string());
 }
 
@@ -54,8 +56,8 @@ inline std::string about_map(const Judgement& j)
 
 inline std::string about_area(const std::string& measure, double ratio)
 {
-  return "The " + measure + " is " + percent(std::abs(ratio - 1)) + (ratio < 1 ? " smaller" : " larger") +
-         " than before.";
+  return "The " + measure + " is " + percent(std::abs(ratio - 1)) +
+         (ratio < 1 ? " smaller" : " larger") + " than before.";
 }
 
 inline std::string about_fit(const Judgement& own, const Judgement& fitted)
@@ -65,14 +67,14 @@ inline std::string about_fit(const Judgement& own, const Judgement& fitted)
   };
   return "The fitted operators have eigenvalues off by " + percent(fitted.error_mean) +
          " in the mean, which is " + beside(fitted.error_mean, own.error_mean) +
-         " the mesh's own, and |C|<sub>L</sub> " + formatted(fitted.norms().norm_L) + ", which is " +
-         beside(fitted.norms().norm_L, own.norms().norm_L) + " the mesh's own.";
+         " the mesh's own, and |C|<sub>L</sub> " + formatted(fitted.norms().norm_L) +
+         ", which is " + beside(fitted.norms().norm_L, own.norms().norm_L) + " the mesh's own.";
 }
 
 } // namespace plain_words_internal
 
-// A list of sentences on the first result of `c`, judged once, and on its fitted operators if they are the second.
-// `measure` is what the sum of the masses is: the area, or the mass.
+// A list of sentences on the first result of `c`, judged once, and on its fitted operators if they
+// are the second. `measure` is what the sum of the masses is: the area, or the mass.
 inline std::string plain_words(const Comparison& c, const std::string& measure)
 {
   using namespace plain_words_internal;

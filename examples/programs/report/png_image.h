@@ -30,7 +30,8 @@ inline std::string big_endian(std::uint32_t x)
 inline std::string chunk(const std::string& type, const std::string& data)
 {
   const std::string body = type + data;
-  const auto sum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
   return big_endian(static_cast<std::uint32_t>(data.size())) + body +
          big_endian(static_cast<std::uint32_t>(sum));
 }
@@ -39,8 +40,8 @@ inline std::string compressed(const std::string& data)
 {
   uLongf size = compressBound(static_cast<uLong>(data.size()));
   std::string result(size, '\0');
-  if(compress(reinterpret_cast<Bytef*>(&result[0]), &size, reinterpret_cast<const Bytef*>(data.data()),
-              static_cast<uLong>(data.size())) != Z_OK)
+  if(compress(reinterpret_cast<Bytef*>(&result[0]), &size,
+              reinterpret_cast<const Bytef*>(data.data()), static_cast<uLong>(data.size())) != Z_OK)
     throw std::bad_alloc();
   result.resize(size);
   return result;
@@ -55,7 +56,8 @@ inline std::string base64(const std::string& data)
     for(std::size_t j = 0; j < 3; ++j)
       x = x << 8 | (i + j < data.size() ? static_cast<unsigned char>(data[i + j]) : 0u);
     for(int j = 0; j < 4; ++j)
-      result += i + static_cast<std::size_t>(j) <= data.size() ? digits[x >> (18 - 6 * j) & 63] : '=';
+      result +=
+          i + static_cast<std::size_t>(j) <= data.size() ? digits[x >> (18 - 6 * j) & 63] : '=';
   }
   return result;
 }
@@ -75,36 +77,39 @@ std::array<int, 3> colour_between(const double (&stops)[N][3], double value)
   return colour;
 }
 
-// The colour of a value in [0, 1]: white, blue, nearly black, of falling lightness, so that it prints in grey
-// as well.
+// The colour of a value in [0, 1]: white, blue, nearly black, of falling lightness, so that it
+// prints in grey as well.
 inline std::array<int, 3> sequential_colour(double value)
 {
   return colour_between({{255, 255, 255}, {120, 190, 230}, {0, 114, 178}, {5, 25, 60}}, value);
 }
 
-// The colour of a value in [0, 1] whose middle is zero: blue, white, orange, which colour-blind readers tell apart.
+// The colour of a value in [0, 1] whose middle is zero: blue, white, orange, which colour-blind
+// readers tell apart.
 inline std::array<int, 3> diverging_colour(double value)
 {
-  return colour_between({{0, 60, 120}, {60, 150, 210}, {245, 245, 245}, {235, 150, 50}, {140, 60, 0}}, value);
+  return colour_between(
+      {{0, 60, 120}, {60, 150, 210}, {245, 245, 245}, {235, 150, 50}, {140, 60, 0}}, value);
 }
 
-// A `data:` address of an image of 8 bits per channel. `type` is 2 (red, green, blue) or 3 (`palette`); each row of
-// `pixels` begins with the number of its filter.
+// A `data:` address of an image of 8 bits per channel. `type` is 2 (red, green, blue) or 3
+// (`palette`); each row of `pixels` begins with the number of its filter.
 inline std::string png_address(std::ptrdiff_t width, std::ptrdiff_t height, char type,
                                const std::string& palette, const std::string& pixels)
 {
   using namespace png_internal;
   const std::string header =
-      big_endian(static_cast<std::uint32_t>(width)) + big_endian(static_cast<std::uint32_t>(height)) +
-      '\x08' + type + std::string(3, '\0'); // 8 bits, no compression, filter or interlace but the usual
+      big_endian(static_cast<std::uint32_t>(width)) +
+      big_endian(static_cast<std::uint32_t>(height)) + '\x08' + type +
+      std::string(3, '\0'); // 8 bits, no compression, filter or interlace but the usual
   const std::string png = std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", header) +
                           (palette.empty() ? "" : chunk("PLTE", palette)) +
                           chunk("IDAT", compressed(pixels)) + chunk("IEND", "");
   return "data:image/png;base64," + base64(png);
 }
 
-// A `data:` address of the image of |A|, one pixel per entry; white is zero, entries of `largest` and above
-// are darkest.
+// A `data:` address of the image of |A|, one pixel per entry; white is zero, entries of `largest`
+// and above are darkest.
 inline std::string matrix_image(const Eigen::MatrixXd& A, double largest = 1)
 {
   using namespace png_internal;

@@ -15,7 +15,8 @@
 
 #include <string>
 
-// What a run of spectral_edge_collapse() did and with what options: of --json, and the report of a run in Python.
+// What a run of spectral_edge_collapse() did and with what options: of --json, and the report of a
+// run in Python.
 
 // What the relocation did; null where there was none.
 inline nlohmann::json

@@ -5,8 +5,9 @@
 #ifndef SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_SCRIPT_H
 #define SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_SCRIPT_H
 
-// The viewer of the page: WebGL 1 and nothing else. It puts a canvas in the place of each picture whose mesh is in
-// the element shape-data, see shape_view.h for what that holds; where it cannot, the pictures stay.
+// The viewer of the page: WebGL 1 and nothing else. It puts a canvas in the place of each picture
+// whose mesh is in the element shape-data, see shape_view.h for what that holds; where it cannot,
+// the pictures stay.
 inline const char* shape_view_script()
 {
   return R"js((() => {

@@ -36,7 +36,8 @@ inline std::string escaped(const std::string& text)
   return result;
 }
 
-// A number with three significant digits (four before a comma), never in exponents between 1e-4 and 1e6.
+// A number with three significant digits (four before a comma), never in exponents between 1e-4 and
+// 1e6.
 inline std::string formatted(double x)
 {
   if(!std::isfinite(x))
@@ -61,11 +62,12 @@ struct Line_style
   int marker = 0;
 };
 
-// Colours of Okabe and Ito, which colour-blind readers tell apart: one per family of simplifiers; dashes and
-// markers for its variants.
+// Colours of Okabe and Ito, which colour-blind readers tell apart: one per family of simplifiers;
+// dashes and markers for its variants.
 inline Line_style line_style(std::size_t family, std::size_t variant)
 {
-  const char* colours[] = {"#0072B2", "#D55E00", "#CC79A7", "#009E73", "#E69F00", "#56B4E9", "#000000"};
+  const char* colours[] = {"#0072B2", "#D55E00", "#CC79A7", "#009E73",
+                           "#E69F00", "#56B4E9", "#000000"};
   const char* dashes[] = {"", "7,3", "2,2.5", "9,3,2,3", "14,4", "9,3,2,3,2,3"};
   return {colours[family % 7], dashes[variant % 6], static_cast<int>(variant % 6)};
 }
@@ -95,10 +97,11 @@ inline std::string number(double x)
   return text;
 }
 
-inline std::string text(double x, double y, const std::string& content, const std::string& attributes = "")
+inline std::string text(double x, double y, const std::string& content,
+                        const std::string& attributes = "")
 {
-  return "<text x='" + number(x) + "' y='" + number(y) + "' " + attributes + ">" + escaped(content) +
-         "</text>";
+  return "<text x='" + number(x) + "' y='" + number(y) + "' " + attributes + ">" +
+         escaped(content) + "</text>";
 }
 
 inline std::string marker(int shape, double x, double y, const std::string& colour)
@@ -109,12 +112,13 @@ inline std::string marker(int shape, double x, double y, const std::string& colo
   if(shape == 1)
     return "<rect x='" + number(x - 3) + "' y='" + number(y - 3) + "' width='6' height='6'" + fill;
   if(shape == 4)
-    return "<path d='M" + number(x) + " " + number(y - 4.2) + "l4.2 4.2l-4.2 4.2l-4.2 -4.2z'" + fill;
+    return "<path d='M" + number(x) + " " + number(y - 4.2) + "l4.2 4.2l-4.2 4.2l-4.2 -4.2z'" +
+           fill;
   if(shape == 5)
     return "<path d='M" + number(x - 3) + " " + number(y - 3) + "l6 6m0 -6l-6 6'" + fill;
   const double s = shape == 2 ? -1 : 1; // triangles that point up and down
-  return "<path d='M" + number(x - 3.6) + " " + number(y - 2.6 * s) + "h7.2l-3.6 " + number(6 * s) + "z'" +
-         fill;
+  return "<path d='M" + number(x - 3.6) + " " + number(y - 2.6 * s) + "h7.2l-3.6 " + number(6 * s) +
+         "z'" + fill;
 }
 
 // An axis: data to pixels, and where its ticks are.
@@ -215,8 +219,9 @@ inline std::string curve(const Plot& plot, const Curve& c, const Axis& ax, const
       markers += marker(c.style.marker, x, y, c.style.colour);
   }
   const std::string dash = c.style.dash.empty() ? "" : " stroke-dasharray='" + c.style.dash + "'";
-  return "<g><title>" + escaped(c.name) + "</title><polyline points='" + points + "' fill='none' stroke='" +
-         c.style.colour + "' stroke-width='1.7' stroke-linejoin='round'" + dash + "/>" + markers + "</g>\n";
+  return "<g><title>" + escaped(c.name) + "</title><polyline points='" + points +
+         "' fill='none' stroke='" + c.style.colour +
+         "' stroke-width='1.7' stroke-linejoin='round'" + dash + "/>" + markers + "</g>\n";
 }
 
 inline std::string axes(const Plot& plot, const Axis& ax, const Axis& ay, double left, double top,
@@ -233,8 +238,8 @@ inline std::string axes(const Plot& plot, const Axis& ax, const Axis& ay, double
     svg += "<path d='M" + number(left) + " " + y + "H" + number(right) + "' stroke='#e3e3e3'/>" +
            text(left - 6, ay(t) + 4, tick_label(t), "text-anchor='end'");
   }
-  svg += "<path d='M" + number(left) + " " + number(top) + "V" + number(bottom) + "H" + number(right) +
-         "' fill='none' stroke='#333'/>\n";
+  svg += "<path d='M" + number(left) + " " + number(top) + "V" + number(bottom) + "H" +
+         number(right) + "' fill='none' stroke='#333'/>\n";
   svg += text((left + right) / 2, bottom + 34, plot.x_label, "text-anchor='middle'");
   const std::string middle = number((top + bottom) / 2);
   svg += text(14, (top + bottom) / 2, plot.y_label,
@@ -247,8 +252,8 @@ inline std::string axes(const Plot& plot, const Axis& ax, const Axis& ay, double
 inline std::string svg_begin(double width, double height, const std::string& description)
 {
   using svg_internal::number;
-  return "<svg xmlns='http://www.w3.org/2000/svg' role='img' width='" + number(width) + "' height='" +
-         number(height) + "' viewBox='0 0 " + number(width) + " " + number(height) +
+  return "<svg xmlns='http://www.w3.org/2000/svg' role='img' width='" + number(width) +
+         "' height='" + number(height) + "' viewBox='0 0 " + number(width) + " " + number(height) +
          "' font-family='sans-serif' font-size='12' fill='#222'><title>" + escaped(description) +
          "</title>\n";
 }
@@ -279,15 +284,16 @@ inline std::string svg(const Plot& plot)
 inline std::string svg_sample(const Line_style& style, bool marker = true)
 {
   const std::string dash = style.dash.empty() ? "" : " stroke-dasharray='" + style.dash + "'";
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='44' height='12' aria-hidden='true'><path d='M1 "
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='44' height='12' aria-hidden='true'><path "
+         "d='M1 "
          "6H43' "
          "stroke-width='1.8' stroke='" +
          style.colour + "'" + dash + "/>" +
          (marker ? svg_internal::marker(style.marker, 22, 6, style.colour) : "") + "</svg>";
 }
 
-// Bars of one length per name, from zero, the value at the end; `floor` is drawn as a line across when
-// positive.
+// Bars of one length per name, from zero, the value at the end; `floor` is drawn as a line across
+// when positive.
 struct Bars
 {
   std::string title, label;
@@ -317,7 +323,8 @@ inline std::string svg(const Bars& bars)
   std::string result = svg_begin(width, height, bars.title);
   for(const double t : axis.ticks())
     result += "<path d='M" + number(axis(t)) + " " + number(top) + "V" + number(bottom) +
-              "' stroke='#e3e3e3'/>" + text(axis(t), bottom + 15, tick_label(t), "text-anchor='middle'");
+              "' stroke='#e3e3e3'/>" +
+              text(axis(t), bottom + 15, tick_label(t), "text-anchor='middle'");
   std::string values; // above the line of the floor, with a white rim
   for(std::size_t i = 0; i < bars.names.size(); ++i) {
     const double y = top + row * static_cast<double>(i);
@@ -325,17 +332,17 @@ inline std::string svg(const Bars& bars)
     if(!std::isfinite(bars.values[i]))
       continue;
     const double x = axis(bars.values[i]);
-    result += "<rect x='" + number(left) + "' y='" + number(y + 3) + "' width='" + number(x - left) +
-              "' height='14' fill='" + bars.styles[i].colour + "'/>";
-    values +=
-        text(x + 5, y + 14, formatted(bars.values[i]), "paint-order='stroke' stroke='#fff' stroke-width='4'");
+    result += "<rect x='" + number(left) + "' y='" + number(y + 3) + "' width='" +
+              number(x - left) + "' height='14' fill='" + bars.styles[i].colour + "'/>";
+    values += text(x + 5, y + 14, formatted(bars.values[i]),
+                   "paint-order='stroke' stroke='#fff' stroke-width='4'");
   }
   if(bars.floor > 0)
-    result += "<path d='M" + number(axis(bars.floor)) + " " + number(top - 2) + "V" + number(bottom) +
-              "' stroke='#000' stroke-width='1.5' stroke-dasharray='4,3'/>";
+    result += "<path d='M" + number(axis(bars.floor)) + " " + number(top - 2) + "V" +
+              number(bottom) + "' stroke='#000' stroke-width='1.5' stroke-dasharray='4,3'/>";
   result += values;
-  result += "<path d='M" + number(left) + " " + number(top) + "V" + number(bottom) + "H" + number(right) +
-            "' fill='none' stroke='#333'/>";
+  result += "<path d='M" + number(left) + " " + number(top) + "V" + number(bottom) + "H" +
+            number(right) + "' fill='none' stroke='#333'/>";
   result += text((left + right) / 2, bottom + 33, bars.label, "text-anchor='middle'");
   result += text(width / 2, 16, bars.title, "text-anchor='middle' font-weight='bold'");
   return result + "</svg>\n";

@@ -20,16 +20,18 @@ namespace CGAL::Spectral_geometry {
 /// \brief the first K eigenpairs of \f$L \phi = \lambda B \phi\f$.
 struct Eigenpairs
 {
-  Eigen::VectorXd values;  ///< K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
+  Eigen::VectorXd
+      values; ///< K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;
   std::string solver; ///< "block" or "dense"
-  /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`, and no residual is larger than ten times
-  /// the tolerance
+  /// true when no eigenvalue below values(K-1) can be missing, see `Eigenpairs_options::verify`,
+  /// and no residual is larger than ten times the tolerance
   bool complete = false;
-  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the values the first
-  /// min(`zeros`, K). To be set where pairs are filled by hand, see `number_of_zero_eigenvalues()`; negative: not known
+  /// number of zero eigenvalues of the operator, one for each connected component of a mesh: of the
+  /// values the first min(`zeros`, K). To be set where pairs are filled by hand, see
+  /// `number_of_zero_eigenvalues()`; negative: not known
   Eigen::Index zeros = -1;
 
   Eigen::Index size() const { return values.size(); } ///< K
@@ -37,27 +39,31 @@ struct Eigenpairs
 
 /// \brief how eigenpairs are computed.
 ///
-/// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at a time. A problem of fewer
-/// than 2 K + 20 or K + 56 vertices is too small for that and solved densely all the same.
+/// `automatic` is `dense` when n is at most 300, otherwise `block`: block Lanczos, eight vectors at
+/// a time. A problem of fewer than 2 K + 20 or K + 56 vertices is too small for that and solved
+/// densely all the same.
 enum class Eigenpairs_method { automatic, block, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
 struct Eigenpairs_options
 {
   Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
-  /// of the residuals, \f$\|L \phi - \lambda B \phi\|_{M^{-1}} \le\f$ tolerance \f$(\lambda + s)\f$ with \f$s = 4\pi/\f$area, in ]0, 1[;
-  /// rounding may make them up to ten times larger. Beyond that pairs are refined, solved densely, or `eigenpairs()` throws; where no
-  /// double comes closer they are returned with `complete` false. Relative errors of the eigenvalues are about its square.
+  /// of the residuals, \f$\|L \phi - \lambda B \phi\|_{M^{-1}} \le\f$ tolerance \f$(\lambda + s)\f$
+  /// with \f$s = 4\pi/\f$area, in ]0, 1[; rounding may make them up to ten times larger. Beyond
+  /// that pairs are refined, solved densely, or `eigenpairs()` throws; where no double comes closer
+  /// they are returned with `complete` false. Relative errors of the eigenvalues are about its
+  /// square.
   double tolerance = 1e-10;
   /// restarts of the Krylov space, at least 1
   Eigen::Index maximum_iterations = 300;
-  /// search for copies of multiple eigenvalues that the Krylov space has missed: one more factorisation counts the eigenvalues
-  /// (Sylvester's law of inertia). `block` starts from eight random vectors, which cannot miss a copy of an eigenvalue of
-  /// smaller multiplicity; it counts when more than four of the values are equal as far as the tolerance tells. With a tolerance
+  /// search for copies of multiple eigenvalues that the Krylov space has missed: one more
+  /// factorisation counts the eigenvalues (Sylvester's law of inertia). `block` starts from eight
+  /// random vectors, which cannot miss a copy of an eigenvalue of smaller multiplicity; it counts
+  /// when more than four of the values are equal as far as the tolerance tells. With a tolerance
   /// above 1e-3 the values are too rough for a count, and the pairs are not known to be complete.
   bool verify = true;
-  /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K, K + 120): fewer take less
-  /// memory and more time
+  /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K,
+  /// K + 120): fewer take less memory and more time
   Eigen::Index maximum_vectors = 0;
   /// threads for `block`, at least 1; the result does not depend on it
   int threads = 1;
@@ -81,18 +87,20 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
 {
   require(options.tolerance > 0. && options.tolerance < 1.,
           "Eigenpairs: the tolerance must lie between 0 and 1.");
-  require(options.maximum_iterations >= 1, "Eigenpairs: the number of iterations must be positive.");
+  require(options.maximum_iterations >= 1,
+          "Eigenpairs: the number of iterations must be positive.");
   require(options.threads >= 1, "Eigenpairs: the number of threads must be positive.");
   require(options.maximum_vectors == 0 || options.maximum_vectors >= K + 32,
           "Eigenpairs: maximum_vectors must be 0 or at least K + 32 = ", K + 32, ", but is ",
           options.maximum_vectors, ".");
 }
 
-constexpr Eigen::Index largest_dense = 2000; // vertices, where an iteration has failed: some seconds
+constexpr Eigen::Index largest_dense =
+    2000; // vertices, where an iteration has failed: some seconds
 
-// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space must fit into n dimensions, with
-// the vectors that a restart keeps, two panels more, and room for random ones. Up to 300 vertices a dense solver takes
-// milliseconds.
+// Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space
+// must fit into n dimensions, with the vectors that a restart keeps, two panels more, and room for
+// random ones. Up to 300 vertices a dense solver takes milliseconds.
 inline bool is_dense(const Eigen::Index n, const Eigen::Index K, const Eigenpairs_method method)
 {
   return method == Eigenpairs_method::dense || 2 * K + 20 > n || K + 56 > n ||

@@ -22,51 +22,58 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /*!
-How `relocate_positions()` moves the vertices of a coarse mesh, and what it may not do. The defaults are those
-that were measured.
+How `relocate_positions()` moves the vertices of a coarse mesh, and what it may not do. The defaults
+are those that were measured.
 */
 struct Relocation_options
 {
   /// What a vertex' signals are while it moves.
   enum class Signals {
     carried,             ///< P F, the restriction that came with the mesh; it stays as it is
-    carried_and_sampled, ///< both that and F at the closest point of the fine surface: good in either reading
-    sampled ///< F at the closest point alone, in the component that the vertex' row of P belongs to. The lowest of the
-    ///< three in that reading; the restriction that came with the mesh no longer fits, and the result holds the one
-    ///< to use instead
+    carried_and_sampled, ///< both that and F at the closest point of the fine surface: good in
+                         ///< either reading
+    sampled ///< F at the closest point alone, in the component that the vertex' row of P belongs
+            ///< to. The lowest of the
+    ///< three in that reading; the restriction that came with the mesh no longer fits, and the
+    ///< result holds the one to use instead
   };
   Signals signals = Signals::sampled; ///< the choice among them
 
   /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E, half as much work.
   double smoothing = 1;
-  /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies in modes that the norms
-  /// do not see: a large weight costs them their gain, with none E may rise to a multiple.
+  /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E
+  /// lies in modes that the norms do not see: a large weight costs them their gain, with none E may
+  /// rise to a multiple.
   double plain = 0.03;
 
-  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident edge, or as far as
-  /// it starts, where that is more. Positive.
+  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident
+  /// edge, or as far as it starts, where that is more. Positive.
   double trust_radius = 0.5;
   /// No triangle's smallest angle falls below this part of what it was. In [0, 1].
   double smallest_angle_ratio = 0.5;
   /// No triangle turns its normal further than this from where it was, radians. In ]0, pi/2].
   double largest_turn = CGAL_PI / 3;
-  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine mesh (where these are further
-  /// apart, no more than a tenth from those of the coarse one), give or take this part. Positive. The spectra are compared at the
-  /// scale of the meshes as they are, which brings the area near that of the fine mesh by itself.
+  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine
+  /// mesh (where these are further apart, no more than a tenth from those of the coarse one), give
+  /// or take this part. Positive. The spectra are compared at the scale of the meshes as they are,
+  /// which brings the area near that of the fine mesh by itself.
   double size_tolerance = 0.03;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
-  /// The same where a vertex of the fine mesh would be further from the coarse one than any was at the start: tips stay.
+  /// The same where a vertex of the fine mesh would be further from the coarse one than any was at
+  /// the start: tips stay.
   bool keep_hausdorff_distance = true;
   /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
   bool fix_boundary = false;
-  /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not negative.
+  /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not
+  /// negative.
   Eigen::Index modes = 0;
-  /// So many of the coarse modes beyond K, in parts of K, keep their eigenvalues in the mean, at unit
-  /// area: they are too low with the averaged mass, and without this the descent lowers them further, see
-  /// `relocate_positions()`. 0: they may fall. In [0, 10].
+  /// So many of the coarse modes beyond K, in parts of K, keep their eigenvalues in the mean, at
+  /// unit area: they are too low with the averaged mass, and without this the descent lowers them
+  /// further, see `relocate_positions()`. 0: they may fall. In [0, 10].
   double beyond = 0.5;
-  /// No vertex moves further than this from the fine surface unless it was; in the unit of the mesh.
+  /// No vertex moves further than this from the fine surface unless it was; in the unit of the
+  /// mesh.
   double largest_distance = std::numeric_limits<double>::infinity();
 
   /// Number of threads; from 1. The result does not depend on it.
@@ -87,7 +94,8 @@ struct Relocation_result
 {
   /// Why the descent ended.
   enum class Stop_reason {
-    converged,  ///< ten steps lowered the objective by less than `Relocation_options::relative_decrease`
+    converged,  ///< ten steps lowered the objective by less than
+                ///< `Relocation_options::relative_decrease`
     no_descent, ///< no step that the guards allow lowers it
     no_gain,    ///< the norm after it was no better than before: everything is as it was
     steps,      ///< `Relocation_options::maximum_steps`
@@ -97,7 +105,8 @@ struct Relocation_result
   /// Vertices that a guard stopped short in one step at least, by guard.
   struct Held
   {
-    std::size_t fixed = 0;    ///< never moved: kept by the caller, or boundary vertices that have to stay
+    std::size_t fixed =
+        0; ///< never moved: kept by the caller, or boundary vertices that have to stay
     std::size_t trust = 0;    ///< by `Relocation_options::trust_radius`
     std::size_t boundary = 0; ///< by the end of the boundary that they slide along
     std::size_t sheet =
@@ -112,13 +121,15 @@ struct Relocation_result
   double E_after = 0;          ///< see `E_before`
   double objective_before = 0; ///< what was minimised, at the start
   double objective_after = 0;  ///< and at the end
-  double norm_before = 0; ///< |C|_L (Eq. 3), for signals of any kind, with the restriction that was passed
-  double norm_after = 0;  ///< and with that of the result, never more
-  int steps = 0;          ///< of the descent
+  double norm_before =
+      0; ///< |C|_L (Eq. 3), for signals of any kind, with the restriction that was passed
+  double norm_after = 0;                             ///< and with that of the result, never more
+  int steps = 0;                                     ///< of the descent
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
   Held held;                                         ///< by which guard
   std::size_t moved_vertices = 0;                    ///< vertices that are elsewhere now
-  /// vertices that went back, in part or wholly, because of a self-intersection or the distance, and then stayed
+  /// vertices that went back, in part or wholly, because of a self-intersection or the distance,
+  /// and then stayed
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds
   bool resampled = false; ///< whether `restriction` is a new one
@@ -145,12 +156,15 @@ inline void check_relocation_options(const Relocation_options& o)
   require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
           "relocation: smoothing and plain must be numbers from 0.");
   require(o.modes >= 0, "relocation: modes is ", o.modes, ", use a number from 0.");
-  require(o.beyond >= 0 && o.beyond <= 10, "relocation: beyond must lie in [0, 10], but is ", o.beyond, ".");
-  require(
-      o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 && o.relative_decrease > 0,
-      "relocation: trust_radius, size_tolerance, largest_distance and relative_decrease must be positive.");
+  require(o.beyond >= 0 && o.beyond <= 10, "relocation: beyond must lie in [0, 10], but is ",
+          o.beyond, ".");
+  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 &&
+              o.relative_decrease > 0,
+          "relocation: trust_radius, size_tolerance, largest_distance and relative_decrease must "
+          "be positive.");
   require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "relocation: smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio, ".");
+          "relocation: smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio,
+          ".");
   require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
           "relocation: largest_turn must lie in ]0, pi/2], but is ", o.largest_turn, ".");
   require(o.threads >= 1, "relocation: threads must be a number from 1, but is ", o.threads, ".");

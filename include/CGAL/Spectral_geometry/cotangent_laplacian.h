@@ -37,53 +37,61 @@ struct Mesh_matrices
 /// \brief stiffness and mass of a triangle mesh, \f$L \phi = \lambda B \phi\f$.
 struct Laplace_operator
 {
-  /// n x n, symmetric, positive semidefinite, \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$ off the diagonal,
-  /// rows sum to 0. Invariant under scaling. Its kernel holds one constant for each connected component.
+  /// n x n, symmetric, positive semidefinite, \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$
+  /// off the diagonal, rows sum to 0. Invariant under scaling. Its kernel holds one constant for
+  /// each connected component.
   Eigen::SparseMatrix<double> L;
-  /// n x n, symmetric, positive definite, \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$, in units of area.
+  /// n x n, symmetric, positive definite, \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$,
+  /// in units of area.
   Eigen::SparseMatrix<double> B;
-  /// n, the row sums of B: with barycentric lumping \f$M_{ii}\f$, one third of the area of the incident faces,
-  /// whatever \f$\theta\f$ is. Their sum is the area of the mesh.
+  /// n, the row sums of B: with barycentric lumping \f$M_{ii}\f$, one third of the area of the
+  /// incident faces, whatever \f$\theta\f$ is. Their sum is the area of the mesh.
   Eigen::VectorXd mass;
   /// the blend \f$\theta\f$ in [0, 1] that made B
   double theta = 0.;
   /// whether `mass` is that of mixed Voronoi areas
   bool voronoi = false;
-  /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of before
+  /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of
+  /// before
   Boundary_condition boundary = Boundary_condition::neumann;
-  Eigen::Index vanishing = 0; ///< number of these vertices
-  std::vector<int>
-      vanishing_vertices;        ///< their numbers; where they are missing, their rows count as the others do
-  bool has_coefficients = false; ///< whether it is that of other coefficients than 1
+  Eigen::Index vanishing = 0;          ///< number of these vertices
+  std::vector<int> vanishing_vertices; ///< their numbers; where they are missing, their rows count
+                                       ///< as the others do
+  bool has_coefficients = false;       ///< whether it is that of other coefficients than 1
 };
 
-/// \brief returns how many eigenvalues of an operator are zero: one for each connected component of the graph of L on which
-/// constants are in the kernel: rows that sum to zero, in single precision at least. Nothing is read off eigenvalues.
+/// \brief returns how many eigenvalues of an operator are zero: one for each connected component of
+/// the graph of L on which constants are in the kernel: rows that sum to zero, in single precision
+/// at least. Nothing is read off eigenvalues.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op);
 
 /// \brief the cotangents of a triangle's three angles and its area.
 struct Triangle_cotangents
 {
-  Eigen::Vector3d cot; ///< cot(k) is the cotangent of the angle at the k-th corner, opposite to the k-th edge
-  double area;         ///< 0 for a triangle that is degenerate to rounding, and then cot is 0, too
+  Eigen::Vector3d
+      cot; ///< cot(k) is the cotangent of the angle at the k-th corner, opposite to the k-th edge
+  double area; ///< 0 for a triangle that is degenerate to rounding, and then cot is 0, too
 };
 
-/// \brief returns the cotangents (dot product over length of the cross product) and the area of a triangle.
+/// \brief returns the cotangents (dot product over length of the cross product) and the area of a
+/// triangle.
 ///
-/// A triangle counts as degenerate when the cross product of its two shortest edges is not larger than
-/// four roundings of the product of their lengths: what remains is then noise, and would depend on
-/// whether the compiler contracts products into fused operations. Coordinates of any magnitude are legal; a result
-/// that overflows is returned as such.
+/// A triangle counts as degenerate when the cross product of its two shortest edges is not larger
+/// than four roundings of the product of their lengths: what remains is then noise, and would
+/// depend on whether the compiler contracts products into fused operations. Coordinates of any
+/// magnitude are legal; a result that overflows is returned as such.
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
                                                                       const Eigen::Vector3d& q,
                                                                       const Eigen::Vector3d& r);
 
 namespace internal {
 
-// Beyond it the rounding of the two huge entries of a row (2e-16 times 1e12) shows in the small eigenvalues.
+// Beyond it the rounding of the two huge entries of a row (2e-16 times 1e12) shows in the small
+// eigenvalues.
 constexpr double largest_cotangent = 1e12;
 
-// Beyond them squares of areas leave the range of doubles, in E as in the geometric tests of CGAL's loop.
+// Beyond them squares of areas leave the range of doubles, in E as in the geometric tests of CGAL's
+// loop.
 constexpr double smallest_extent = 1e-50, largest_extent = 1e50;
 
 /// The largest coordinate in magnitude, of those that are finite.
@@ -105,28 +113,28 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V);
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n);
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T);
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass,
+                                              const Eigen::MatrixXi& T);
 
-/// Throws `std::invalid_argument` unless theta is in [0, 1], 0 with Voronoi shares, and coefficients are none, or one row for each of n
-/// vertices, positive (definite) and finite.
+/// Throws `std::invalid_argument` unless theta is in [0, 1], 0 with Voronoi shares, and
+/// coefficients are none, or one row for each of n vertices, positive (definite) and finite.
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
 
 /// Those of the operator at a triangle, and its area weighted by the density.
-CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
-                                                                   const int (&corners)[3],
-                                                                   const Operator_coefficients& coefficients);
+CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(
+    const Eigen::MatrixXd& V, const int (&corners)[3], const Operator_coefficients& coefficients);
 
 /// Refuses a face without area; `who` begins the sentence, `mesh` says in a word which one it is.
 inline void check_areas(const char* const who, const char* const mesh, const Eigen::MatrixXd& V,
                         const Eigen::MatrixXi& T)
 {
   for(Eigen::Index f = 0; f < T.rows(); ++f)
-    require(triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2))).area > 0, who, face_name(f),
-            " of the ", mesh, " mesh has no area; remove it.");
+    require(triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2))).area > 0, who,
+            face_name(f), " of the ", mesh, " mesh has no area; remove it.");
 }
 
-/// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal index may matter: `index` gets the
-/// numbers of the vertices as they come.
+/// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal
+/// index may matter: `index` gets the numbers of the vertices as they come.
 template <class Mesh, class NamedParameters, class Index_map>
 Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, Index_map index)
 {
@@ -148,41 +156,49 @@ Eigen::MatrixXd numbered_positions(const Mesh& mesh, const NamedParameters& np, 
 
 } // namespace internal
 
-/// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's area at each corner.
+/// \brief returns the m x 3 barycentric corner masses of the mesh (V, T), one third of the face's
+/// area at each corner.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
                                                                         const Eigen::MatrixXi& T);
 
 /// \brief assembles stiffness and mass of the mesh (V, T) with a lumping of the user's choice.
 ///
 /// \param V, T            n x 3 positions and m x 3 vertex indices
-/// \param corner_masses   m x 3, the lumped mass that face f gives to its corner k, in units of area, not negative
+/// \param corner_masses   m x 3, the lumped mass that face f gives to its corner k, in units of
+/// area, not negative
 ///                        (`barycentric_corner_masses()`, or a Voronoi or mixed lumping)
-/// \param theta           weight of the consistent mass (A/6 on the diagonal, A/12 off it, per face), in [0, 1]
+/// \param theta           weight of the consistent mass (A/6 on the diagonal, A/12 off it, per
+/// face), in [0, 1]
 ///
 /// Throws as the overload without corner masses does.
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T,
-                                                                const Eigen::MatrixXd& corner_masses,
-                                                                double theta);
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator
+laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                 const Eigen::MatrixXd& corner_masses, double theta);
 
 /// \brief assembles the cotangent Laplacian and the mass of the mesh (V, T).
 ///
-/// \f$L\f$ is the stiffness of linear elements (Pinkall and Polthier 1993, Meyer et al. 2003): positive semidefinite,
-/// \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$ with the angles opposite to edge ij (one angle on a border),
-/// \f$L_{ii} = -\sum_j L_{ij}\f$. The pointwise Laplacian, positive semidefinite as well, is \f$M^{-1} L\f$. Negative
-/// weights of obtuse angles are left as they are. The boundary condition is the natural one (Neumann).
-/// \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$: \f$M_{lumped}\f$ has one third of the incident area on its
-/// diagonal; \f$M_{consistent}\f$ adds A/6 on the diagonal and A/12 off it for each face.
-/// Faces of zero area contribute nothing. Other masses, densities and conductivities: see `Local_operator`.
+/// \f$L\f$ is the stiffness of linear elements (Pinkall and Polthier 1993, Meyer et al. 2003):
+/// positive semidefinite,
+/// \f$L_{ij} = -(\cot\alpha_{ij} + \cot\beta_{ij})/2\f$ with the angles opposite to edge ij (one
+/// angle on a border),
+/// \f$L_{ii} = -\sum_j L_{ij}\f$. The pointwise Laplacian, positive semidefinite as well, is
+/// \f$M^{-1} L\f$. Negative weights of obtuse angles are left as they are. The boundary condition
+/// is the natural one (Neumann).
+/// \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$: \f$M_{lumped}\f$ has one third of the
+/// incident area on its diagonal; \f$M_{consistent}\f$ adds A/6 on the diagonal and A/12 off it for
+/// each face. Faces of zero area contribute nothing. Other masses, densities and conductivities:
+/// see `Local_operator`.
 ///
 /// \param V      n x 3 positions, in any unit of length u; B is in u^2, eigenvalues in u^-2
 /// \param T      m x 3 vertex indices, counted from 0
-/// \param op     a mass by name, the blend \f$\theta\f$ in [0, 1] (0 lumped, the default, 1/2 averaged, 1 consistent), or an operator
+/// \param op     a mass by name, the blend \f$\theta\f$ in [0, 1] (0 lumped, the default, 1/2
+/// averaged, 1 consistent), or an operator
 ///               with coefficients
 ///
-/// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an index out of
-///         range, a face that uses a vertex twice, a needle whose cotangent is larger than 1e12, an isolated vertex, a vertex
-///         with only zero-area faces, a coefficient that is not positive.
+/// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an
+///         index out of range, a face that uses a vertex twice, a needle whose cotangent is larger
+///         than 1e12, an isolated vertex, a vertex with only zero-area faces, a coefficient that is
+///         not positive.
 CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
                                                                 const Eigen::MatrixXi& T,
                                                                 const Local_operator& op = {});
@@ -191,12 +207,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm the mesh
-/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go through `CGAL::to_double`
+/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go
+/// through `CGAL::to_double`
 ///
-/// \throws std::invalid_argument that names the first face that is not a triangle, or the first vertex with a coordinate
-///         that is not finite; faces and vertices are counted from 0 in the order of `faces(tm)` and `vertices(tm)`
+/// \throws std::invalid_argument that names the first face that is not a triangle, or the first
+///         vertex with a coordinate that is not finite; faces and vertices are counted from 0 in
+///         the order of `faces(tm)` and `vertices(tm)`
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
-Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = parameters::default_values())
+Mesh_matrices mesh_matrices(const TriangleMesh& tm,
+                            const NamedParameters& np = parameters::default_values())
 {
   const auto index = get(CGAL::dynamic_vertex_property_t<int>(), tm);
   Mesh_matrices result;
@@ -212,12 +231,14 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm, const NamedParameters& np = 
     ++m;
   }
 
-  result.T = Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>>(corners.data(), m, 3);
+  result.T = Eigen::Map<const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>>(
+      corners.data(), m, 3);
   internal::check_positions(result.V);
   return result;
 }
 
-/// \brief assembles the cotangent Laplacian and the mass of a triangle mesh: `laplace_operator()` of `mesh_matrices()`.
+/// \brief assembles the cotangent Laplacian and the mass of a triangle mesh: `laplace_operator()`
+/// of `mesh_matrices()`.
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm   the mesh; rows and columns follow `vertices(tm)`

@@ -24,28 +24,30 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /*!
-returns the functional map \f$ C = \widetilde\Phi^\top \widetilde B P \Phi \f$ of a restriction `P` in two
-truncated eigenbases (section 4.1 of Lescoat et al. 2020; Ovsjanikov et al. 2012): a function \f$ \Phi x \f$
-on the fine mesh has the coarse coefficients `C x`.
+returns the functional map \f$ C = \widetilde\Phi^\top \widetilde B P \Phi \f$ of a restriction `P`
+in two truncated eigenbases (section 4.1 of Lescoat et al. 2020; Ovsjanikov et al. 2012): a function
+\f$ \Phi x \f$ on the fine mesh has the coarse coefficients `C x`.
 
 Nothing is rescaled: see `unit_area_functional_map()`.
 
-@param coarse_vectors \f$ \widetilde\Phi \f$, coarse x (number of coarse modes), orthonormal in `coarse_B`
-@param coarse_B the mass matrix \f$ \widetilde B \f$ of the coarse mesh, in the unit of area of its operator
+@param coarse_vectors \f$ \widetilde\Phi \f$, coarse x (number of coarse modes), orthonormal in
+`coarse_B`
+@param coarse_B the mass matrix \f$ \widetilde B \f$ of the coarse mesh, in the unit of area of its
+operator
 @param P the restriction, coarse x fine
-@param fine_vectors \f$ \Phi \f$, fine x (number of fine modes), orthonormal in the mass of the fine mesh
+@param fine_vectors \f$ \Phi \f$, fine x (number of fine modes), orthonormal in the mass of the fine
+mesh
 @return (number of coarse modes) x (number of fine modes)
 
 Throws `std::invalid_argument` if the sizes do not match.
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
-                                                             const Eigen::SparseMatrix<double>& coarse_B,
-                                                             const Eigen::SparseMatrix<double>& P,
-                                                             const Eigen::MatrixXd& fine_vectors);
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+functional_map(const Eigen::MatrixXd& coarse_vectors, const Eigen::SparseMatrix<double>& coarse_B,
+               const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& fine_vectors);
 
 /*!
-returns the functional map of the two meshes each scaled to unit area, from that at input scale, without a
-second solve.
+returns the functional map of the two meshes each scaled to unit area, from that at input scale,
+without a second solve.
 
 Scaling a mesh by \f$ 1/\sqrt{A} \f$ divides `B` by the area `A` and leaves `L` as it is, so that
 \f$ \lambda' = A \lambda \f$ and, orthonormal in \f$ B/A \f$, \f$ \Phi' = \sqrt{A} \Phi \f$. Hence
@@ -55,15 +57,15 @@ Scaling a mesh by \f$ 1/\sqrt{A} \f$ divides `B` by the area `A` and leaves `L` 
 @param C functional map at input scale
 @param fine_area, coarse_area `A` and \f$ \widetilde A \f$, positive, the sums of the masses
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C,
-                                                                       double fine_area, double coarse_area);
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+unit_area_functional_map(const Eigen::MatrixXd& C, double fine_area, double coarse_area);
 
 /*!
-returns the Laplacian commutativity \f$ \|C\|_L = \|C \Lambda - \widetilde\Lambda C\| / \|C\| \f$, the root of
-Eq. (3) of Lescoat et al. 2020, **not squared**. Frobenius norms.
+returns the Laplacian commutativity \f$ \|C\|_L = \|C \Lambda - \widetilde\Lambda C\| / \|C\| \f$,
+the root of Eq. (3) of Lescoat et al. 2020, **not squared**. Frobenius norms.
 
-It has the unit of the eigenvalues, the inverse of an area. The published figures are for meshes scaled to
-unit area.
+It has the unit of the eigenvalues, the inverse of an area. The published figures are for meshes
+scaled to unit area.
 
 @param C (number of coarse modes) x (number of fine modes), not zero
 @param fine_values \f$ \Lambda \f$, one per column of `C`
@@ -71,68 +73,70 @@ unit area.
 
 Throws `std::invalid_argument` if the sizes do not match or `C` is zero.
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE double laplacian_commutativity_norm(const Eigen::MatrixXd& C,
-                                                                  const Eigen::VectorXd& fine_values,
-                                                                  const Eigen::VectorXd& coarse_values);
+CGAL_SPECTRAL_GEOMETRY_INLINE double
+laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values,
+                             const Eigen::VectorXd& coarse_values);
 
 /*!
-returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et al. 2020, **not
-squared**. Frobenius norm; no unit.
+returns the orthonormality \f$ \|C\|_D = \|C^\top C - Id\| \f$, the root of Eq. (4) of Lescoat et
+al. 2020, **not squared**. Frobenius norm; no unit.
 
-With more rows (coarse modes) than columns a fine eigenvector may also land on coarse modes beyond the number
-of columns without counting as lost.
+With more rows (coarse modes) than columns a fine eigenvector may also land on coarse modes beyond
+the number of columns without counting as lost.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_norm(const Eigen::MatrixXd& C);
 
 /*!
-returns an estimate of \f$ \|C\|_L \f$ at unit area for the best that linear elements on `N` vertices can do
-when the coarse mesh only samples the fine one: equilateral triangles, `C = Id`, eigenvalues at
-\f$ 4 \pi k \f$ (Weyl's law).
+returns an estimate of \f$ \|C\|_L \f$ at unit area for the best that linear elements on `N`
+vertices can do when the coarse mesh only samples the fine one: equilateral triangles, `C = Id`,
+eigenvalues at \f$ 4 \pi k \f$ (Weyl's law).
 
-A plane wave on the equilateral lattice of edge length `h` has, with \f$ x = \lambda h^2 \f$, the discrete
-eigenvalue
+A plane wave on the equilateral lattice of edge length `h` has, with \f$ x = \lambda h^2 \f$, the
+discrete eigenvalue
 \f[ \widetilde\lambda = \lambda \left(1 - \frac{1 - 2 \theta}{16} x
       + \left(\frac{1}{576} - \frac{\theta - \theta^2}{64}\right) x^2 + O(x^3)\right),
     \qquad h^2 = \frac{2}{\sqrt 3 N} \f]
-(second order averaged over directions). The root mean square of \f$ \widetilde\lambda - \lambda \f$ over `K`
-modes is 5.1 K^2/N for the lumped mass (theta = 0); the averaged mass (theta = 1/2) cancels it and leaves 2.2
-K^3/N^2. The two terms are combined by their squares.
+(second order averaged over directions). The root mean square of \f$ \widetilde\lambda - \lambda \f$
+over `K` modes is 5.1 K^2/N for the lumped mass (theta = 0); the averaged mass (theta = 1/2) cancels
+it and leaves 2.2 K^3/N^2. The two terms are combined by their squares.
 
-An estimate to read a result by, not a bound: irregular meshes stay above it, a mesh that distorts the surface
-on purpose can fall below, and so does a sphere. A subdivided icosphere of 642 vertices out of 10,242 at K =
-100 has 71 for 79 (lumped) and 8.1 for 5.3 (averaged).
+An estimate to read a result by, not a bound: irregular meshes stay above it, a mesh that distorts
+the surface on purpose can fall below, and so does a sphere. A subdivided icosphere of 642 vertices
+out of 10,242 at K = 100 has 71 for 79 (lumped) and 8.1 for 5.3 (averaged).
 
 @param theta weight of the consistent mass, 0 lumped, 1/2 averaged
 @param K number of modes, at least 1
 @param N number of coarse vertices, at least 1
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N);
+CGAL_SPECTRAL_GEOMETRY_INLINE double commutativity_floor(double theta, Eigen::Index K,
+                                                         Eigen::Index N);
 
 /*!
-returns an estimate of \f$ \|C\|_D \f$ for the best that linear elements on `N` vertices can do when the
-coarse mesh only samples the fine one: \f$ (\pi/3) \theta K^{3/2} / N \f$, that is 0.52 K^1.5/N for the
-averaged mass.
+returns an estimate of \f$ \|C\|_D \f$ for the best that linear elements on `N` vertices can do when
+the coarse mesh only samples the fine one: \f$ (\pi/3) \theta K^{3/2} / N \f$, that is 0.52 K^1.5/N
+for the averaged mass.
 
 On the lattice of `commutativity_floor()` a sampled plane wave of unit norm has the discrete norm
-\f$ 1 - \theta x / 8 \f$ (squared). For the lumped mass the leading term vanishes and 0 is returned; on
-surfaces what is left is small (0.13 for a subdivided icosphere, 642 vertices out of 10,242, K = 100; averaged
-0.70 for 0.82).
+\f$ 1 - \theta x / 8 \f$ (squared). For the lumped mass the leading term vanishes and 0 is returned;
+on surfaces what is left is small (0.13 for a subdivided icosphere, 642 vertices out of 10,242, K =
+100; averaged 0.70 for 0.82).
 
 Parameters as for `commutativity_floor()`.
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::Index K, Eigen::Index N);
+CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::Index K,
+                                                          Eigen::Index N);
 
 /*!
-returns the metric \f$ E = \sum_w \| (\widetilde B P Z)_w - (\widetilde L P F)_w \|^2 / \widetilde M_w \f$ of
-a restriction, Eq. (2) of Lescoat et al. 2020 at theta = 0, computed from scratch.
+returns the metric \f$ E = \sum_w \| (\widetilde B P Z)_w - (\widetilde L P F)_w \|^2 / \widetilde
+M_w \f$ of a restriction, Eq. (2) of Lescoat et al. 2020 at theta = 0, computed from scratch.
 
 For the signals \f$ F = \Phi, Z = \Phi \Lambda \f$ and the lumped mass
 \f[ E = \|C\|^2 \|C\|_L^2 + \sum_{i > K} \sum_j (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f]
 at the scale of the input, where `i > K` are the coarse modes outside of the truncated map:
-\f$ \|C\|_L \le \sqrt{E}/\|C\| \f$. For other masses the same holds with \f$ \widetilde B^{-1} \f$ in place of
-\f$ \widetilde M^{-1} \f$. The consistent mass of a triangle is between a quarter of the lumped one and the
-lumped one, so that \f$ \widetilde B \ge (1 - 3\theta/4) \widetilde M \f$ and
-\f$ \|C\|_L \le \sqrt{E / (1 - 3\theta/4)}/\|C\| \f$.
+\f$ \|C\|_L \le \sqrt{E}/\|C\| \f$. For other masses the same holds with \f$ \widetilde B^{-1} \f$
+in place of \f$ \widetilde M^{-1} \f$. The consistent mass of a triangle is between a quarter of the
+lumped one and the lumped one, so that \f$ \widetilde B \ge (1 - 3\theta/4) \widetilde M \f$ and \f$
+\|C\|_L \le \sqrt{E / (1 - 3\theta/4)}/\|C\| \f$.
 
 @param coarse operator of the coarse mesh
 @param P restriction, coarse x fine
@@ -148,7 +152,8 @@ namespace internal {
 
 /// The energy of signals that have been restricted, PF = P F and PZ = P Z.
 CGAL_SPECTRAL_GEOMETRY_INLINE double residual_energy(const Laplace_operator& coarse,
-                                                     const Eigen::MatrixXd& PF, const Eigen::MatrixXd& PZ);
+                                                     const Eigen::MatrixXd& PF,
+                                                     const Eigen::MatrixXd& PZ);
 
 } // namespace internal
 
@@ -161,21 +166,22 @@ struct Eigenvalue_errors
 };
 
 /*!
-returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse` against `fine`,
-as far as both have them and the fine eigenvalue is not among the `zeros` first.
+returns the relative errors of the modes `first`, ..., `last - 1` (counted from 0) of `coarse`
+against `fine`, as far as both have them and the fine eigenvalue is not among the `zeros` first.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,
                                                                   const Eigen::VectorXd& coarse,
-                                                                  Eigen::Index first, Eigen::Index last,
+                                                                  Eigen::Index first,
+                                                                  Eigen::Index last,
                                                                   Eigen::Index zeros);
 
 /*!
 How well a coarse mesh and a restriction keep the first `K` eigenpairs of a fine mesh, see
 `evaluate_spectrum()`.
 
-Unless a name says *input scale*, figures are for both meshes scaled to unit area each, as in section 4 of
-Lescoat et al. 2020, and depend neither on the unit of length nor on a shrinking of the coarse mesh. Norms are
-not squared.
+Unless a name says *input scale*, figures are for both meshes scaled to unit area each, as in
+section 4 of Lescoat et al. 2020, and depend neither on the unit of length nor on a shrinking of the
+coarse mesh. Norms are not squared.
 */
 struct Spectral_evaluation
 {
@@ -186,31 +192,36 @@ struct Spectral_evaluation
   Eigen::Index extended_modes = 0;
 
   double fine_theta = 0; ///< weight of the consistent mass in the operator of the fine mesh
-  double theta = 0;      ///< the same for the coarse mesh. Figures of different theta are not comparable
-  std::string
-      mass; ///< "lumped", "averaged", "voronoi", or "theta = ..." of the coarse mesh; both if they differ
+  double theta = 0; ///< the same for the coarse mesh. Figures of different theta are not comparable
+  std::string mass; ///< "lumped", "averaged", "voronoi", or "theta = ..." of the coarse mesh; both
+                    ///< if they differ
 
-  Eigen::MatrixXd C;             ///< functional map, `judged_modes` x `judged_modes`, rows are coarse modes
-  Eigen::VectorXd fine_values;   ///< all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$
+  Eigen::MatrixXd C; ///< functional map, `judged_modes` x `judged_modes`, rows are coarse modes
+  Eigen::VectorXd
+      fine_values; ///< all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$
   Eigen::VectorXd coarse_values; ///< all coarse eigenvalues that were given, at unit area
   Eigen::Index fine_zeros = 0;   ///< number of fine eigenvalues that are zero, one per component
-  Eigen::Index coarse_zeros = 0; ///< and of coarse ones; if they differ the modes compared are shifted
+  Eigen::Index coarse_zeros =
+      0; ///< and of coarse ones; if they differ the modes compared are shifted
 
   double norm_L = 0; ///< Eq. (3), not squared
   double norm_D = 0; ///< Eq. (4), not squared
-  /// Eq. (4) of the map with `extended_modes` rows: what is much smaller here than in `norm_D` was not lost,
-  /// it went into the next modes because eigenvalues `K` and `K + 1` are close
+  /// Eq. (4) of the map with `extended_modes` rows: what is much smaller here than in `norm_D` was
+  /// not lost, it went into the next modes because eigenvalues `K` and `K + 1` are close
   double norm_D_extended = 0;
-  double norm_L_input_scale = 0; ///< Eq. (3) of the meshes as they are, in the inverse of their unit of area
-  /// `norm_L_input_scale` times the fine area: both meshes scaled by one factor, to set beside `norm_L`
+  double norm_L_input_scale =
+      0; ///< Eq. (3) of the meshes as they are, in the inverse of their unit of area
+  /// `norm_L_input_scale` times the fine area: both meshes scaled by one factor, to set beside
+  /// `norm_L`
   double norm_L_common_scale = 0;
   double norm_D_input_scale = 0; ///< Eq. (4) of the meshes as they are
   double floor_norm_L = 0;       ///< `commutativity_floor()`; 0 where there is no estimate
   double floor_norm_D = 0;       ///< `orthonormality_floor()`; the same
 
-  Eigenvalue_errors errors;        ///< of modes 1..K, zeros skipped
-  Eigenvalue_errors errors_low;    ///< of modes 2..K/5: limbs that lost their tips show here
-  Eigenvalue_errors errors_beyond; ///< of modes K+1..1.5K, as far as both spectra were given: overfitting
+  Eigenvalue_errors errors;     ///< of modes 1..K, zeros skipped
+  Eigenvalue_errors errors_low; ///< of modes 2..K/5: limbs that lost their tips show here
+  Eigenvalue_errors
+      errors_beyond; ///< of modes K+1..1.5K, as far as both spectra were given: overfitting
   Eigenvalue_errors errors_input_scale; ///< of modes 1..K of the meshes as they are
 
   double fine_area = 0;   ///< sum of the fine masses
@@ -219,39 +230,41 @@ struct Spectral_evaluation
 };
 
 /*!
-judges a simplification: compares the first `K` eigenpairs of the fine mesh, restricted by `P`, with those of
-the coarse mesh.
+judges a simplification: compares the first `K` eigenpairs of the fine mesh, restricted by `P`, with
+those of the coarse mesh.
 
 One eigensolve per mesh serves every scale, see `unit_area_functional_map()`. What the figures mean:
-\f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly (theorem 1
-of Lescoat et al. 2020). They depend on the mass, so compare within one theta, and they depend on `P`: a
-simplifier that made its own `P` is also judged with `closest_point_restriction()`.
+\f$ \|C\|_L \f$ and \f$ \|C\|_D \f$ vanish together if and only if the eigenpairs are kept exactly
+(theorem 1 of Lescoat et al. 2020). They depend on the mass, so compare within one theta, and they
+depend on `P`: a simplifier that made its own `P` is also judged with `closest_point_restriction()`.
 
-@param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to judge the
-  modes beyond; tight ones, the residual of a rough basis counts as an error of the simplification
-@param coarse, coarse_pairs the same for the coarse mesh: at least `K` eigenpairs, or as many as it has
-  vertices if these are fewer, in which case that many modes are judged; 1.1 `K` and 1.5 `K` fill
+@param fine, fine_pairs operator of the fine mesh and at least `K` of its eigenpairs, 1.5 `K` to
+judge the modes beyond; tight ones, the residual of a rough basis counts as an error of the
+simplification
+@param coarse, coarse_pairs the same for the coarse mesh: at least `K` eigenpairs, or as many as it
+has vertices if these are fewer, in which case that many modes are judged; 1.1 `K` and 1.5 `K` fill
   `norm_D_extended` and `errors_beyond`
 @param P restriction, coarse x fine, rows that sum to 1
 @param K number of modes to judge, at least 1
 
 Throws `std::invalid_argument` if there are fewer pairs or if sizes do not match.
 */
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation
-evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
-                  const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K);
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation evaluate_spectrum(
+    const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
+    const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K);
 
 /*!
 carries functions from the coarse mesh back to the fine one through the spectrum,
 \f$ f = \Phi C^\top \widetilde\Phi^\top \widetilde B g \f$ with all matrices at unit area.
 
-It inverts the restriction on the span of the first eigenvectors as far as `C` is orthonormal; what `g` has
-outside of the span of \f$ \widetilde\Phi \f$ is lost. In matrices at input scale and the map \f$ C \f$ at
-unit area it reads \f$ \sqrt{A/\widetilde A} \; \Phi C^\top \widetilde\Phi^\top \widetilde B g \f$. Unit area
-matters: the mean of a constant is then kept exactly on a connected surface, while \f$ C^\top \f$ at input
-scale would multiply it by \f$ \widetilde A / A \f$.
+It inverts the restriction on the span of the first eigenvectors as far as `C` is orthonormal; what
+`g` has outside of the span of \f$ \widetilde\Phi \f$ is lost. In matrices at input scale and the
+map \f$ C \f$ at unit area it reads \f$ \sqrt{A/\widetilde A} \; \Phi C^\top \widetilde\Phi^\top
+\widetilde B g \f$. Unit area matters: the mean of a constant is then kept exactly on a connected
+surface, while \f$ C^\top \f$ at input scale would multiply it by \f$ \widetilde A / A \f$.
 
-@param fine, fine_pairs operator and eigenpairs of the fine mesh, at least as many as `C` has columns
+@param fine, fine_pairs operator and eigenpairs of the fine mesh, at least as many as `C` has
+columns
 @param coarse, coarse_pairs the same for the coarse mesh, at least as many as `C` has rows
 @param C functional map at unit area, `Spectral_evaluation::C`
 @param g one function per column, coarse x any

@@ -14,17 +14,17 @@ namespace CGAL::Spectral_geometry {
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
 
-/// \brief the mass matrix of linear finite elements: lumped by barycentric or by mixed Voronoi areas, or the mean of lumped
-/// (barycentric) and consistent.
+/// \brief the mass matrix of linear finite elements: lumped by barycentric or by mixed Voronoi
+/// areas, or the mean of lumped (barycentric) and consistent.
 ///
-/// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles and
-/// largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and Wajid 2010). `voronoi` gives each
-/// corner of a triangle the part that is nearest to it; where the triangle is obtuse half of it to that corner, a
-/// quarter to the others (Meyer et al. 2003).
+/// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles
+/// and largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and
+/// Wajid 2010). `voronoi` gives each corner of a triangle the part that is nearest to it; where the
+/// triangle is obtuse half of it to that corner, a quarter to the others (Meyer et al. 2003).
 enum class Mass { lumped, averaged, voronoi };
 
-/// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta M_{consistent}\f$:
-/// 1/2 for `Mass::averaged`, otherwise 0.
+/// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta
+/// M_{consistent}\f$: 1/2 for `Mass::averaged`, otherwise 0.
 inline double mass_blend(Mass mass)
 {
   return mass == Mass::averaged ? 0.5 : 0.;
@@ -36,30 +36,36 @@ inline const char* mass_name(Mass mass)
   return mass == Mass::averaged ? "averaged" : mass == Mass::voronoi ? "voronoi" : "lumped";
 }
 
-/// \brief the coefficients of \f$-\mathrm{div}(D \nabla \phi) = \lambda \rho \phi\f$ at the vertices of a mesh, n x 7: in each
-/// row the density \f$\rho\f$ and the conductivity D, a symmetric 3 x 3 matrix, as xx, xy, xz, yy, yz, zz.
+/// \brief the coefficients of \f$-\mathrm{div}(D \nabla \phi) = \lambda \rho \phi\f$ at the
+/// vertices of a mesh, n x 7: in each row the density \f$\rho\f$ and the conductivity D, a
+/// symmetric 3 x 3 matrix, as xx, xy, xz, yy, yz, zz.
 ///
-/// Of D an operator sees what it does within the surface. Empty: \f$\rho = 1\f$, D the identity, the Laplace-Beltrami operator.
-/// Collapses merge them as they merge signals: with their restriction P the coarse mesh has `P * coefficients`.
+/// Of D an operator sees what it does within the surface. Empty: \f$\rho = 1\f$, D the identity,
+/// the Laplace-Beltrami operator. Collapses merge them as they merge signals: with their
+/// restriction P the coarse mesh has `P * coefficients`.
 using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
 
-/// \brief what functions do on the border of a mesh: their derivative across it vanishes (the natural condition), or they do.
+/// \brief what functions do on the border of a mesh: their derivative across it vanishes (the
+/// natural condition), or they do.
 enum class Boundary_condition { neumann, dirichlet };
 
 /*!
-\brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners alone, which is what the
-metric of the collapses and relocation need to follow an operator.
+\brief which stiffness and mass a mesh gets: what a triangle adds to them follows from its corners
+alone, which is what the metric of the collapses and relocation need to follow an operator.
 
-In a triangle with corners i, j, k, area A and the mean of its corners' coefficients, \f$\rho\f$ and D,
+In a triangle with corners i, j, k, area A and the mean of its corners' coefficients, \f$\rho\f$ and
+D,
 \f[ L_{ij} = \frac{(n \times e_i) \cdot D (n \times e_j)}{4A} , \qquad
-    B = \rho A \left( (1-\theta)\, \mathrm{diag}(s) + \theta\, \frac{1}{12} (I + 1 1^\top) \right), \f]
-n its normal and \f$e_i\f$ the edge opposite to i, all edges one way round: \f$L_{ij} = -\cot(k)/2\f$ for the identity, c times
-that for a conductivity c. The shares s are 1/3 each, or those of mixed Voronoi areas in the metric of D.
-Constants are in the kernel of L, whatever D is.
+    B = \rho A \left( (1-\theta)\, \mathrm{diag}(s) + \theta\, \frac{1}{12} (I + 1 1^\top) \right),
+\f]
+n its normal and \f$e_i\f$ the edge opposite to i, all edges one way round: \f$L_{ij} =
+-\cot(k)/2\f$ for the identity, c times that for a conductivity c. The shares s are 1/3 each, or
+those of mixed Voronoi areas in the metric of D. Constants are in the kernel of L, whatever D is.
 
-With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. What couples vertices of the border to others is taken
-out of both, and what is left of their rows is 100 pi n over the mass of the mesh in the unit of L: far beyond most of the spectrum.
-`eigenpairs()` solves the problem without these rows, and its vectors are 0 there. The masses M stay what they are.
+With `Boundary_condition::dirichlet` the matrices keep a row for each vertex. What couples vertices
+of the border to others is taken out of both, and what is left of their rows is 100 pi n over the
+mass of the mesh in the unit of L: far beyond most of the spectrum. `eigenpairs()` solves the
+problem without these rows, and its vectors are 0 there. The masses M stay what they are.
 */
 struct Local_operator
 {

@@ -24,7 +24,8 @@ namespace CGAL::Spectral_geometry {
 /// \addtogroup PkgSpectralMeshSimplificationOperators
 /// @{
 
-/// Signals on a coarse mesh that depend on where its vertices are: read off the fine surface, for instance.
+/// Signals on a coarse mesh that depend on where its vertices are: read off the fine surface, for
+/// instance.
 class Position_dependent_signals
 {
 public:
@@ -35,37 +36,39 @@ public:
   virtual ~Position_dependent_signals() = default;
   /// writes the n x K signals F and their Laplacians Z at the n positions V.
   virtual void evaluate(const Positions& V, Rows& F, Rows& Z) = 0;
-  /// adds to the gradient what derivatives with respect to the entries of F and Z, where they were evaluated last, mean
-  /// for the positions.
+  /// adds to the gradient what derivatives with respect to the entries of F and Z, where they were
+  /// evaluated last, mean for the positions.
   virtual void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const = 0;
 };
 
 /*!
-The metric as a function of the positions of a coarse mesh whose triangles stay as they are, with its gradient. With
-\f$ R = B Z - L F \f$
+The metric as a function of the positions of a coarse mesh whose triangles stay as they are, with
+its gradient. With \f$ R = B Z - L F \f$
 \f[ E(V) = \sum_w \|R_w\|^2 / M_w \f]
-(Eq. 2 of Lescoat et al. 2020 in the weak form for any mass, decomposed by vertex). Beside it stands the part of the residual that
-the functional map sees: with \f$ A = B + \tau L \f$
-\f[ S(V) = \| A^{-1} R \|_B^2 + \mu E(V) . \f]
-In coarse eigenvectors, \f$ C = \widetilde\Phi^\top B F \f$ over all of them, and with eigenvectors as signals,
-\f[ \|A^{-1} R\|_B^2 = \sum_{i,j} \frac{(\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2}{(1 + \tau\widetilde\lambda_i)^2}, \f]
-where E has the same sum without the denominator. Most of E lies in coarse modes far beyond K, which
-\f$ \|C\|_L \f$ does not contain: a descent on E spends itself on them. With \f$ \tau \f$ near
-\f$ 1/\lambda_K \f$ the denominator takes them out. A little of \f$ \mu E \f$ keeps E from rising. With \f$ \tau = 0 \f$ the
-first term is left out: S is \f$ \mu E \f$.
+(Eq. 2 of Lescoat et al. 2020 in the weak form for any mass, decomposed by vertex). Beside it stands
+the part of the residual that the functional map sees: with \f$ A = B + \tau L \f$ \f[ S(V) = \|
+A^{-1} R \|_B^2 + \mu E(V) . \f] In coarse eigenvectors, \f$ C = \widetilde\Phi^\top B F \f$ over
+all of them, and with eigenvectors as signals, \f[ \|A^{-1} R\|_B^2 = \sum_{i,j} \frac{(\lambda_j -
+\widetilde\lambda_i)^2 C_{ij}^2}
+   {(1 + \tau\widetilde\lambda_i)^2}, \f]
+where E has the same sum without the denominator. Most of E lies in
+coarse modes far beyond K, which \f$ \|C\|_L \f$ does not contain: a descent on E spends itself on
+them. With \f$ \tau \f$ near \f$ 1/\lambda_K \f$ the denominator takes them out. A little of \f$ \mu
+E \f$ keeps E from rising. With \f$ \tau = 0 \f$ the first term is left out: S is \f$ \mu E \f$.
 
 The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
 
-The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each triangle into
-derivatives with respect to its three cotangents and its area, and go on from there to its corners. Residuals are made of
-differences F_j - F_w: the small ones of smooth signals are not lost in the rounding of large sums.
+The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each
+triangle into derivatives with respect to its three cotangents and its area, and go on from there to
+its corners. Residuals are made of differences F_j - F_w: the small ones of smooth signals are not
+lost in the rounding of large sums.
 
-A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of A and for each signal one
-solve, two with a gradient. Signals are treated 32 at a time, so that what a solve works on stays in the cache, on as many threads
-as `set_threads()` says.
+A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of
+A and for each signal one solve, two with a gradient. Signals are treated 32 at a time, so that what
+a solve works on stays in the cache, on as many threads as `set_threads()` says.
 
-E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows nothing of
-inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
+E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows
+nothing of inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
 */
 class Relocation_energy
 {
@@ -77,8 +80,10 @@ public:
 
   /*!
   @param T      m x 3, the triangles of the coarse mesh, an oriented manifold
-  @param F, Z   n x K, the restricted signals and their restricted Laplacians; K may be 0 if `moving` is given
-  @param op     the operator, with coefficients for the n vertices or none; or the weight theta of the consistent mass
+  @param F, Z   n x K, the restricted signals and their restricted Laplacians; K may be 0 if
+  `moving` is given
+  @param op     the operator, with coefficients for the n vertices or none; or the weight theta of
+  the consistent mass
   @param tau    not negative, in the inverse of the unit of eigenvalues; 0: no first term
   @param mu     weight of E, not negative
   @param moving signals that depend on the positions, or null; not owned
@@ -96,8 +101,9 @@ public:
     internal::require(Z.rows() == F.rows() && Z.cols() == F.cols(), "relocation: F is ",
                       internal::size_name(F), " and Z ", internal::size_name(Z),
                       "; pass two matrices of one size.");
-    internal::require(tau >= 0 && mu >= 0, "relocation: tau and mu must not be negative, but they are ", tau,
-                      " and ", mu, ".");
+    internal::require(tau >= 0 && mu >= 0,
+                      "relocation: tau and mu must not be negative, but they are ", tau, " and ",
+                      mu, ".");
     for(Index first = 0; first < F.cols(); first += width)
       m_given.push_back({panel(F, first), panel(Z, first)});
   }
@@ -203,7 +209,8 @@ private:
   }
 
   // Derivatives with respect to the entries of F and Z, in which R is linear.
-  CGAL_SPECTRAL_INLINE void add_linear(const Index first, const Work& work, Rows& by_F, Rows& by_Z) const
+  CGAL_SPECTRAL_INLINE void add_linear(const Index first, const Work& work, Rows& by_F,
+                                       Rows& by_Z) const
   {
     const Index columns = (std::min)(Index(width), by_F.cols() - first);
     for(Index w = 0; w < number_of_vertices(); ++w) {
@@ -232,11 +239,14 @@ private:
       const double L = m_tau * m_entries.L(Index(e));
       diagonal(i) -= L;
       diagonal(j) -= L;
-      const bool apart = m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j); // but for the diagonal
-      entries.emplace_back((std::max)(i, j), (std::min)(i, j), apart ? 0. : m_entries.B(Index(e)) + L);
+      const bool apart =
+          m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j); // but for the diagonal
+      entries.emplace_back((std::max)(i, j), (std::min)(i, j),
+                           apart ? 0. : m_entries.B(Index(e)) + L);
     }
     for(Index i = 0; i < n; ++i)
-      entries.emplace_back(int(i), int(i), diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face
+      entries.emplace_back(int(i), int(i),
+                           diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face
     Eigen::SparseMatrix<double> A(n, n);
     A.setFromTriplets(entries.begin(), entries.end());
     if(m_cholesky.rows() == 0)
@@ -346,11 +356,11 @@ private:
     }
     for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
       const auto [i, j] = m_geometry.edges()[e];
-      const double *const yi = Y.row(i).data(), *const yj = Y.row(j).data(), *const xi = X.row(i).data(),
-                          *const xj = X.row(j).data(), *const qi = Q.row(i).data(),
-                          *const qj = Q.row(j).data(), *const zi = s.Z.row(i).data(),
-                          *const zj = s.Z.row(j).data(), *const fi = s.F.row(i).data(),
-                          *const fj = s.F.row(j).data();
+      const double *const yi = Y.row(i).data(), *const yj = Y.row(j).data(),
+                          *const xi = X.row(i).data(), *const xj = X.row(j).data(),
+                          *const qi = Q.row(i).data(), *const qj = Q.row(j).data(),
+                          *const zi = s.Z.row(i).data(), *const zj = s.Z.row(j).data(),
+                          *const fi = s.F.row(i).data(), *const fj = s.F.row(j).data();
       double b[lanes] = {}, l[lanes] = {};
       for(int k = 0; k < width; k += lanes)
         for(int c = k; c < k + lanes; ++c) {
@@ -362,8 +372,8 @@ private:
     }
   }
 
-  // Rows of a panel. Plain loops: the compiler turns them into vector instructions, and takes a tenth of
-  // the time it takes for Eigen's expressions.
+  // Rows of a panel. Plain loops: the compiler turns them into vector instructions, and takes a
+  // tenth of the time it takes for Eigen's expressions.
   using Row = double[width];
 
   CGAL_SPECTRAL_INLINE static void add_multiple(const double a, const double* x, double* y)

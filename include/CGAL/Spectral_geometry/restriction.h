@@ -19,25 +19,28 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /*!
-The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of vertex merges (section 3.2 of
-Lescoat et al. 2020), recorded in constant time per merge.
+The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of vertex merges
+(section 3.2 of Lescoat et al. 2020), recorded in constant time per merge.
 
-A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r` (removed) into the
-slot `k` (kept) with weight alpha stands for the matrix `Q` with
+A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r`
+(removed) into the slot `k` (kept) with weight alpha stands for the matrix `Q` with
 \f[ (Q F)_k = (1 - \alpha) F_k + \alpha F_r, \qquad (Q F)_w = F_w \ \mbox{for the other slots}, \f]
-after which `r` is gone and `k` goes on, and may be kept or removed by later merges.
+after which `r`
+is gone and `k` goes on, and may be kept or removed by later merges.
 
-The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse vertex
-and `P` has at most one nonzero per column: the merges form a binary forest with a weight on each arc (alpha
-for the removed side, 1 - alpha for the kept side), and a nonzero of `P` is the product of the arcs from a
-fine vertex up to its root. The forest is stored as the log of its merges in order. Reading the log backwards
-visits every node before its two children, so that `P` is expanded in linear time, at the end of the log or
-after any number of its merges, without a single product of sparse matrices.
+The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse
+vertex and `P` has at most one nonzero per column: the merges form a binary forest with a weight on
+each arc (alpha for the removed side, 1 - alpha for the kept side), and a nonzero of `P` is the
+product of the arcs from a fine vertex up to its root. The forest is stored as the log of its merges
+in order. Reading the log backwards visits every node before its two children, so that `P` is
+expanded in linear time, at the end of the log or after any number of its merges, without a single
+product of sparse matrices.
 
-Every row of `P` sums to 1. When each alpha is 0 or 1, every row holds exactly one nonzero, equal to 1.
+Every row of `P` sums to 1. When each alpha is 0 or 1, every row holds exactly one nonzero, equal
+to 1.
 
-Reference: T. Lescoat, H.-T. D. Liu, J.-M. Thiery, A. Jacobson, T. Boubekeur, M. Ovsjanikov, *Spectral Mesh
-Simplification*, Computer Graphics Forum 39(2), 2020.
+Reference: T. Lescoat, H.-T. D. Liu, J.-M. Thiery, A. Jacobson, T. Boubekeur, M. Ovsjanikov,
+*Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020.
 */
 class Merge_forest
 {
@@ -56,7 +59,8 @@ public:
   /// the forest of the empty mesh.
   Merge_forest() = default;
 
-  /// `n` slots and no merge: `P` is the identity. Throws `std::invalid_argument` if `n` is negative.
+  /// `n` slots and no merge: `P` is the identity. Throws `std::invalid_argument` if `n` is
+  /// negative.
   explicit Merge_forest(Index n)
   {
     internal::require(n >= 0, "Merge_forest: the number of slots is ", n,
@@ -67,8 +71,8 @@ public:
   /*!
   merges the slot `removed` into the slot `kept`: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
 
-  Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out of range or
-  has been removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
+  Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out
+  of range or has been removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
   */
   void merge(Index removed, Index kept, double alpha)
   {
@@ -76,8 +80,8 @@ public:
     check_alive(kept);
     internal::require(removed != kept, "Merge_forest: slot ", kept,
                       " is merged into itself, pass two different slots.");
-    internal::require(alpha >= 0 && alpha <= 1, "Merge_forest: the weight of slot ", removed, " is ", alpha,
-                      ", clamp it to [0, 1].");
+    internal::require(alpha >= 0 && alpha <= 1, "Merge_forest: the weight of slot ", removed,
+                      " is ", alpha, ", clamp it to [0, 1].");
     m_merges.push_back({removed, kept, alpha});
     m_alive[static_cast<std::size_t>(removed)] = false;
   }
@@ -109,19 +113,24 @@ public:
   }
 
   /*!
-  returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in `slots[i]`.
+  returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in
+  `slots[i]`.
 
-  At most one nonzero per column; zeros (a merge with alpha 0 or 1 makes some) are not written. Rows sum to 1.
+  At most one nonzero per column; zeros (a merge with alpha 0 or 1 makes some) are not written. Rows
+  sum to 1.
 
-  @param slots every slot that is left after the merges, once, in the order wanted for the rows: for a
-    simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may change.
-  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is a
-    permutation) and `number_of_merges()`, the default: `P` of any intermediate level of the simplification.
+  @param slots every slot that is left after the merges, once, in the order wanted for the rows: for
+  a simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may
+  change.
+  @param number_of_merges the length of the beginning of the log that is expanded, between 0 (`P` is
+  a permutation) and `number_of_merges()`, the default: `P` of any intermediate level of the
+  simplification.
 
-  Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there are fewer
-  merges.
+  Throws `std::invalid_argument` if `slots` is not a list of the slots that are left, or if there
+  are fewer merges.
   */
-  Matrix restriction(const std::vector<Index>& slots, const std::optional<Index> number_of_merges = {}) const
+  Matrix restriction(const std::vector<Index>& slots,
+                     const std::optional<Index> number_of_merges = {}) const
   {
     const Expansion e = expand(slots, number_of_merges);
     std::vector<Eigen::Triplet<double>> entries;
@@ -134,11 +143,11 @@ public:
   }
 
   /*!
-  returns, for every fine vertex, the row of the coarse vertex into which it was merged (`number_of_slots()`
-  entries).
+  returns, for every fine vertex, the row of the coarse vertex into which it was merged
+  (`number_of_slots()` entries).
 
-  The map is total: a fine vertex whose weight in `P` is zero has a coarse vertex all the same. Parameters and
-  exceptions are those of `restriction()`.
+  The map is total: a fine vertex whose weight in `P` is zero has a coarse vertex all the same.
+  Parameters and exceptions are those of `restriction()`.
   */
   std::vector<std::size_t> vertex_map(const std::vector<Index>& slots,
                                       const std::optional<Index> number_of_merges = {}) const
@@ -175,26 +184,29 @@ private:
     return alive;
   }
 
-  Expansion expand(const std::vector<Index>& slots, const std::optional<Index> number_of_merges) const
+  Expansion expand(const std::vector<Index>& slots,
+                   const std::optional<Index> number_of_merges) const
   {
     const std::vector<bool> alive = alive_after(number_of_merges);
     Expansion e{std::vector<Index>(alive.size(), -1), std::vector<double>(alive.size(), 0.)};
     for(std::size_t i = 0; i < slots.size(); ++i) {
       const Index slot = slots[i];
       const std::size_t s = static_cast<std::size_t>(slot); // large where it is negative
-      internal::require(s < alive.size() && alive[s] && e.row[s] == -1, "Merge_forest: slot ", slot,
-                        " of row ", i,
-                        " is out of range, removed or listed twice, list each slot that is left once.");
+      internal::require(
+          s < alive.size() && alive[s] && e.row[s] == -1, "Merge_forest: slot ", slot, " of row ",
+          i, " is out of range, removed or listed twice, list each slot that is left once.");
       e.row[s] = static_cast<Index>(i);
       e.weight[s] = 1;
     }
     for(std::size_t s = 0; s < alive.size(); ++s)
       internal::require(!alive[s] || e.row[s] != -1, "Merge_forest: slot ", s,
                         " is left but has no row, list each slot that is left once.");
-    // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in `removed`.
+    // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in
+    // `removed`.
     for(Index i = number_of_merges.value_or(this->number_of_merges()); i-- > 0;) {
       const Merge& m = m_merges[static_cast<std::size_t>(i)];
-      const std::size_t k = static_cast<std::size_t>(m.kept), r = static_cast<std::size_t>(m.removed);
+      const std::size_t k = static_cast<std::size_t>(m.kept),
+                        r = static_cast<std::size_t>(m.removed);
       e.row[r] = e.row[k];
       e.weight[r] = e.weight[k] * m.alpha;
       e.weight[k] *= 1 - m.alpha;

@@ -23,21 +23,23 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * The options of `spectral_edge_collapse()`: those of the metric, and what is done before and after the collapses. The
- * defaults are what was found best.
+ * The options of `spectral_edge_collapse()`: those of the metric, and what is done before and after
+ * the collapses. The defaults are what was found best.
  */
 struct Spectral_edge_collapse_options : Spectral_options
 {
-  /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest points. It takes a quarter of
-  /// the run, and with the P that it brings |C|_L is less than half; that P no longer follows the vertex map, and levels that are
-  /// replayed from the log end before it.
+  /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest
+  /// points. It takes a quarter of the run, and with the P that it brings |C|_L is less than half;
+  /// that P no longer follows the vertex map, and levels that are replayed from the log end before
+  /// it.
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
 
-  /// `best()` without an eigensolver. Collapses by quadrics reduce the mesh first to 30 times the target, but not below 10,000
-  /// vertices, and signals of filtered noise are made there; quadrics go on to 10 times the target. Relocation sees 64 of the
-  /// signals. On eight meshes the norms were 1.02 (|C|_L) and 1.01 (|C|_D) times those of best() in the geometric mean,
-  /// eigenvalue errors 0.98 times. E and the relative error are estimates; signals or eigenpairs cannot be given, and it takes
-  /// neither filter nor visitor.
+  /// `best()` without an eigensolver. Collapses by quadrics reduce the mesh first to 30 times the
+  /// target, but not below 10,000 vertices, and signals of filtered noise are made there; quadrics
+  /// go on to 10 times the target. Relocation sees 64 of the signals. On eight meshes the norms
+  /// were 1.02 (|C|_L) and 1.01 (|C|_D) times those of best() in the geometric mean, eigenvalue
+  /// errors 0.98 times. E and the relative error are estimates; signals or eigenpairs cannot be
+  /// given, and it takes neither filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
@@ -55,46 +57,51 @@ struct Spectral_edge_collapse_options : Spectral_options
     static_cast<Spectral_options&>(options) = Spectral_options::paper();
     options.relocate = false;
     options.quadrics_above = std::numeric_limits<double>::infinity();
-    options.operator_fit =
-        Spectral_geometry::Operator_fit_options::for_mass(Spectral_geometry::mass_blend(options.mass));
+    options.operator_fit = Spectral_geometry::Operator_fit_options::for_mass(
+        Spectral_geometry::mass_blend(options.mass));
     return options;
   }
 
-  /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k
-  /// lambda_k^2), above this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound. The
-  /// run ends at it or at the number of vertices, whichever comes first: pass 3 K as that number. It is a bound of the collapses:
-  /// where relocation raises the error above it, a warning says so. With it `largest_loss` is infinite.
+  /// Stops before a collapse that would raise `relative_error`, sqrt(E / sum_k lambda_k^2), above
+  /// this; see `Spectral_error_stop_predicate` for how to choose it. From 0; infinite: no bound.
+  /// The run ends at it or at the number of vertices, whichever comes first: pass 3 K as that
+  /// number. It is a bound of the collapses: where relocation raises the error above it, a warning
+  /// says so. With it `largest_loss` is infinite.
   double maximum_error = std::numeric_limits<double>::infinity();
 
-  /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M. Garland and P. Heckbert,
-  /// *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997), and goes on with the spectral cost; at least
-  /// 30 times the target is advised, see fast(). Takes three to nine microseconds for each vertex, five times as
-  /// much where faces would go through others. P spans both stages. Kept vertices
-  /// and the ends of constrained edges stay. 0: never.
+  /// First reduces a mesh of more vertices to this number with the quadrics of `shape` alone (M.
+  /// Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997),
+  /// and goes on with the spectral cost; at least 30 times the target is advised, see fast(). Takes
+  /// three to nine microseconds for each vertex, five times as much where faces would go through
+  /// others. P spans both stages. Kept vertices and the ends of constrained edges stay. 0: never.
   std::size_t pre_simplify = 0;
 
-  /// While the mesh has more than this many times the target's vertices, edges are collapsed by the quadrics of `shape` alone, as with
-  /// `pre_simplify`, but F, Z and P follow: eigenpairs, relocation, fitted operators and the error are about the input. Few collapses
-  /// decide what the result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took half
-  /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the metric, where it could
-  /// not be what was asked for: without `shape`, with another `placement` than `free`, with `coefficients`, `binary`,
-  /// `preserve_border`, the Dirichlet condition or `maximum_error`, with a filter or a visitor. Levels of
+  /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
+  /// quadrics of `shape` alone, as with `pre_simplify`, but F, Z and P follow: eigenpairs,
+  /// relocation, fitted operators and the error are about the input. Few collapses decide what the
+  /// result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of
+  /// 80 N took half the time. From 1; infinite: never. It is passed over, for every collapse to be
+  /// that of the metric, where it could not be what was asked for: without `shape`, with another
+  /// `placement` than `free`, with `coefficients`, `binary`, `preserve_border`, the Dirichlet
+  /// condition or `maximum_error`, with a filter or a visitor. Levels of
   /// `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
   double quadrics_above = 15;
 
   /// Moves the vertices that are left so that the spectrum is kept still better, see
-  /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges stay. Made for the averaged
-  /// mass. Not with `binary` where its signals are `sampled`: that takes P anew.
+  /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges
+  /// stay. Made for the averaged mass. Not with `binary` where its signals are `sampled`: that
+  /// takes P anew.
   bool relocate = true;
 
   /// How they are moved; its progress callback is replaced by that of the run.
   Spectral_geometry::Relocation_options relocation;
 
-  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have the spectrum of the input, or
-  /// of the mesh that `pre_simplify` has left:
-  /// `Spectral_geometry::fit_operators()`, whose result is in `Spectral_edge_collapse_result::fitted`. The mesh stays as it
-  /// is. They are fitted to a fifth more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are
-  /// given. Not with `signals` or the Dirichlet condition.
+  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have
+  /// the spectrum of the input, or of the mesh that `pre_simplify` has left:
+  /// `Spectral_geometry::fit_operators()`, whose result is in
+  /// `Spectral_edge_collapse_result::fitted`. The mesh stays as it is. They are fitted to a fifth
+  /// more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are given.
+  /// Not with `signals` or the Dirichlet condition.
   bool fit_operators = false;
 
   /// How they are chosen; its progress callback is replaced by that of the run.
@@ -120,33 +127,37 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
 {
   require(options.quadrics_above >= 1, "Spectral_edge_collapse_options: quadrics_above is ",
           options.quadrics_above, ", use a number from 1.");
-  require(
-      !std::isfinite(options.maximum_error) || !is_filtered(options),
-      "Spectral_edge_collapse_options: maximum_error is a bound for eigenvectors, of which filtered noise "
-      "only estimates the error; set source to eigenpairs.");
+  require(!std::isfinite(options.maximum_error) || !is_filtered(options),
+          "Spectral_edge_collapse_options: maximum_error is a bound for eigenvectors, of which "
+          "filtered noise "
+          "only estimates the error; set source to eigenpairs.");
   require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
           options.maximum_error, ", use a number from 0.");
   if(options.fit_operators) {
     Spectral_geometry::internal::check_operator_fit_options(options.operator_fit);
-    require(options.signals.size() == 0, "Spectral_edge_collapse_options: fit_operators fits to "
-                                         "eigenvectors, but signals are given; leave one of them out.");
+    require(options.signals.size() == 0,
+            "Spectral_edge_collapse_options: fit_operators fits to "
+            "eigenvectors, but signals are given; leave one of them out.");
     const Eigen::Index K = options.number_of_eigenvectors + options.number_of_eigenvectors / 5;
     const Eigen::Index vectors = options.eigenpairs_options.maximum_vectors;
-    require(options.eigenpairs || vectors == 0 || vectors >= K + 32,
-            "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
-            "eigenpairs_options.maximum_vectors must be 0 or at least ",
-            K + 32, ", but is ", vectors, ".");
+    require(
+        options.eigenpairs || vectors == 0 || vectors >= K + 32,
+        "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
+        "eigenpairs_options.maximum_vectors must be 0 or at least ",
+        K + 32, ", but is ", vectors, ".");
     require(options.boundary != Spectral_geometry::Boundary_condition::dirichlet,
-            "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, which "
+            "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, "
+            "which "
             "those of the Dirichlet condition do not; leave one of them out.");
   }
   if(!options.relocate)
     return;
   Spectral_geometry::internal::check_relocation_options(options.relocation);
-  require(!options.binary ||
-              options.relocation.signals != Spectral_geometry::Relocation_options::Signals::sampled,
-          "Spectral_edge_collapse_options: relocate takes a restriction anew that is not binary; set "
-          "relocate to false, or relocation.signals to carried.");
+  require(
+      !options.binary ||
+          options.relocation.signals != Spectral_geometry::Relocation_options::Signals::sampled,
+      "Spectral_edge_collapse_options: relocate takes a restriction anew that is not binary; set "
+      "relocate to false, or relocation.signals to carried.");
 }
 
 } // namespace internal

@@ -34,12 +34,13 @@ struct Spectral_edge_collapse_result
     target_reached,  ///< the mesh has the number of vertices that was asked for
     queue_exhausted, ///< every edge that is left was refused; see `explanation`
     cancelled,       ///< by the progress callback or `Spectral_options::cancel`
-    error_reached ///< one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
+    error_reached    ///< one more collapse would have exceeded
+                     ///< `Spectral_edge_collapse_options::maximum_error`
   };
 
   std::size_t input_vertices = 0;  ///< number of vertices before
   std::size_t output_vertices = 0; ///< and after
-  std::size_t collapses = 0;       ///< merges of two vertices, those of edges without length included
+  std::size_t collapses = 0; ///< merges of two vertices, those of edges without length included
   Stop_reason stop_reason = Stop_reason::target_reached; ///< why it stopped
   /// one sentence if the run ended neither at the target nor at the error bound, else empty
   std::string explanation;
@@ -51,37 +52,44 @@ struct Spectral_edge_collapse_result
   double seconds_eigenpairs = 0;         ///< reading the mesh and finding the basis
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
-  double seconds_relocation = 0;         ///< wall seconds of `Spectral_edge_collapse_options::relocate`
-  double seconds_operator_fit = 0;       ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
-  double seconds_total = 0;              ///< the whole call
+  double seconds_relocation = 0; ///< wall seconds of `Spectral_edge_collapse_options::relocate`
+  double seconds_operator_fit =
+      0;                    ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
+  double seconds_total = 0; ///< the whole call
 
   std::size_t signals =
-      0;        ///< how many steered the collapses, all at once or in mixtures: those of positive weight
+      0; ///< how many steered the collapses, all at once or in mixtures: those of positive weight
   double E = 0; ///< Eq. 2 of all signals, with their weights, for the input scaled to unit area
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
-  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the one below is the one to use
+  /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the
+  /// one below is the one to use
   Spectral_geometry::Relocation_result relocation;
-  /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P; empty where it was not asked
-  /// for, or failed, which a warning says
+  /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P;
+  /// empty where it was not asked for, or failed, which a warning says
   std::optional<Spectral_geometry::Operator_fit_result> fitted;
 
-  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input.
-  /// `Surface_mesh::collect_garbage()` changes that order: write or copy the mesh without it, which keeps the order, or
-  /// use `Spectral_policies`, whose `restriction()` follows the mesh as it is.
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in
+  /// that of the input. `Surface_mesh::collect_garbage()` changes that order: write or copy the
+  /// mesh without it, which keeps the order, or use `Spectral_policies`, whose `restriction()`
+  /// follows the mesh as it is.
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
-  /// those of the operator of the coarse mesh, `Spectral_options::coefficients` merged by the collapses: means of what went into
-  /// a vertex, wherever relocation moves it, and the P that this brings reads functions off. Rows as in P; empty without
+  /// those of the operator of the coarse mesh, `Spectral_options::coefficients` merged by the
+  /// collapses: means of what went into a vertex, wherever relocation moves it, and the P that this
+  /// brings reads functions off. Rows as in P; empty without
   Spectral_geometry::Operator_coefficients coefficients;
-  /// every level of detail between the input and the result: P from it alone, meshes by `Collapse_replay`
+  /// every level of detail between the input and the result: P from it alone, meshes by
+  /// `Collapse_replay`
   Collapse_log log;
-  /// how many of the collapses were those of quadrics alone, of `Spectral_edge_collapse_options::pre_simplify` and `quadrics_above`
+  /// how many of the collapses were those of quadrics alone, of
+  /// `Spectral_edge_collapse_options::pre_simplify` and `quadrics_above`
   std::size_t quadric_collapses = 0;
-  /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input without
+  /// number of vertices after `Spectral_edge_collapse_options::pre_simplify`; that of the input
+  /// without
   std::size_t pre_simplified_vertices = 0;
-  /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again; null with signals
-  /// of the user's
+  /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again;
+  /// null with signals of the user's
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
   /// the reason in words
@@ -102,8 +110,8 @@ namespace internal {
 inline void set_cancelled(Spectral_edge_collapse_result& result, const std::string& rest = "")
 {
   result.stop_reason = Spectral_edge_collapse_result::Stop_reason::cancelled;
-  result.explanation =
-      "The run was cancelled at " + std::to_string(result.output_vertices) + " vertices" + rest + ".";
+  result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
+                       " vertices" + rest + ".";
 }
 
 } // namespace internal

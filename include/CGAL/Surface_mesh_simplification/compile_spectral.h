@@ -7,12 +7,14 @@
 
 /*!
 \file
-\brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of all others.
+\brief for the one source file that compiles what `CGAL_SPECTRAL_GEOMETRY_COMPILED` leaves out of
+all others.
 
-Without that macro the package is header-only and nobody needs this file. With it defined in every source file of a program,
-all that depends on no mesh type (operators, eigensolvers, the collapse loop's evaluation of costs, relocation, maps) is
-only declared, and exactly one source file includes this header, which defines it. The CMake target
-`Spectral_mesh_simplification::compiled` is that, ready made.
+Without that macro the package is header-only and nobody needs this file. With it defined in every
+source file of a program, all that depends on no mesh type (operators, eigensolvers, the collapse
+loop's evaluation of costs, relocation, maps) is only declared, and exactly one source file includes
+this header, which defines it. The CMake target `Spectral_mesh_simplification::compiled` is that,
+ready made.
 */
 
 #include <CGAL/Spectral_geometry/compile.h>

@@ -32,23 +32,25 @@
 namespace CGAL::Surface_mesh_simplification {
 namespace internal {
 
-/// Whether there are named parameters of `edge_collapse()` that a call with a cost of its own has no use for.
+/// Whether there are named parameters of `edge_collapse()` that a call with a cost of its own has
+/// no use for.
 template <class NamedParameters>
 constexpr bool overrides_policies =
     !parameters::is_default_parameter<NamedParameters, internal_np::get_cost_policy_t>::value ||
-    !parameters::is_default_parameter<NamedParameters, internal_np::get_placement_policy_t>::value ||
+    !parameters::is_default_parameter<NamedParameters,
+                                      internal_np::get_placement_policy_t>::value ||
     !parameters::is_default_parameter<NamedParameters, internal_np::use_relaxed_order_t>::value ||
     !parameters::is_default_parameter<NamedParameters, internal_np::vertex_index_t>::value ||
     !parameters::is_default_parameter<NamedParameters, internal_np::halfedge_index_t>::value;
 
 inline void check_target(const char* const caller, const std::size_t target, const std::size_t n)
 {
-  require(target >= 1 && target <= n, caller, ": the target is ", target, " vertices, but the mesh has ", n,
-          "; use a number from 1 to ", n, ".");
+  require(target >= 1 && target <= n, caller, ": the target is ", target,
+          " vertices, but the mesh has ", n, "; use a number from 1 to ", n, ".");
 }
 
-/// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their edges, with what
-/// `mesh_matrices()` gives for the mesh.
+/// The corners of all faces in the order of `faces(mesh)`, and those on the other side of their
+/// edges, with what `mesh_matrices()` gives for the mesh.
 template <class TriangleMesh>
 Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mesh_matrices matrices)
 {
@@ -77,18 +79,21 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
   return result;
 }
 
-/// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in `vertices(mesh)`, or empty.
-/// `report(left)` may throw before the mesh changes. Returns the log and the slots of the vertices that are left.
+/// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in
+/// `vertices(mesh)`, or empty. `report(left)` may throw before the mesh changes. Returns the log
+/// and the slots of the vertices that are left.
 template <class TriangleMesh, class Report, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
-collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices, const std::vector<char>& kept,
-                     const bool border_is_apart, const bool keep_free_of_self_intersections,
-                     const Report& report, const NamedParameters& np)
+collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
+                     const std::vector<char>& kept, const bool border_is_apart,
+                     const bool keep_free_of_self_intersections, const Report& report,
+                     const NamedParameters& np)
 {
   using Point = typename boost::property_traits<
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
   Spectral_geometry::Mesh_matrices matrices = Spectral_geometry::mesh_matrices(mesh, np);
-  // What is wrong and stays so is refused before anything changes. Needles and faces without area need not stay.
+  // What is wrong and stays so is refused before anything changes. Needles and faces without area
+  // need not stay.
   check_extent(matrices.V);
   Eigen::Index i = 0;
   for(const auto v : vertices(mesh)) {
@@ -102,14 +107,15 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices, c
   arrays.fixed = fixed_vertex_flags(mesh, kept, np);
   arrays.border_is_apart = border_is_apart;
   report(std::size_t(arrays.V.rows()));
-  Collapse_log log =
-      quadric_collapses(std::move(arrays), keep_free_of_self_intersections, number_of_vertices, report);
+  Collapse_log log = quadric_collapses(std::move(arrays), keep_free_of_self_intersections,
+                                       number_of_vertices, report);
   Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, log, np);
   replay.collapse_to(log.number_of_vertices_left());
   return {std::move(log), replay.slots()};
 }
 
-/// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that order.
+/// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that
+/// order.
 template <class Result>
 void set_restriction(Result& result, Collapse_log log, const std::vector<Eigen::Index>& slots)
 {
@@ -126,44 +132,55 @@ void set_restriction(Result& result, Collapse_log log, const std::vector<Eigen::
 /// What `quadric_edge_collapse()` returns.
 struct Quadric_edge_collapse_result
 {
-  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in that of the input
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in
+  /// that of the input
   Eigen::SparseMatrix<double> restriction;
   std::vector<std::size_t> vertex_map; ///< for each vertex of the input the row of P it ended in
   Collapse_log log;                    ///< every level of detail between the input and the result
 };
 
 /*!
- * Simplifies a huge mesh by quadrics alone (M. Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*,
- * SIGGRAPH 1997), those of `Spectral_options::shape`: the first stage of `spectral_edge_collapse()`, see
- * `Spectral_edge_collapse_options::pre_simplify`, on its own. It works on arrays, takes three to nine microseconds for each vertex, and
- * computes no eigenvectors. No face turns by more than 78 degrees in a collapse, no needle appears where there was none, and in the end no face
- * goes through another, unless it did before; where that has to be looked after it takes five times as long.
+ * Simplifies a huge mesh by quadrics alone (M. Garland and P. Heckbert, *Surface Simplification
+ * Using Quadric Error Metrics*, SIGGRAPH 1997), those of `Spectral_options::shape`: the first stage
+ * of `spectral_edge_collapse()`, see `Spectral_edge_collapse_options::pre_simplify`, on its own. It
+ * works on arrays, takes three to nine microseconds for each vertex, and computes no eigenvectors.
+ * No face turns by more than 78 degrees in a collapse, no needle appears where there was none, and
+ * in the end no face goes through another, unless it did before; where that has to be looked after
+ * it takes five times as long.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
- * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left that may be collapsed, there are more
- * @param progress called with the fraction that is done; returns false to cancel, until the mesh changes. May be empty
- * @param np named parameters: `vertex_point_map`, `geom_traits`, `edge_is_constrained_map` (the ends of these edges stay) and
- *        `vertex_is_constrained_map` (vertices that stay). The others of `edge_collapse()` do not compile
+ * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left
+ * that may be collapsed, there are more
+ * @param progress called with the fraction that is done; returns false to cancel, until the mesh
+ * changes. May be empty
+ * @param np named parameters: `vertex_point_map`, `geom_traits`, `edge_is_constrained_map` (the
+ *        ends of these edges stay) and `vertex_is_constrained_map` (vertices that stay). The others
+ *        of `edge_collapse()` do not compile
  *
  * @return P, the vertex map, the log
  *
- * @throws std::invalid_argument for a mesh or a target that cannot be used, before anything is changed
- * @throws Spectral_geometry::Cancelled when the progress callback returns false; the mesh is then as it was
+ * @throws std::invalid_argument for a mesh or a target that cannot be used, before anything is
+ * changed
+ * @throws Spectral_geometry::Cancelled when the progress callback returns false; the mesh is then
+ * as it was
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
-Quadric_edge_collapse_result quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                                                   const std::function<bool(double)>& progress = {},
-                                                   const NamedParameters& np = parameters::default_values())
+Quadric_edge_collapse_result
+quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
+                      const std::function<bool(double)>& progress = {},
+                      const NamedParameters& np = parameters::default_values())
 {
-  static_assert(!internal::overrides_policies<NamedParameters> &&
-                    parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
-                    parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
-                "quadric_edge_collapse() takes no get_cost, get_placement, use_relaxed_order, index map, "
-                "filter or visitor");
+  static_assert(
+      !internal::overrides_policies<NamedParameters> &&
+          parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
+          parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
+      "quadric_edge_collapse() takes no get_cost, get_placement, use_relaxed_order, index map, "
+      "filter or visitor");
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("quadric_edge_collapse", number_of_vertices, n);
   const auto report = [&](const std::size_t left) {
-    if(progress && !progress(double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)))))
+    if(progress &&
+       !progress(double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)))))
       throw Spectral_geometry::Cancelled();
   };
   Quadric_edge_collapse_result result;

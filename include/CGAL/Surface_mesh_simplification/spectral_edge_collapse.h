@@ -42,11 +42,12 @@ namespace internal {
 
 using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
-/// Runs the loop with the constraint map, filter and visitor that the user gave, if any. Returns what has ended it unless that was
-/// the target.
+/// Runs the loop with the constraint map, filter and visitor that the user gave, if any. Returns
+/// what has ended it unless that was the target.
 template <class TriangleMesh, class Policies, class NamedParameters>
-Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
-                                       const double maximum_error, const NamedParameters& np)
+Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies,
+                                       const std::size_t target, const double maximum_error,
+                                       const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
@@ -75,8 +76,9 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
   if constexpr(has_constraints) {
     const auto ecm = get_parameter(np, internal_np::edge_is_constrained);
     using Map = std::decay_t<decltype(ecm)>;
-    return run(Constrained_placement<typename Policies::Get_placement, Map>(ecm, policies.get_placement()),
-               common.edge_is_constrained_map(ecm));
+    return run(
+        Constrained_placement<typename Policies::Get_placement, Map>(ecm, policies.get_placement()),
+        common.edge_is_constrained_map(ecm));
   } else
     return run(policies.get_placement(), common);
 }
@@ -117,29 +119,32 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
          to_string(boundary_edges(mesh.T).size()) + " border edges.";
 }
 
-/// The policies of the second stage. What they refuse here is the mesh that the first one has left: an input that is
-/// refused as `std::invalid_argument` has not been changed.
+/// The policies of the second stage. What they refuse here is the mesh that the first one has left:
+/// an input that is refused as `std::invalid_argument` has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
-Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np,
-                           const Pre_simplification& first)
+Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
+                           const NamedParameters& np, const Pre_simplification& first)
 {
   try {
     return Policies(mesh, options, np);
   } catch(const std::invalid_argument& error) {
     if(!first.done)
       throw;
-    throw std::runtime_error("spectral_edge_collapse: the mesh of " + std::to_string(first.slots.size()) +
-                             " vertices that pre_simplify has left cannot be used, choose another number or "
-                             "repair the input (" +
-                             error.what() + ")");
+    throw std::runtime_error(
+        "spectral_edge_collapse: the mesh of " + std::to_string(first.slots.size()) +
+        " vertices that pre_simplify has left cannot be used, choose another number or "
+        "repair the input (" +
+        error.what() + ")");
   }
 }
 
-/// The collapses of `Spectral_edge_collapse_options::quadrics_above`, which the state of the policies follows.
+/// The collapses of `Spectral_edge_collapse_options::quadrics_above`, which the state of the
+/// policies follows.
 template <class TriangleMesh, class Policies, class NamedParameters>
-void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, const std::size_t target,
-                                const Spectral_edge_collapse_options& options, const NamedParameters& np,
-                                Spectral_edge_collapse_result& result)
+void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
+                                const std::size_t target,
+                                const Spectral_edge_collapse_options& options,
+                                const NamedParameters& np, Spectral_edge_collapse_result& result)
 {
   auto& state = policies.state();
   const std::size_t n = state.number_of_vertices();
@@ -149,15 +154,18 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies, co
     return;
   Real_timer timer;
   timer.start();
-  // One collapse at least is left to the loop: a run that is cancelled before it ends above the target.
-  const std::size_t end = (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
+  // One collapse at least is left to the loop: a run that is cancelled before it ends above the
+  // target.
+  const std::size_t end =
+      (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
   state.collapse_by_others(
       [&] { return collapse_by_quadrics(mesh, n, end, state.core().fields().kept, options, np); });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();
 }
 
-/// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop `np`.
+/// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop
+/// `np`.
 template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
 void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
                         const Spectral_edge_collapse_options& given,
@@ -181,7 +189,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->number_of_relocation_signals = given.relocate ? 64 : 0;
     narrowed->number_of_eigenvectors =
         Eigen::Index(weights_for_target(target, K, number_of_components(mesh, np)).sum());
-  } else if(given.signals.size() == 0 && given.weights.size() == 0 && Eigen::Index(target / 3) < K) {
+  } else if(given.signals.size() == 0 && given.weights.size() == 0 &&
+            Eigen::Index(target / 3) < K) {
     narrowed = given;
     narrowed->weights = weights_for_target(target, K, number_of_components(mesh, np));
   }
@@ -189,16 +198,19 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
-  result.signals = std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
-  if(const auto pairs = policies.eigenpairs();
-     pairs && !pairs->complete && pairs->residuals.size() != 0 && pairs->residuals.maxCoeff() > 1e-3)
+  result.signals =
+      std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
+  if(const auto pairs = policies.eigenpairs(); pairs && !pairs->complete &&
+                                               pairs->residuals.size() != 0 &&
+                                               pairs->residuals.maxCoeff() > 1e-3)
     result.warnings.push_back(
         "The eigenpairs of the input did not reach their tolerance, the largest residual is " +
         std::to_string(pairs->residuals.maxCoeff()) +
         ": its triangles are of too different sizes for doubles; remesh it.");
   if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
     result.warnings.push_back(
-        "The target of " + std::to_string(target) + " vertices is less than 3 K = " + std::to_string(3 * K) +
+        "The target of " + std::to_string(target) +
+        " vertices is less than 3 K = " + std::to_string(3 * K) +
         "; the upper part of the spectrum will not be preserved (section 4.3 of the paper)" +
         (Eigen::Index(result.signals) < K
              ? ", and the metric saw the first " + std::to_string(result.signals) + " eigenvectors."
@@ -208,15 +220,16 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   Real_timer timer;
   timer.start();
   Stop_reason end = Stop_reason::queue_exhausted;
-  // An edge that was given up because of another sheet is not asked for again when that sheet changes: once more, while that
-  // removes a hundredth of the vertices.
+  // An edge that was given up because of another sheet is not asked for again when that sheet
+  // changes: once more, while that removes a hundredth of the vertices.
   bool again = true;
   try {
     for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
         before = state.number_of_vertices()) {
       end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
       again = end == Stop_reason::queue_exhausted && state.core().number_of_crossings() != 0 &&
-              state.number_of_vertices() > target && state.number_of_vertices() < before - before / 100;
+              state.number_of_vertices() > target &&
+              state.number_of_vertices() < before - before / 100;
     }
   } catch(const Spectral_geometry::Cancelled&) {
     if(state.log().points().empty())
@@ -255,7 +268,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   Spectral_post_process(mesh, policies, given, np, result).run(first);
 }
 
-/// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to return what was done.
+/// The rest of a run whose first stage has been done. Once the mesh has changed, to cancel is to
+/// return what was done.
 template <class TriangleMesh, class NamedParameters>
 void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                            Spectral_edge_collapse_options options, const NamedParameters& np,
@@ -264,7 +278,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  // The vertices to keep may go on under other handles now: they are known by index, no longer by the user's map.
+  // The vertices to keep may go on under other handles now: they are known by index, no longer by
+  // the user's map.
   options.kept_vertices = first.kept_vertices;
   if(options.coefficients.rows() != 0)
     options.coefficients = first.log.forest().restriction(first.slots) * options.coefficients;
@@ -289,14 +304,16 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
 /// @{
 
 /*!
- * Simplifies a mesh to a number of vertices while its Laplace-Beltrami spectrum stays what it was: the one-call
- * form of `Spectral_policies` with `edge_collapse()` and `Spectral_stop_predicate`.
+ * Simplifies a mesh to a number of vertices while its Laplace-Beltrami spectrum stays what it was:
+ * the one-call form of `Spectral_policies` with `edge_collapse()` and `Spectral_stop_predicate`.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
- * @param number_of_vertices the target N, from 1 to the number of vertices of the mesh. At least 3 K is advised
- *        (section 4.3 of the paper); a smaller one is warned of in the result, unless an error bound is given as well
+ * @param number_of_vertices the target N, from 1 to the number of vertices of the mesh. At least 3
+ *        K is advised (section 4.3 of the paper); a smaller one is warned of in the result, unless
+ *        an error bound is given as well
  * @param options see `Spectral_edge_collapse_options`
- * @param np an optional sequence of named parameters among those below, which are those of `edge_collapse()` and one more
+ * @param np an optional sequence of named parameters among those below, which are those of
+ * `edge_collapse()` and one more
  *
  * \cgalNamedParamsBegin
  *   \cgalParamNBegin{vertex_point_map}
@@ -310,7 +327,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *     \cgalParamDefault{that of the points}
  *   \cgalParamNEnd
  *   \cgalParamNBegin{edge_is_constrained_map}
- *     \cgalParamDescription{edges that stay as they are; the placement is then wrapped in `Constrained_placement`}
+ *     \cgalParamDescription{edges that stay as they are; the placement is then wrapped in
+ *     `Constrained_placement`}
  *     \cgalParamType{a model of `ReadWritePropertyMap` from edges to `bool`}
  *     \cgalParamDefault{no edge is constrained}
  *   \cgalParamNEnd
@@ -331,26 +349,32 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  *   \cgalParamNEnd
  * \cgalNamedParamsEnd
  *
- * Quadrics collapse arrays and know neither filter nor visitor: with one of them `Spectral_edge_collapse_options::pre_simplify` is
- * refused, and `quadrics_above` passed over. The other named parameters of `edge_collapse()` do not compile: cost, placement and
- * order are those of the metric, and indices are its own.
+ * Quadrics collapse arrays and know neither filter nor visitor: with one of them
+ * `Spectral_edge_collapse_options::pre_simplify` is refused, and `quadrics_above` passed over. The
+ * other named parameters of `edge_collapse()` do not compile: cost, placement and order are those
+ * of the metric, and indices are its own.
  *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
  *
- * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is changed
+ * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is
+ * changed
  * @throws std::runtime_error when the eigenpairs do not converge, before anything is changed. With
- *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the same is thrown where it has left a
- *         mesh that the spectral cost refuses (a needle, a vertex without area)
- * @throws Spectral_geometry::Cancelled when the run is cancelled before the mesh changes, while collapses by quadrics, eigenpairs or
- *         first costs are computed; later a cancelled run returns what was done
+ *         `Spectral_edge_collapse_options::pre_simplify` the first stage has been done then; the
+ *         same is thrown where it has left a mesh that the spectral cost refuses (a needle, a
+ *         vertex without area)
+ * @throws Spectral_geometry::Cancelled when the run is cancelled before the mesh changes, while
+ *         collapses by quadrics, eigenpairs or first costs are computed; later a cancelled run
+ *         returns what was done
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
-Spectral_edge_collapse_result spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                                                     const Spectral_edge_collapse_options& options = {},
-                                                     const NamedParameters& np = parameters::default_values())
+Spectral_edge_collapse_result
+spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
+                       const Spectral_edge_collapse_options& options = {},
+                       const NamedParameters& np = parameters::default_values())
 {
-  static_assert(!internal::overrides_policies<NamedParameters>,
-                "spectral_edge_collapse() takes no get_cost, get_placement, use_relaxed_order or index map");
+  static_assert(
+      !internal::overrides_policies<NamedParameters>,
+      "spectral_edge_collapse() takes no get_cost, get_placement, use_relaxed_order or index map");
   Real_timer timer;
   timer.start();
   Spectral_edge_collapse_result result;

@@ -34,6 +34,7 @@ int main(int argc, char* argv[])
   const Eigen::VectorXd distance = SG::squared_biharmonic_distance(pairs, 0).array().sqrt();
   Eigen::Index farthest;
   distance.maxCoeff(&farthest);
-  std::cout << "vertex " << farthest << " is the farthest from vertex 0, at " << distance[farthest] << '\n';
+  std::cout << "vertex " << farthest << " is the farthest from vertex 0, at " << distance[farthest]
+            << '\n';
   return EXIT_SUCCESS;
 }

@@ -25,8 +25,8 @@ std::string in_words(const Part& part)
     return part();
 }
 
-/// Throws `std::invalid_argument` with the sentence that the parts make: strings, numbers as `std::to_string()` writes them, and names
-/// as below, which nobody makes before they are needed.
+/// Throws `std::invalid_argument` with the sentence that the parts make: strings, numbers as
+/// `std::to_string()` writes them, and names as below, which nobody makes before they are needed.
 template <class... Part>
 [[noreturn]] void refuse(const Part... parts)
 {
@@ -60,15 +60,18 @@ auto size_name(const Matrix& M)
 
 /// Signals on a fine mesh of n vertices and their Laplacians. `who` begins the sentence.
 template <class Matrix>
-void require_signals(const char* const who, const Matrix& F, const Matrix& Z, const std::ptrdiff_t n)
+void require_signals(const char* const who, const Matrix& F, const Matrix& Z,
+                     const std::ptrdiff_t n)
 {
-  require(F.rows() == n && Z.rows() == n && Z.cols() == F.cols() && F.cols() > 0, who, "F is ", size_name(F),
-          " and Z ", size_name(Z), "; pass two matrices with one row for each of the ", n,
+  require(F.rows() == n && Z.rows() == n && Z.cols() == F.cols() && F.cols() > 0, who, "F is ",
+          size_name(F), " and Z ", size_name(Z),
+          "; pass two matrices with one row for each of the ", n,
           " fine vertices and one column for each signal.");
 }
 
 /// One size of matrices from which functional maps are made, or of such a map.
-inline void check_dimension(const char* const what, const std::ptrdiff_t found, const std::ptrdiff_t wanted)
+inline void check_dimension(const char* const what, const std::ptrdiff_t found,
+                            const std::ptrdiff_t wanted)
 {
   require(found == wanted, "functional map: ", what, " is ", found, " where ", wanted,
           " is needed, pass matrices that belong together.");

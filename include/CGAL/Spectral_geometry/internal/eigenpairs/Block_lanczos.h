@@ -24,9 +24,10 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-// The number of eigenvalues below a gap minus the number of those found. The gap is that below the K-th value and the group that it belongs
-// to: copies of values(K-1) itself need not be counted, any K of them are right. Factorisations without pivoting can be wrong next to an
-// eigenvalue of a leading block, which a shift elsewhere in the gap avoids; -1 when none does.
+// The number of eigenvalues below a gap minus the number of those found. The gap is that below the
+// K-th value and the group that it belongs to: copies of values(K-1) itself need not be counted,
+// any K of them are right. Factorisations without pivoting can be wrong next to an eigenvalue of a
+// leading block, which a shift elsewhere in the gap avoids; -1 when none does.
 inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& values, int threads)
 {
   const double s = problem.shift();
@@ -47,16 +48,18 @@ inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& 
 
 /// Block Lanczos with shift and invert, thick restart and partial reorthogonalisation.
 ///
-/// The operator is S = s (L - sigma B)^-1 B with eigenvalues theta = s / (lambda - sigma), the inner product s B, with the mean
-/// spacing s of the eigenvalues. Eight vectors at a time share each access to the factor and to the basis, and find up to eight copies of a multiple
+/// The operator is S = s (L - sigma B)^-1 B with eigenvalues theta = s / (lambda - sigma), the
+/// inner product s B, with the mean spacing s of the eigenvalues. Eight vectors at a time share
+/// each access to the factor and to the basis, and find up to eight copies of a multiple
 /// eigenvalue. S V = V T + W E^T, where T is block tridiagonal (with an arrow after a restart).
 ///
-/// The shift sigma lies inside of the wanted spectrum where it can: the eigenvalues below it, which the inertia of
-/// L - sigma B counts, have negative theta, and the Krylov space sees both ends. K = 100 pairs to 1e-8 take 2.4 K vectors in
-/// place of 3.4 K. Otherwise sigma = -s, and no theta is negative.
-/// See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
+/// The shift sigma lies inside of the wanted spectrum where it can: the eigenvalues below it, which
+/// the inertia of L - sigma B counts, have negative theta, and the Krylov space sees both ends. K =
+/// 100 pairs to 1e-8 take 2.4 K vectors in place of 3.4 K. Otherwise sigma = -s, and no theta is
+/// negative. See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
 ///
-/// Small matrices are MatrixXd, and products have such factors, not expressions: each further type is compiled by itself.
+/// Small matrices are MatrixXd, and products have such factors, not expressions: each further type
+/// is compiled by itself.
 class Block_lanczos
 {
 public:
@@ -72,8 +75,8 @@ public:
     , m_BW(problem.size())
     , m_BV(problem.size())
   {
-    // Without restart 3.4 K vectors reach 1e-8, or 2.4 K with the shift inside. A larger space costs memory, a smaller one
-    // more solves.
+    // Without restart 3.4 K vectors reach 1e-8, or 2.4 K with the shift inside. A larger space
+    // costs memory, a smaller one more solves.
     const Index standard = (std::max)(K * 36 / 10, K + 120);
     const Index limit = options.maximum_vectors > 0 ? options.maximum_vectors : standard;
     m_maximum_panels = (std::min)(limit, problem.size() - 2 * panel_width) / panel_width;
@@ -121,7 +124,8 @@ private:
     m_factorised = m_sigma;
   }
 
-  // Moves the shift until about six tenths of the wanted eigenvalues are below it. False where that cannot be done.
+  // Moves the shift until about six tenths of the wanted eigenvalues are below it. False where that
+  // cannot be done.
   bool shift_inside()
   {
     for(int attempt = 0; attempt < 5; ++attempt) {
@@ -131,7 +135,9 @@ private:
       const bool good = place > 0.4 && place < 0.75;
       if(good && solves_well())
         return true;
-      m_sigma *= good || m_below < 0 ? 1.02 : (std::min)(32., (std::max)(1. / 32., place_of_shift / place));
+      m_sigma *= good || m_below < 0
+                     ? 1.02
+                     : (std::min)(32., (std::max)(1. / 32., place_of_shift / place));
     }
     return false;
   }
@@ -148,7 +154,8 @@ private:
     }
   }
 
-  // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but two or three are to be there.
+  // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but
+  // two or three are to be there.
   bool solves_well()
   {
     const Eigen::SparseMatrix<double> A = m_problem.shifted(m_sigma);
@@ -192,7 +199,8 @@ private:
     ++m_panels;
   }
 
-  // One step: applies S to the last panel. T grows by its products with the basis, m_W becomes the next panel.
+  // One step: applies S to the last panel. T grows by its products with the basis, m_W becomes the
+  // next panel.
   void step()
   {
     const Index j = m_panels - 1, row = j * panel_width;
@@ -207,9 +215,10 @@ private:
     m_after_restart = false;
     m_T.block(row, row, panel_width, panel_width) = 0.5 * (A + A.transpose());
 
-    // Rounding errors along converged vectors grow by theta in each step, divided by the smallest singular
-    // value of the link. When that has come to a bound well below the square root of the machine precision, where T would
-    // lose digits (Simon 1984), the last two panels are cleaned in one pass over the basis. Every third or fourth step does.
+    // Rounding errors along converged vectors grow by theta in each step, divided by the smallest
+    // singular value of the link. When that has come to a bound well below the square root of the
+    // machine precision, where T would lose digits (Simon 1984), the last two panels are cleaned in
+    // one pass over the basis. Every third or fourth step does.
     if(m_loss > (m_inside ? 1e-12 : 1e-11) || m_locked) {
       orthogonalise(m_panels - 1);
       m_loss = std::numeric_limits<double>::epsilon();
@@ -229,7 +238,8 @@ private:
     push_panel();
   }
 
-  // Makes the next panel orthogonal to the basis, and in the same pass over it the last panel to so many of those before it.
+  // Makes the next panel orthogonal to the basis, and in the same pass over it the last panel to so
+  // many of those before it.
   void orthogonalise(Index before_last = 0)
   {
     if(m_panels == 0)
@@ -249,7 +259,8 @@ private:
     for(int pass = 0; pass < 2; ++pass) {
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       const Eigen::MatrixXd R = llt.matrixU();
-      if(llt.info() != Eigen::Success || !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
+      if(llt.info() != Eigen::Success ||
+         !(R.diagonal().minCoeff() > 1e-7 * R.diagonal().maxCoeff()) ||
          !(R.diagonal().minCoeff() > 1e-12)) {
         reveal_rank();
         return;
@@ -259,9 +270,9 @@ private:
     }
   }
 
-  // Gram-Schmidt where the space is (nearly) invariant along some directions: the longest column first, each of its true length,
-  // which one Gram matrix does not show below 1e-8 of the longest. What is left of the others is rounding: random vectors
-  // without a link take their places.
+  // Gram-Schmidt where the space is (nearly) invariant along some directions: the longest column
+  // first, each of its true length, which one Gram matrix does not show below 1e-8 of the longest.
+  // What is left of the others is rounding: random vectors without a link take their places.
   void reveal_rank()
   {
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(panel_width, panel_width);
@@ -269,7 +280,8 @@ private:
       Eigen::MatrixXd G = gram(), exchange = identity, step = identity, back = identity;
       const Index behind = panel_width - 1 - m_rank;
       Index longest = 0;
-      const double length = std::sqrt((std::max)(0., G.diagonal().tail(behind + 1).maxCoeff(&longest)));
+      const double length =
+          std::sqrt((std::max)(0., G.diagonal().tail(behind + 1).maxCoeff(&longest)));
       if(!(length > rounding * m_norm))
         break;
       exchange.col(m_rank).swap(exchange.col(m_rank + longest));
@@ -291,7 +303,8 @@ private:
     m_loss = 1.; // let the next step reorthogonalise
   }
 
-  // Those beyond the rank. The kept ones come first: were they changed by the others, their link would be another's.
+  // Those beyond the rank. The kept ones come first: were they changed by the others, their link
+  // would be another's.
   void replace_columns()
   {
     for(Index i = 0; i < m_space.size(); ++i)
@@ -336,9 +349,10 @@ private:
 
   // --- Ritz pairs ---
 
-  // Whether a group of equal values is so large that a block of eight start vectors may have missed copies. Fewer copies than
-  // start vectors are found with probability one; half of that leaves a margin for those that converge late. Values within the
-  // tolerance of each other are equal to the iteration: a mixture of their vectors passes as converged.
+  // Whether a group of equal values is so large that a block of eight start vectors may have missed
+  // copies. Fewer copies than start vectors are found with probability one; half of that leaves a
+  // margin for those that converge late. Values within the tolerance of each other are equal to the
+  // iteration: a mixture of their vectors passes as converged.
   bool may_be_incomplete(const Eigen::VectorXd& values) const
   {
     const double width = (std::max)(1e-5, 10. * m_options.tolerance);
@@ -351,7 +365,8 @@ private:
     return false;
   }
 
-  // Values that are off by more than the width of a gap cannot be counted; their errors go with the square of the tolerance.
+  // Values that are off by more than the width of a gap cannot be counted; their errors go with the
+  // square of the tolerance.
   bool is_to_be_counted()
   {
     m_complete = m_options.verify && m_options.tolerance <= 1e-3;
@@ -367,9 +382,10 @@ private:
     return count;
   }
 
-  // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues agrees. Each round finds
-  // eight more copies. T knows of no link to the Ritz vectors: they must have converged, which those beyond the first K
-  // have not, and what the tolerance leaves of a link is taken off in each step.
+  // Starts again from Ritz vectors and eight more random vectors, until a count of the eigenvalues
+  // agrees. Each round finds eight more copies. T knows of no link to the Ritz vectors: they must
+  // have converged, which those beyond the first K have not, and what the tolerance leaves of a
+  // link is taken off in each step.
   void find_missing()
   {
     m_locked = true;
@@ -382,8 +398,9 @@ private:
     }
   }
 
-  // Extends the space until the K wanted Ritz values have converged. False where the shift is inside, and next to an eigenvalue, where one
-  // vector drowns the others, or the space is full without all values below the shift: then there are more copies of one than a block finds.
+  // Extends the space until the K wanted Ritz values have converged. False where the shift is
+  // inside, and next to an eigenvalue, where one vector drowns the others, or the space is full
+  // without all values below the shift: then there are more copies of one than a block finds.
   bool iterate(Index next_check)
   {
     Index last_dimension = 0;
@@ -392,13 +409,15 @@ private:
       step();
       if(m_norm > largest_norm)
         return false;
-      m_problem.report(0.85 * (std::min)(1., double(dimension()) / ((m_inside ? 2.4 : 3.4) * m_K + 40.)));
+      m_problem.report(0.85 *
+                       (std::min)(1., double(dimension()) / ((m_inside ? 2.4 : 3.4) * m_K + 40.)));
       const bool full = m_panels == m_maximum_panels, invariant = m_rank == 0 && dimension() >= m_K;
       if(full || invariant || dimension() >= next_check) {
         worst = solve_projected();
         if(worst <= m_options.tolerance)
           return true;
-        next_check = dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
+        next_check =
+            dimension() + distance_to_next_check(worst, last_worst, dimension() - last_dimension);
         last_worst = worst;
         last_dimension = dimension();
       }
@@ -416,8 +435,8 @@ private:
     }
   }
 
-  // Residuals fall geometrically, faster and faster: half of the way that the last two suggest. A check costs as much as
-  // two steps.
+  // Residuals fall geometrically, faster and faster: half of the way that the last two suggest. A
+  // check costs as much as two steps.
   Index distance_to_next_check(double worst, double last_worst, Index distance) const
   {
     const double rate = std::log(last_worst / worst) / double(distance);
@@ -427,8 +446,8 @@ private:
     return rounded_up(static_cast<Index>((std::min)(way, 6. * panel_width)) + 1);
   }
 
-  // Eigenpairs of T: the wanted ones in the order of their lambda, then those with the largest |theta|. Returns
-  // the largest weighted residual of the wanted ones.
+  // Eigenpairs of T: the wanted ones in the order of their lambda, then those with the largest
+  // |theta|. Returns the largest weighted residual of the wanted ones.
   double solve_projected()
   {
     const Index m = dimension();
@@ -449,15 +468,16 @@ private:
       m_Y.col(k) = solver.eigenvectors().col(from);
       negative ? ++low : --high;
     }
-    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, m_K), link = m_link * bottom;
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, m_K),
+                          link = m_link * bottom;
     double worst = 0.;
     for(Index k = 0; k < m_K; ++k)
       worst = (std::max)(worst, link.col(k).norm() * weight_of_residual(m_theta(k)));
     return worst;
   }
 
-  // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much more: those next to 0 are as good
-  // as the others where residuals are divided by lambda + scale.
+  // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much
+  // more: those next to 0 are as good as the others where residuals are divided by lambda + scale.
   double weight_of_residual(double theta) const
   {
     const double distance = 1. / std::abs(theta), lambda = m_sigma + m_problem.shift() / theta;
@@ -477,8 +497,10 @@ private:
   // Thick restart (Wu and Simon 2000): S X = X Theta + W E_bottom.
   void restart()
   {
-    const Index m = dimension(), kept = (std::min)(rounded_up(m_K + 2 * panel_width), m - panel_width);
-    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept), arrow = m_link * bottom;
+    const Index m = dimension(),
+                kept = (std::min)(rounded_up(m_K + 2 * panel_width), m - panel_width);
+    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept),
+                          arrow = m_link * bottom;
     compress(kept);
     m_T.block(kept, 0, panel_width, kept) = arrow;
     m_T.block(0, kept, kept, panel_width) = arrow.transpose();
@@ -494,15 +516,17 @@ private:
 
   Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
 
-  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost. Each becomes S X / theta = X + W link / theta
-  // (Ericsson and Ruhe 1980): L would enlarge what X has of the highest modes.
+  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
+  // Each becomes S X / theta = X + W link / theta (Ericsson and Ruhe 1980): L would enlarge what X
+  // has of the highest modes.
   Eigenpairs pairs()
   {
     const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
     Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
     make_orthonormal(C);
     compress(rounded_up(m_K));
-    m_basis.erase(m_basis.begin() + m_panels, m_basis.end()); // before memory for the result is taken
+    m_basis.erase(m_basis.begin() + m_panels,
+                  m_basis.end()); // before memory for the result is taken
     for(Index k = 0; k < m_K; k += panel_width) {
       const Index columns = (std::min)(m_K - k, Index(panel_width));
       Eigen::MatrixXd minus_C = Eigen::MatrixXd::Zero(panel_width, panel_width);
@@ -525,15 +549,18 @@ private:
     const Eigen::MatrixXd transposed = C.transpose(), product = C * transposed;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product);
     const Eigen::VectorXd root = (1. + solver.eigenvalues().cwiseMax(0.).array()).sqrt();
-    const Eigen::VectorXd f = (root.array() * (1. + root.array())).inverse(); // (1 - 1 / root) / (root^2 - 1)
+    const Eigen::VectorXd f =
+        (root.array() * (1. + root.array())).inverse(); // (1 - 1 / root) / (root^2 - 1)
     const Eigen::MatrixXd Q = solver.eigenvectors(), FC = Q * f.asDiagonal() * Q.transpose() * C;
     m_Y.leftCols(m_K) -= m_Y.leftCols(m_K) * transposed * FC;
     C -= product * FC;
   }
 
-  static constexpr double place_of_shift = 0.6; // among the wanted eigenvalues: with it the space is smallest
-  static constexpr double rounding = 1e-12;     // of S
-  static constexpr double largest_norm = 1e4;   // of S, 1e-4 of a spacing between the shift and an eigenvalue
+  static constexpr double place_of_shift =
+      0.6; // among the wanted eigenvalues: with it the space is smallest
+  static constexpr double rounding = 1e-12; // of S
+  static constexpr double largest_norm =
+      1e4; // of S, 1e-4 of a spacing between the shift and an eigenvalue
 
   const Eigen_problem& m_problem;
   Index m_K;
@@ -552,10 +579,11 @@ private:
   Eigen::MatrixXd m_link; // R of the next panel
   Eigen::MatrixXd m_T;    // projected operator
   Eigen::VectorXd m_theta;
-  Eigen::MatrixXd m_Y;        // its eigenpairs, the wanted first
-  double m_norm = 1.;         // of S: 1 with the shift below, otherwise as far as T shows it
-  double m_loss = 1.;         // estimated loss of orthogonality
-  Index m_rank = panel_width; // columns of the next panel that have a link; 0 where the space is invariant
+  Eigen::MatrixXd m_Y; // its eigenpairs, the wanted first
+  double m_norm = 1.;  // of S: 1 with the shift below, otherwise as far as T shows it
+  double m_loss = 1.;  // estimated loss of orthogonality
+  Index m_rank =
+      panel_width; // columns of the next panel that have a link; 0 where the space is invariant
   bool m_after_restart = false;
   bool m_complete = false;
   bool m_locked = false; // the basis begins with Ritz vectors whose link has been dropped

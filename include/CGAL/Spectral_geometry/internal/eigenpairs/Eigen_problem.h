@@ -35,7 +35,8 @@ inline double median(Eigen::VectorXd numbers)
   return begin == end ? 0. : *middle;
 }
 
-/// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the median leaves needles aside.
+/// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the
+/// median leaves needles aside.
 inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
 {
   const Eigen::VectorXd diagonal = L.diagonal();
@@ -43,8 +44,8 @@ inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)
   return middle > 0. ? middle / std::sqrt(12.) : 1.;
 }
 
-/// The mean spacing of eigenvalues by Weyl's law, 4 pi / area, in the unit of L. The shapes of triangles explain a factor of a
-/// thousand, beyond that it is a unit.
+/// The mean spacing of eigenvalues by Weyl's law, 4 pi / area, in the unit of L. The shapes of
+/// triangles explain a factor of a thousand, beyond that it is a unit.
 inline double pencil_shift(const Laplace_operator& op)
 {
   const double unit = unit_of_stiffness(op.L);
@@ -69,12 +70,15 @@ struct Not_converged : std::runtime_error
 class Eigen_problem
 {
 public:
-  explicit Eigen_problem(const Laplace_operator& op, const std::function<bool(double)>& progress = {})
+  explicit Eigen_problem(const Laplace_operator& op,
+                         const std::function<bool(double)>& progress = {})
     : Eigen_problem(op, pencil_shift(op), progress)
   {}
 
-  /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole, whose shift is `scale`.
-  Eigen_problem(const Laplace_operator& op, const double scale, const std::function<bool(double)>& progress)
+  /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole,
+  /// whose shift is `scale`.
+  Eigen_problem(const Laplace_operator& op, const double scale,
+                const std::function<bool(double)>& progress)
     : m_op(op)
     , m_progress(progress)
     , m_shift(pencil_shift(op))
@@ -90,12 +94,13 @@ public:
             "Eigenpairs: every mass must be positive and finite.");
     // Where nothing was taken out of B.
     require(m_op.boundary != Boundary_condition::neumann ||
-                ((B() * Eigen::VectorXd::Ones(n) - m_op.mass).cwiseAbs().array() <= 1e-6 * m_op.mass.array())
+                ((B() * Eigen::VectorXd::Ones(n) - m_op.mass).cwiseAbs().array() <=
+                 1e-6 * m_op.mass.array())
                     .all(),
             "Eigenpairs: the mass vector must hold the row sums of B.");
     require(K >= 1 && K <= n,
-            "Eigenpairs: the number of eigenvectors must lie between 1 and the number of vertices ", n,
-            ", but is ", K, ".");
+            "Eigenpairs: the number of eigenvectors must lie between 1 and the number of vertices ",
+            n, ", but is ", K, ".");
     require(K <= coupled, "Eigenpairs: ", K, " eigenvectors are asked for, but only ", coupled,
             " vertices are off the border, where functions vanish; ask for fewer.");
   }
@@ -123,13 +128,18 @@ public:
       throw Cancelled();
   }
 
-  Eigen::VectorXd residuals(const Eigenpairs& pairs) const { return residuals(pairs, 0, pairs.size()); }
+  Eigen::VectorXd residuals(const Eigenpairs& pairs) const
+  {
+    return residuals(pairs, 0, pairs.size());
+  }
 
   // Of K pairs.
-  Eigen::VectorXd residuals(const Eigenpairs& pairs, const Eigen::Index first, const Eigen::Index K) const
+  Eigen::VectorXd residuals(const Eigenpairs& pairs, const Eigen::Index first,
+                            const Eigen::Index K) const
   {
     // Eight columns by rows: faster than one by one, and no second n x K matrix.
-    using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
+    using Block =
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
     Eigen::VectorXd result(K);
     for(Eigen::Index k = 0; k < K; k += 8) {
       const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
@@ -151,9 +161,11 @@ public:
   double rounding(const Eigenpairs& pairs, const Eigen::Index k) const
   {
     const Eigen::VectorXd phi = pairs.vectors.col(k).cwiseAbs();
-    const Eigen::VectorXd terms = L().cwiseAbs() * phi + std::abs(pairs.values(k)) * (B().cwiseAbs() * phi);
+    const Eigen::VectorXd terms =
+        L().cwiseAbs() * phi + std::abs(pairs.values(k)) * (B().cwiseAbs() * phi);
     return std::numeric_limits<double>::epsilon() *
-           std::sqrt(terms.cwiseAbs2().cwiseQuotient(m_op.mass).sum()) / (pairs.values(k) + m_scale);
+           std::sqrt(terms.cwiseAbs2().cwiseQuotient(m_op.mass).sum()) /
+           (pairs.values(k) + m_scale);
   }
 
 private:
@@ -171,7 +183,8 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
     A.makeCompressed();
     return number_of_negative_eigenvalues(A, threads);
   };
-  require(negative(problem.B()) == 0, "Eigenpairs: B is not positive definite; pass a mass matrix.");
+  require(negative(problem.B()) == 0,
+          "Eigenpairs: B is not positive definite; pass a mass matrix.");
   require(negative(s * problem.B() - problem.L()) != 0,
           "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
   const Eigen::Index count = negative(problem.shifted(-1e-8 * s));
@@ -179,8 +192,8 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
           " of its eigenvalues are negative; add a multiple of B to it.");
 }
 
-// A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of antisymmetric vectors
-// vanish; an entry of exactly 0.618... times the largest is not structural.
+// A sign must not hang on a tie. Largest entries tie on symmetric shapes, and all odd moments of
+// antisymmetric vectors vanish; an entry of exactly 0.618... times the largest is not structural.
 inline void fix_signs(Eigen::MatrixXd& vectors)
 {
   for(Eigen::Index k = 0; k < vectors.cols(); ++k) {

@@ -17,12 +17,13 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-// Coefficients with respect to several panels: 8 rows for each of them. Of one they are an Eigen::MatrixXd outside of this class: its
-// products and factorisations are compiled for others, too, and a row-major type of eight columns would have its own.
+// Coefficients with respect to several panels: 8 rows for each of them. Of one they are an
+// Eigen::MatrixXd outside of this class: its products and factorisations are compiled for others,
+// too, and a row-major type of eight columns would have its own.
 using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>;
 
-/// Linear algebra on panels in the inner product of a mass matrix. Sums run over a fixed number of row ranges,
-/// whatever the number of threads is, so that results do not depend on it.
+/// Linear algebra on panels in the inner product of a mass matrix. Sums run over a fixed number of
+/// row ranges, whatever the number of threads is, so that results do not depend on it.
 class Panel_space
 {
 public:
@@ -37,12 +38,13 @@ public:
   void multiply_mass(const Panel& x, Panel& y) const
   {
     for_each_block(size(), [&](Index first, Index rows, int) {
-      multiply(m_mass.outerIndexPtr(), m_mass.innerIndexPtr(), m_mass.valuePtr(), x.row(0), y.row(0), first,
-               first + rows);
+      multiply(m_mass.outerIndexPtr(), m_mass.innerIndexPtr(), m_mass.valuePtr(), x.row(0),
+               y.row(0), first, first + rows);
     });
   }
 
-  // H = basis^T W and H2 = basis^T W2, of the first count and count2 <= count panels, in one pass over the basis
+  // H = basis^T W and H2 = basis^T W2, of the first count and count2 <= count panels, in one pass
+  // over the basis
   void products(const Panel* basis, Index count, const Panel& W, Coefficients& H, Index count2,
                 const Panel& W2, Coefficients& H2) const
   {
@@ -52,7 +54,8 @@ public:
       for(Index p = 0; p < count; ++p) {
         gram(basis[p].row(first), W.row(first), rows, parts[range].row(p * panel_width).data());
         if(p < count2)
-          gram(basis[p].row(first), W2.row(first), rows, parts[range].row((count + p) * panel_width).data());
+          gram(basis[p].row(first), W2.row(first), rows,
+               parts[range].row((count + p) * panel_width).data());
       }
     });
     for(int range = 1; range < number_of_ranges; ++range)
@@ -62,14 +65,15 @@ public:
   }
 
   // W -= basis H and W2 -= basis H2
-  void subtract(const Panel* basis, Index count, Panel& W, const Coefficients& H, Index count2, Panel& W2,
-                const Coefficients& H2) const
+  void subtract(const Panel* basis, Index count, Panel& W, const Coefficients& H, Index count2,
+                Panel& W2, const Coefficients& H2) const
   {
     for_each_block(rows_in_cache, [&](Index first, Index rows, int) {
       for(Index p = 0; p < count; ++p) {
         subtract_product(W.row(first), basis[p].row(first), rows, H.row(p * panel_width).data());
         if(p < count2)
-          subtract_product(W2.row(first), basis[p].row(first), rows, H2.row(p * panel_width).data());
+          subtract_product(W2.row(first), basis[p].row(first), rows,
+                           H2.row(p * panel_width).data());
       }
     });
   }
@@ -83,7 +87,10 @@ public:
   }
 
   // W -= P H
-  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& H) const { subtract(&P, 1, W, H, 0, W, {}); }
+  void subtract(Panel& W, const Panel& P, const Eigen::MatrixXd& H) const
+  {
+    subtract(&P, 1, W, H, 0, W, {});
+  }
 
   // W = W T
   void transform(Panel& W, const Eigen::MatrixXd& T) const
@@ -104,20 +111,22 @@ public:
     std::vector<Coefficients> minus_Y;
     for(Index q = 0; q < new_count; ++q)
       minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
-    for_each_block(64, [&](Index first, Index rows, int) { // all panels' rows in the second level cache
-      const Index entries = rows * panel_width;
-      std::vector<double> result(new_count * entries);
-      for(Index q = 0; q < new_count; ++q)
-        for(Index p = 0; p < count; ++p)
-          subtract_product(&result[q * entries], basis[p].row(first), rows,
-                           minus_Y[q].row(p * panel_width).data());
-      for(Index q = 0; q < new_count; ++q)
-        std::copy_n(&result[q * entries], entries, basis[q].row(first));
-    });
+    for_each_block(64,
+                   [&](Index first, Index rows, int) { // all panels' rows in the second level cache
+                     const Index entries = rows * panel_width;
+                     std::vector<double> result(new_count * entries);
+                     for(Index q = 0; q < new_count; ++q)
+                       for(Index p = 0; p < count; ++p)
+                         subtract_product(&result[q * entries], basis[p].row(first), rows,
+                                          minus_Y[q].row(p * panel_width).data());
+                     for(Index q = 0; q < new_count; ++q)
+                       std::copy_n(&result[q * entries], entries, basis[q].row(first));
+                   });
   }
 
 private:
-  // Calls f(first row, number of rows, range) for blocks of so many rows at most, those of a range in order.
+  // Calls f(first row, number of rows, range) for blocks of so many rows at most, those of a range
+  // in order.
   template <class Function>
   void for_each_block(const Index rows_at_once, const Function& f) const
   {

@@ -46,8 +46,8 @@ struct Pair_range
   Eigen::Index first = 0, count = 0;
 };
 
-/// Sets the residuals of a range, cuts what rounding has made negative, and returns the range of those pairs that have not the accuracy that
-/// they were to have, and that doubles can have.
+/// Sets the residuals of a range, cuts what rounding has made negative, and returns the range of
+/// those pairs that have not the accuracy that they were to have, and that doubles can have.
 inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs_options& options,
                                   const Pair_range range, Eigenpairs& pairs)
 {
@@ -56,20 +56,23 @@ inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs
   residuals = problem.residuals(pairs, range.first, range.count);
   if(-pairs.values(0) > 10. * (std::max)(options.tolerance, pairs.residuals(0)) * problem.scale())
     refuse_indefinite(problem, options.threads);
-  const Eigen::Index negative = (pairs.values.segment(range.first, range.count).array() < 0.).count();
+  const Eigen::Index negative =
+      (pairs.values.segment(range.first, range.count).array() < 0.).count();
   pairs.values = pairs.values.cwiseMax(0.).eval();
   residuals.head(negative) = problem.residuals(pairs, range.first, negative);
   Pair_range failed;
   for(Eigen::Index k = range.first; k < range.first + range.count; ++k)
-    if(!(pairs.residuals(k) <= tolerance || pairs.residuals(k) <= 100. * problem.rounding(pairs, k))) {
+    if(!(pairs.residuals(k) <= tolerance ||
+         pairs.residuals(k) <= 100. * problem.rounding(pairs, k))) {
       failed.first = failed.count == 0 ? k : failed.first;
       failed.count = k + 1 - failed.first;
     }
   return failed;
 }
 
-/// One step of subspace iteration with the factor of L + s B, s the shift of the problem, which takes off what rounding has left of the highest modes: L
-/// enlarges that. What is not in the range stays.
+/// One step of subspace iteration with the factor of L + s B, s the shift of the problem, which
+/// takes off what rounding has left of the highest modes: L enlarges that. What is not in the range
+/// stays.
 inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, const int threads,
                    const Pair_range range, Eigenpairs& pairs)
 {
@@ -87,7 +90,8 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
     factor.solve(panel, panel, threads);
     for(std::size_t i = 0; i < order.size(); ++i)
       for(Eigen::Index c = 0; c < columns; ++c)
-        X(order[i], k + c) = (pairs.values(range.first + k + c) + s) * panel.row(Eigen::Index(i))[c];
+        X(order[i], k + c) =
+            (pairs.values(range.first + k + c) + s) * panel.row(Eigen::Index(i))[c];
   }
   // What there is of lower modes has grown, that of higher ones has not.
   if(range.first > 0) {
@@ -106,10 +110,11 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
     pairs.values(k) = (std::max)(pairs.values(k), pairs.values(k - 1));
 }
 
-/// Whether pairs have their accuracy, if need be after some steps of `refine_range`. Only within it they are complete.
+/// Whether pairs have their accuracy, if need be after some steps of `refine_range`. Only within it
+/// they are complete.
 template <class Refine>
-bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options, Eigenpairs& pairs,
-                    const Refine& refine_range)
+bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
+                    Eigenpairs& pairs, const Refine& refine_range)
 {
   pairs.residuals.setZero(pairs.size());
   Pair_range failed = check_residuals(problem, options, {0, pairs.size()}, pairs);
@@ -122,12 +127,15 @@ bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& opti
 }
 
 /// The first K pairs of one part.
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem,
+                                                       const Eigen::Index K,
                                                        const Eigenpairs_options& options)
 {
   Eigenpairs result;
   std::string reason;
-  const auto left = [&] { return "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left"; };
+  const auto left = [&] {
+    return "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
+  };
   const bool dense = is_dense(problem.size(), K, options.method);
   if(!dense) {
     try {
@@ -154,12 +162,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
     return result; // incomplete where the tolerance is not met: no solver does better in doubles
   }
   throw std::runtime_error("Eigenpairs: the solver did not converge to the tolerance " +
-                           in_digits(options.tolerance) + " for " + std::to_string(K) + " pairs of " +
-                           std::to_string(problem.size()) + " vertices: " + reason +
+                           in_digits(options.tolerance) + " for " + std::to_string(K) +
+                           " pairs of " + std::to_string(problem.size()) + " vertices: " + reason +
                            "; raise the tolerance or the number of iterations.");
 }
 
-/// Vertices that an entry of L or B joins, each part in their order, without those at which functions vanish.
+/// Vertices that an entry of L or B joins, each part in their order, without those at which
+/// functions vanish.
 inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
 {
   const Eigen::Index n = op.L.rows();
@@ -180,8 +189,9 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
     if(!vanishes[std::size_t(v)])
       result[c].push_back(int(v));
   }
-  result.erase(std::remove_if(result.begin(), result.end(), [](const auto& part) { return part.empty(); }),
-               result.end());
+  result.erase(
+      std::remove_if(result.begin(), result.end(), [](const auto& part) { return part.empty(); }),
+      result.end());
   return result;
 }
 
@@ -200,10 +210,11 @@ inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::
   return result;
 }
 
-/// The pairs of several parts are those of each, in the order of their values: as many as there are like parts are copies of each other, and a
-/// Krylov space of the whole would find eight at a time.
-inline Eigenpairs pairs_of_parts(const Eigen_problem& problem, const std::vector<std::vector<int>>& parts,
-                                 const Eigen::Index K, const Eigenpairs_options& options)
+/// The pairs of several parts are those of each, in the order of their values: as many as there are
+/// like parts are copies of each other, and a Krylov space of the whole would find eight at a time.
+inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
+                                 const std::vector<std::vector<int>>& parts, const Eigen::Index K,
+                                 const Eigenpairs_options& options)
 {
   struct Part_pair
   {
@@ -245,8 +256,8 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem, const std::vector
     if(Eigen::Index(order.size()) >= K)
       bound = order[std::size_t(K - 1)].value;
   }
-  Eigenpairs result{Eigen::VectorXd(K), Eigen::MatrixXd::Zero(problem.size(), K), Eigen::VectorXd(K), "dense",
-                    true};
+  Eigenpairs result{Eigen::VectorXd(K), Eigen::MatrixXd::Zero(problem.size(), K),
+                    Eigen::VectorXd(K), "dense", true};
   for(const Eigenpairs& part : pairs) {
     if(part.solver == "block")
       result.solver = part.solver;
@@ -262,8 +273,8 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem, const std::vector
   return result;
 }
 
-/// A sum of magnitudes beside the diagonal that is nowhere larger shows it (Gershgorin), as in the masses of meshes; otherwise a
-/// factorisation.
+/// A sum of magnitudes beside the diagonal that is nowhere larger shows it (Gershgorin), as in the
+/// masses of meshes; otherwise a factorisation.
 inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
 {
   const Eigen::VectorXd diagonal = problem.B().diagonal();
@@ -309,7 +320,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
-                                                    const Eigen::SparseMatrix<double>& B, Eigen::Index K,
+                                                    const Eigen::SparseMatrix<double>& B,
+                                                    Eigen::Index K,
                                                     const Eigenpairs_options& options)
 {
   internal::check_pencil(L, "L");

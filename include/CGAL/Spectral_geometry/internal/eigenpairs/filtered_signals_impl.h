@@ -62,8 +62,8 @@ struct Low_pass
   static constexpr double rho = 2.; // s / lambda_K
 };
 
-/// Random signs for the vectors that B is a sum of: eight of them, those of one panel, for a pair of
-/// vertices.
+/// Random signs for the vectors that B is a sum of: eight of them, those of one panel, for a pair
+/// of vertices.
 class Signs
 {
 public:

@@ -11,8 +11,8 @@
 
 #include <cstddef>
 
-// The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is a cache line and eight
-// vectors share every access to a matrix entry.
+// The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is
+// a cache line and eight vectors share every access to a matrix entry.
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -70,7 +70,8 @@ CGAL_SPECTRAL_INLINE void subtract(Panel_row& y, double a, const Panel_row& x)
 }
 
 #ifdef CGAL_SPECTRAL_DISPATCH
-/// The same in the registers of wide vector units, in functions compiled for them: elsewhere six times slower than Eigen.
+/// The same in the registers of wide vector units, in functions compiled for them: elsewhere six
+/// times slower than Eigen.
 struct Wide_panel_row
 {
   Four_doubles low, high;
@@ -118,7 +119,8 @@ using Wide_panel_row = Panel_row;
 
 // H += P^T W over some rows; four columns of P at once fill the registers.
 template <class Row>
-CGAL_SPECTRAL_INLINE void gram_body(const double* P, const double* W, std::ptrdiff_t rows, double* H)
+CGAL_SPECTRAL_INLINE void gram_body(const double* P, const double* W, std::ptrdiff_t rows,
+                                    double* H)
 {
   for(int half = 0; half < panel_width; half += 4) {
     Row sum[4];
@@ -158,10 +160,12 @@ CGAL_SPECTRAL_INLINE void subtract_product_body(double* W, const double* P, std:
   }
 }
 
-// y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin .. end.
+// y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin ..
+// end.
 template <class Row>
 CGAL_SPECTRAL_INLINE void multiply_body(const int* start, const int* column, const double* value,
-                                        const double* x, double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
+                                        const double* x, double* y, std::ptrdiff_t begin,
+                                        std::ptrdiff_t end)
 {
   for(std::ptrdiff_t i = begin; i < end; ++i) {
     Row sum;
@@ -175,8 +179,8 @@ CGAL_SPECTRAL_INLINE void multiply_body(const int* start, const int* column, con
   }
 }
 
-// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers, zeros beyond the `columns` of C. Rows of
-// C and A lie `c` and `a` numbers apart.
+// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers,
+// zeros beyond the `columns` of C. Rows of C and A lie `c` and `a` numbers apart.
 template <class Row, int Count>
 CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns, const double* A,
                                         std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
@@ -209,9 +213,9 @@ CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns
 }
 
 template <class Row>
-CGAL_SPECTRAL_INLINE void multiply_block_body(double* C, std::ptrdiff_t c, int columns, const double* A,
-                                              std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
-                                              std::ptrdiff_t rows, bool subtracted)
+CGAL_SPECTRAL_INLINE void
+multiply_block_body(double* C, std::ptrdiff_t c, int columns, const double* A, std::ptrdiff_t a,
+                    const double* T, std::ptrdiff_t count, std::ptrdiff_t rows, bool subtracted)
 {
   std::ptrdiff_t i = 0;
   for(; i + 4 <= rows; i += 4)
@@ -220,9 +224,9 @@ CGAL_SPECTRAL_INLINE void multiply_block_body(double* C, std::ptrdiff_t c, int c
     multiply_rows<Row, 1>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
 }
 
-/// One supernode of a Cholesky factor: `width` neighbouring columns that share their row structure. `L` holds
-/// width + below rows of `width` entries; the first `width` rows are a lower triangle with the *inverse* of the diagonal, what
-/// is above it is not read.
+/// One supernode of a Cholesky factor: `width` neighbouring columns that share their row structure.
+/// `L` holds width + below rows of `width` entries; the first `width` rows are a lower triangle
+/// with the *inverse* of the diagonal, what is above it is not read.
 struct Supernode
 {
   const double* L;
@@ -230,7 +234,8 @@ struct Supernode
   int first, width, below;
 };
 
-// Subtracts the columns, solved for, from `Count` of the rows below: one access to `own` for all of them.
+// Subtracts the columns, solved for, from `Count` of the rows below: one access to `own` for all of
+// them.
 template <class Row, int Count>
 CGAL_SPECTRAL_INLINE void forward_rows(const Supernode& s, const double* own, double* x, int i)
 {
@@ -325,15 +330,16 @@ inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, co
                   [&] { subtract_product_body<Panel_row>(W, P, rows, H); });
 }
 
-inline void multiply(const int* start, const int* column, const double* value, const double* x, double* y,
-                     std::ptrdiff_t begin, std::ptrdiff_t end)
+inline void multiply(const int* start, const int* column, const double* value, const double* x,
+                     double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
 {
   on_vector_units([&] { multiply_body<Wide_panel_row>(start, column, value, x, y, begin, end); },
                   [&] { multiply_body<Panel_row>(start, column, value, x, y, begin, end); });
 }
 
-inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A, std::ptrdiff_t a,
-                           const double* T, std::ptrdiff_t count, std::ptrdiff_t rows, bool subtracted)
+inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A,
+                           std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
+                           std::ptrdiff_t rows, bool subtracted)
 {
   on_vector_units(
       [&] { multiply_block_body<Wide_panel_row>(C, c, columns, A, a, T, count, rows, subtracted); },
@@ -342,12 +348,14 @@ inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const doubl
 
 inline void forward(const Supernode& s, double* x)
 {
-  on_vector_units([&] { forward_body<Wide_panel_row>(s, x); }, [&] { forward_body<Panel_row>(s, x); });
+  on_vector_units([&] { forward_body<Wide_panel_row>(s, x); },
+                  [&] { forward_body<Panel_row>(s, x); });
 }
 
 inline void backward(const Supernode& s, double* x)
 {
-  on_vector_units([&] { backward_body<Wide_panel_row>(s, x); }, [&] { backward_body<Panel_row>(s, x); });
+  on_vector_units([&] { backward_body<Wide_panel_row>(s, x); },
+                  [&] { backward_body<Panel_row>(s, x); });
 }
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -24,7 +24,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// A set of neighbouring supernodes that no other supernode outside of the set and its ancestors depends on.
+/// A set of neighbouring supernodes that no other supernode outside of the set and its ancestors
+/// depends on.
 struct Branch
 {
   std::size_t first, last;    // supernodes first .. last - 1
@@ -43,22 +44,29 @@ struct Not_positive_definite : std::runtime_error
   {}
 };
 
-/// The factorisation P A P^T = L S L^T of a symmetric matrix, of which the lower triangle is read; S has the signs of the pivots, and is the
-/// identity where A is positive definite. A is compressed.
+/// The factorisation P A P^T = L S L^T of a symmetric matrix, of which the lower triangle is read;
+/// S has the signs of the pivots, and is the identity where A is positive definite. A is
+/// compressed.
 ///
-/// Supernodes are eliminated one by one, children first, and hand to their parent what they subtract from the rest of the matrix (the
-/// multifrontal method: Duff and Reid 1983, Liu 1992). All of it is products with panels of eight columns, and so are the solves. On a mesh of 50,000
-/// vertices CHOLMOD takes 3.5 times as long for the numbers with the reference BLAS, and three times as long for a vector.
-/// Branches of the elimination tree, of which each is a 256th of the factor at least, are worked on in parallel, in the solves each with its own copy of the ancestors' rows, which are then
-/// added in a fixed order: results do not depend on the number of threads.
+/// Supernodes are eliminated one by one, children first, and hand to their parent what they
+/// subtract from the rest of the matrix (the multifrontal method: Duff and Reid 1983, Liu 1992).
+/// All of it is products with panels of eight columns, and so are the solves. On a mesh of 50,000
+/// vertices CHOLMOD takes 3.5 times as long for the numbers with the reference BLAS, and three
+/// times as long for a vector. Branches of the elimination tree, of which each is a 256th of the
+/// factor at least, are worked on in parallel, in the solves each with its own copy of the
+/// ancestors' rows, which are then added in a fixed order: results do not depend on the number of
+/// threads.
 class Supernodal_factor
 {
 public:
-  /// What pivots may be. There is no pivoting: with those of either sign the caller looks at what a solve leaves.
+  /// What pivots may be. There is no pivoting: with those of either sign the caller looks at what a
+  /// solve leaves.
   enum class Pivots { positive, of_either_sign };
 
-  /// Throws `Not_positive_definite` where a pivot is not positive, std::runtime_error where there is too little memory.
-  explicit Supernodal_factor(const Sparse_matrix& A, int threads = 1, Pivots pivots = Pivots::positive)
+  /// Throws `Not_positive_definite` where a pivot is not positive, std::runtime_error where there
+  /// is too little memory.
+  explicit Supernodal_factor(const Sparse_matrix& A, int threads = 1,
+                             Pivots pivots = Pivots::positive)
     : m_pivots(pivots)
   {
     CGAL_precondition(A.isCompressed());
@@ -100,8 +108,12 @@ public:
       throw Not_positive_definite();
   }
 
-  /// The number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when a pivot vanished.
-  Index number_of_negative_pivots() const { return m_ok ? static_cast<Index>(m_negative.size()) : -1; }
+  /// The number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when a pivot
+  /// vanished.
+  Index number_of_negative_pivots() const
+  {
+    return m_ok ? static_cast<Index>(m_negative.size()) : -1;
+  }
 
   /// The row of A that is row i of the factor and of panels.
   const std::vector<int>& order() const { return m_order; }
@@ -142,7 +154,10 @@ private:
 
   std::size_t width(std::size_t k) const { return m_first[k + 1] - m_first[k]; }
   std::size_t below(std::size_t k) const { return m_row_start[k + 1] - m_row_start[k]; }
-  static std::size_t padded(std::size_t n) { return (n + panel_width - 1) / panel_width * panel_width; }
+  static std::size_t padded(std::size_t n)
+  {
+    return (n + panel_width - 1) / panel_width * panel_width;
+  }
 
   // --- the structure ---
 
@@ -208,8 +223,8 @@ private:
           continue;
         const int row = (std::max)(number[i], number[j]), column = (std::min)(number[i], number[j]),
                   g = group_of[column];
-        m_position[p] =
-            static_cast<std::ptrdiff_t>(m_value_start[g] + row_in(g, row) * width(g) + (column - m_first[g]));
+        m_position[p] = static_cast<std::ptrdiff_t>(m_value_start[g] + row_in(g, row) * width(g) +
+                                                    (column - m_first[g]));
       }
   }
 
@@ -219,7 +234,8 @@ private:
     const std::size_t count = m_children.size(), total = m_values.size();
     std::vector<Branch> subtree(count);
     for(std::size_t k = 0; k < count; ++k) {
-      subtree[k] = {k, k + 1, 0, {}, (k + 1 < count ? m_value_start[k + 1] : total) - m_value_start[k]};
+      subtree[k] = {
+          k, k + 1, 0, {}, (k + 1 < count ? m_value_start[k + 1] : total) - m_value_start[k]};
       for(const int c : m_children[k]) {
         subtree[k].first = (std::min)(subtree[k].first, subtree[c].first);
         subtree[k].values += subtree[c].values;
@@ -246,19 +262,22 @@ private:
   void detach(Branch& branch)
   {
     const std::size_t root = branch.last - 1;
-    branch.ancestors.assign(m_rows.begin() + m_row_start[root], m_rows.begin() + m_row_start[root + 1]);
+    branch.ancestors.assign(m_rows.begin() + m_row_start[root],
+                            m_rows.begin() + m_row_start[root + 1]);
     for(std::size_t p = m_row_start[branch.first]; p < m_row_start[branch.last]; ++p)
       if(m_rows[p] >= m_first[branch.last]) {
-        const auto found = std::lower_bound(branch.ancestors.begin(), branch.ancestors.end(), m_rows[p]);
+        const auto found =
+            std::lower_bound(branch.ancestors.begin(), branch.ancestors.end(), m_rows[p]);
         m_rows[p] = static_cast<int>(branch.slot + (found - branch.ancestors.begin()));
       }
   }
 
   // --- the numbers ---
 
-  // Supernode k: its block F, (width + below) x width by rows, becomes L, and U, below x below, what it hands to its parent. `signs` are those
-  // of its pivots, 1 before.
-  void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, double* signs, int threads)
+  // Supernode k: its block F, (width + below) x width by rows, becomes L, and U, below x below,
+  // what it hands to its parent. `signs` are those of its pivots, 1 before.
+  void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, double* signs,
+                 int threads)
   {
     double* const F = m_values.data() + m_value_start[k];
     const std::size_t w = width(k), b = below(k), stride = padded(b);
@@ -274,10 +293,10 @@ private:
     for_each_task(static_cast<Index>(stride / panel_width), large ? threads : 1, [&](Index panel) {
       const std::size_t j = panel * panel_width;
       std::vector<double> T(w * panel_width);
-      pack(below_F + j * w, w, w, static_cast<int>((std::min)(b - j, std::size_t(panel_width))), signs,
-           T.data());
-      multiply_block(U.data() + j * stride + j, stride, panel_width, below_F + j * w, w, T.data(), w, b - j,
-                     true);
+      pack(below_F + j * w, w, w, static_cast<int>((std::min)(b - j, std::size_t(panel_width))),
+           signs, T.data());
+      multiply_block(U.data() + j * stride + j, stride, panel_width, below_F + j * w, w, T.data(),
+                     w, b - j, true);
     });
     for(std::size_t j = 0; j < w; ++j)
       F[j * w + j] = 1. / F[j * w + j]; // which the solves multiply by
@@ -341,7 +360,8 @@ private:
   }
 
   // T = D^-T S
-  static void invert_square(const double* D, std::size_t stride, int size, const double* signs, double* T)
+  static void invert_square(const double* D, std::size_t stride, int size, const double* signs,
+                            double* T)
   {
     std::fill_n(T, panel_width * panel_width, 0.);
     for(int j = 0; j < size; ++j) {
@@ -359,8 +379,8 @@ private:
   }
 
   // T = S A^T, `count` rows of eight; A has `columns` rows.
-  static void pack(const double* A, std::size_t stride, std::size_t count, int columns, const double* signs,
-                   double* T)
+  static void pack(const double* A, std::size_t stride, std::size_t count, int columns,
+                   const double* signs, double* T)
   {
     for(std::size_t t = 0; t < count; ++t, T += panel_width) {
       for(int c = 0; c < columns; ++c)
@@ -373,7 +393,10 @@ private:
 
   using Row = Eigen::Map<const Eigen::VectorXd>;
 
-  static Row row(const Supernode& s, int i, int size) { return Row(s.L + std::ptrdiff_t(i) * s.width, size); }
+  static Row row(const Supernode& s, int i, int size)
+  {
+    return Row(s.L + std::ptrdiff_t(i) * s.width, size);
+  }
 
   static void forward_vector(const Supernode& s, double* w)
   {
@@ -397,7 +420,8 @@ private:
 
   // w = L^-T S L^-1 w, with the steps of one supernode
   template <int columns, class Forward, class Backward>
-  void solve_in_place(double* w, int threads, const Forward& forward, const Backward& backward) const
+  void solve_in_place(double* w, int threads, const Forward& forward,
+                      const Backward& backward) const
   {
     const Index branches = static_cast<Index>(m_branches.size());
     for_each_task(branches, threads, [&](Index b) {
@@ -442,7 +466,8 @@ private:
   std::vector<int> m_first = {0};             // first column of each supernode, and n
   std::vector<std::vector<int>> m_children;   // of each supernode
   std::vector<std::size_t> m_row_start = {0}; // into m_rows
-  std::vector<int> m_rows, m_place;       // below the columns, and where each is in the block of the parent
+  std::vector<int> m_rows,
+      m_place; // below the columns, and where each is in the block of the parent
   std::vector<std::size_t> m_value_start; // into m_values
   std::vector<double> m_values;
   std::vector<std::ptrdiff_t> m_position; // in m_values, of each entry of A
@@ -455,7 +480,8 @@ private:
 /// The number of negative eigenvalues of a symmetric matrix, or -1 when a pivot vanishes.
 inline Index number_of_negative_eigenvalues(const Sparse_matrix& A, int threads = 1)
 {
-  return Supernodal_factor(A, threads, Supernodal_factor::Pivots::of_either_sign).number_of_negative_pivots();
+  return Supernodal_factor(A, threads, Supernodal_factor::Pivots::of_either_sign)
+      .number_of_negative_pivots();
 }
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -36,7 +36,10 @@ public:
   Index panels() const { return m_panels; }
   Index panel_size() const { return m_rows * panel_width; }
   double* row(Index p, Index i) { return m_storage.data() + (p * m_rows + i) * panel_width; }
-  const double* row(Index p, Index i) const { return m_storage.data() + (p * m_rows + i) * panel_width; }
+  const double* row(Index p, Index i) const
+  {
+    return m_storage.data() + (p * m_rows + i) * panel_width;
+  }
   Rows rows(Index p, Index first, Index count) { return Rows(row(p, first), count, panel_width); }
 
 private:
@@ -64,9 +67,13 @@ public:
   {
     return m_storage.data() + (p * m_panels + q) * panel_width * panel_width;
   }
-  const double* block(Index p, Index q) const { return const_cast<Panel_blocks&>(*this).block(p, q); }
+  const double* block(Index p, Index q) const
+  {
+    return const_cast<Panel_blocks&>(*this).block(p, q);
+  }
 
-  // adds the first rows and columns of a symmetric matrix, of which there are the blocks from the diagonal on
+  // adds the first rows and columns of a symmetric matrix, of which there are the blocks from the
+  // diagonal on
   void add_to(Eigen::MatrixXd& M)
   {
     for(Index j = 0; j < M.cols(); ++j)
@@ -86,13 +93,13 @@ private:
   Aligned_buffer m_storage;
 };
 
-// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows of a sparse matrix. Two panels of a
-// matrix lie `A_panel` and `G_panel` numbers apart.
+// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows
+// of a sparse matrix. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
 template <class Row>
 CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* column, const double* A,
                                                std::ptrdiff_t A_panel, const double* G,
-                                               std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
-                                               std::ptrdiff_t rows)
+                                               std::ptrdiff_t G_panel, std::ptrdiff_t panels,
+                                               double* y, std::ptrdiff_t rows)
 {
   for(std::ptrdiff_t i = 0; i < rows; ++i, A += panel_width)
     for(int p = start[i]; p < start[i + 1]; ++p) {
@@ -106,18 +113,23 @@ CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* colu
       }
       double parts[panel_width];
       store(parts, sum);
-      y[p] =
-          ((parts[0] + parts[1]) + (parts[2] + parts[3])) + ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+      y[p] = ((parts[0] + parts[1]) + (parts[2] + parts[3])) +
+             ((parts[4] + parts[5]) + (parts[6] + parts[7]));
     }
 }
 
-inline void sampled_product(const int* start, const int* column, const double* A, std::ptrdiff_t A_panel,
-                            const double* G, std::ptrdiff_t G_panel, std::ptrdiff_t panels, double* y,
-                            std::ptrdiff_t rows)
+inline void sampled_product(const int* start, const int* column, const double* A,
+                            std::ptrdiff_t A_panel, const double* G, std::ptrdiff_t G_panel,
+                            std::ptrdiff_t panels, double* y, std::ptrdiff_t rows)
 {
   on_vector_units(
-      [&] { sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); },
-      [&] { sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows); });
+      [&] {
+        sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y,
+                                             rows);
+      },
+      [&] {
+        sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows);
+      });
 }
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -42,8 +42,8 @@ inline std::vector<int> elimination_tree(const Sparse_matrix& A)
   return parent;
 }
 
-// Eigen's minimum degree order, sorted so that every subtree of the elimination tree is contiguous: columns of one structure
-// become neighbours, and a solve walks through memory.
+// Eigen's minimum degree order, sorted so that every subtree of the elimination tree is contiguous:
+// columns of one structure become neighbours, and a solve walks through memory.
 inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
 {
   const int n = static_cast<int>(A.cols());
@@ -51,7 +51,8 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
   Eigen::AMDOrdering<int>()(A, degree_order);
   const std::vector<int> order(degree_order.indices().data(), degree_order.indices().data() + n);
   const std::vector<int> parent = elimination_tree(permuted(A, order));
-  std::vector<int> size(n + 1, 1), end(n + 1, n), result(n); // of subtrees, and where the next child's ends
+  std::vector<int> size(n + 1, 1), end(n + 1, n),
+      result(n); // of subtrees, and where the next child's ends
   for(int j = 0; j < n; ++j)
     size[parent[j]] += size[j];
   for(int j = n - 1; j >= 0; --j) {
@@ -62,8 +63,8 @@ inline std::vector<int> postordered_minimum_degree(const Sparse_matrix& A)
   return result;
 }
 
-// The number of entries of each column of the Cholesky factor, the diagonal included: row k of the factor has those that the way up the
-// tree from an entry of row k of A meets.
+// The number of entries of each column of the Cholesky factor, the diagonal included: row k of the
+// factor has those that the way up the tree from an entry of row k of A meets.
 inline std::vector<int> column_counts(const Sparse_matrix& A, const std::vector<int>& parent)
 {
   const int n = static_cast<int>(A.cols());
@@ -86,7 +87,8 @@ struct Column_group
   double zeros; // entries that only the common structure has
 };
 
-// Merges a group with the one before, its child in the elimination tree, when that adds few zeros; the bounds are CHOLMOD's.
+// Merges a group with the one before, its child in the elimination tree, when that adds few zeros;
+// the bounds are CHOLMOD's.
 inline bool merge_groups(Column_group& child, const Column_group& group)
 {
   const double width = child.width + group.width;
@@ -106,11 +108,13 @@ inline std::vector<Column_group> group_columns(const Sparse_matrix& A)
   std::vector<Column_group> groups;
   for(int j = 0; j < n;) {
     Column_group group{j, 1, count[j] - 1, 0.};
-    for(++j; j < n && parent[j - 1] == j && count[j] == group.below; ++j) { // the very same structure
+    for(++j; j < n && parent[j - 1] == j && count[j] == group.below;
+        ++j) { // the very same structure
       ++group.width;
       group.below = count[j] - 1;
     }
-    while(!groups.empty() && parent[group.first - 1] == group.first && merge_groups(groups.back(), group)) {
+    while(!groups.empty() && parent[group.first - 1] == group.first &&
+          merge_groups(groups.back(), group)) {
       group = groups.back();
       groups.pop_back();
     }

@@ -14,7 +14,8 @@
 namespace CGAL::Spectral_geometry {
 namespace internal {
 
-inline void check_points(const Eigen::MatrixXd& points, const char* const who, const char* const what)
+inline void check_points(const Eigen::MatrixXd& points, const char* const who,
+                         const char* const what)
 {
   require(points.rows() == 0 || points.cols() == 3, who, "the ", what, "s have ", points.cols(),
           " columns, pass a matrix of 3 columns.");
@@ -23,23 +24,27 @@ inline void check_points(const Eigen::MatrixXd& points, const char* const who, c
             " has a coordinate that is not finite, remove or repair it.");
 }
 
-inline void check_surface(const Mesh_matrices& surface, const char* const who, const char* const name)
+inline void check_surface(const Mesh_matrices& surface, const char* const who,
+                          const char* const name)
 {
-  require(surface.T.rows() != 0, who, "the ", name, " has no face, pass one with at least one triangle.");
-  require(surface.T.cols() == 3 && surface.V.cols() == 3, who, "the matrices of the ", name, " have ",
-          surface.V.cols(), " and ", surface.T.cols(), " columns, pass n x 3 coordinates and m x 3 indices.");
+  require(surface.T.rows() != 0, who, "the ", name,
+          " has no face, pass one with at least one triangle.");
+  require(surface.T.cols() == 3 && surface.V.cols() == 3, who, "the matrices of the ", name,
+          " have ", surface.V.cols(), " and ", surface.T.cols(),
+          " columns, pass n x 3 coordinates and m x 3 indices.");
   for(Eigen::Index f = 0; f < surface.T.rows(); ++f)
     for(int c = 0; c < 3; ++c) {
       const int v = surface.T(f, c);
-      require(v >= 0 && v < surface.V.rows(), who, "face ", f, " of the ", name, " refers to vertex ", v,
-              ", which does not exist, repair the face.");
+      require(v >= 0 && v < surface.V.rows(), who, "face ", f, " of the ", name,
+              " refers to vertex ", v, ", which does not exist, repair the face.");
     }
   for(Eigen::Index v = 0; v < surface.V.rows(); ++v)
     require(surface.V.row(v).allFinite(), who, "vertex ", v, " of the ", name,
             " has a coordinate that is not finite, remove or repair it.");
 }
 
-inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine, const char* const who)
+inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
+                       const char* const who)
 {
   check_surface(coarse, who, "coarse mesh");
   check_surface(fine, who, "fine mesh");
@@ -49,8 +54,8 @@ inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
                        const Eigen::SparseMatrix<double>& P, const char* const who)
 {
   check_pair(coarse, fine, who);
-  require(P.rows() == coarse.V.rows() && P.cols() == fine.V.rows(), who, "P is ", size_name(P), " where ",
-          coarse.V.rows(), " x ", fine.V.rows(),
+  require(P.rows() == coarse.V.rows() && P.cols() == fine.V.rows(), who, "P is ", size_name(P),
+          " where ", coarse.V.rows(), " x ", fine.V.rows(),
           " is needed, coarse x fine; pass matrices that belong together.");
 }
 

@@ -21,8 +21,9 @@
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-orientation_operator(const Eigen::MatrixXi& T, const Eigen::MatrixXd& vectors, const Eigen::VectorXd& f)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd orientation_operator(const Eigen::MatrixXi& T,
+                                                                   const Eigen::MatrixXd& vectors,
+                                                                   const Eigen::VectorXd& f)
 {
   internal::check_dimension("the number of values of f", f.size(), vectors.rows());
   // A face gives each of its corners the same: sum the rows of the corners first.
@@ -41,28 +42,33 @@ namespace internal {
 
 inline void check_modes(const Spectral_shape& shape, Eigen::Index modes, const char* which)
 {
-  require(modes >= 2 && modes <= shape.pairs.size(), "functional map: ", modes, " modes of the ", which,
-          " are asked for, there are ", shape.pairs.size(), ", take at least 2 of them.");
-  check_dimension("the number of rows of the eigenvectors", shape.pairs.vectors.rows(), shape.op.B.rows());
+  require(modes >= 2 && modes <= shape.pairs.size(), "functional map: ", modes, " modes of the ",
+          which, " are asked for, there are ", shape.pairs.size(), ", take at least 2 of them.");
+  check_dimension("the number of rows of the eigenvectors", shape.pairs.vectors.rows(),
+                  shape.op.B.rows());
 }
 
 } // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, const Eigen::MatrixXd& f,
-                              const Eigen::MatrixXd& g, Eigen::Index k, const Functional_map_weights& weights)
+functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
+                              const Eigen::MatrixXd& f, const Eigen::MatrixXd& g, Eigen::Index k,
+                              const Functional_map_weights& weights)
 {
   internal::check_modes(X, k, "source");
   internal::check_modes(Y, k, "target");
-  internal::check_dimension("the number of rows of the source descriptors", f.rows(), X.op.B.rows());
-  internal::check_dimension("the number of rows of the target descriptors", g.rows(), Y.op.B.rows());
+  internal::check_dimension("the number of rows of the source descriptors", f.rows(),
+                            X.op.B.rows());
+  internal::check_dimension("the number of rows of the target descriptors", g.rows(),
+                            Y.op.B.rows());
   internal::check_dimension("the number of target descriptors", g.cols(), f.cols());
   const double d = static_cast<double>(f.cols());
   const Eigen::MatrixXd phi = X.pairs.vectors.leftCols(k), psi = Y.pairs.vectors.leftCols(k);
   Eigen::MatrixXd a = phi.transpose() * (X.op.B * f), b = psi.transpose() * (Y.op.B * g);
 
-  // Terms || C A - B C ||^2 as a quadratic form in vec(C): vec(C A - B C) = (A^T (x) I - I (x) B) vec(C), and its square has four
-  // blocks, of which only the mixed ones fill. The others are the same in all blocks: they are summed apart.
+  // Terms || C A - B C ||^2 as a quadratic form in vec(C): vec(C A - B C) = (A^T (x) I - I (x) B)
+  // vec(C), and its square has four blocks, of which only the mixed ones fill. The others are the
+  // same in all blocks: they are summed apart.
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(k * k, k * k), left = Eigen::MatrixXd::Zero(k, k),
                   right = left;
   const auto add = [&](const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, double weight) {
@@ -84,9 +90,11 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
     const Eigen::VectorXd fi = f.col(i), gi = g.col(i);
     if(weights.multiplication > 0)
       add_scaled(phi.transpose() * (X.op.B * Eigen::MatrixXd(fi.asDiagonal() * phi)),
-                 psi.transpose() * (Y.op.B * Eigen::MatrixXd(gi.asDiagonal() * psi)), weights.multiplication);
+                 psi.transpose() * (Y.op.B * Eigen::MatrixXd(gi.asDiagonal() * psi)),
+                 weights.multiplication);
     if(weights.orientation > 0)
-      add_scaled(orientation_operator(X.T, phi, fi), orientation_operator(Y.T, psi, gi), weights.orientation);
+      add_scaled(orientation_operator(X.T, phi, fi), orientation_operator(Y.T, psi, gi),
+                 weights.orientation);
   }
 
   for(Eigen::Index i = 0; i < f.cols(); ++i) {
@@ -105,19 +113,23 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y, 
       diagonal.array() += aa(j, l);
     }
   }
-  // Positive semidefinite. The solver replaces the inverses of vanishing pivots by zero and reports success.
+  // Positive semidefinite. The solver replaces the inverses of vanishing pivots by zero and reports
+  // success.
   const Eigen::LDLT<Eigen::MatrixXd> solver(form);
   const Eigen::VectorXd pivots = solver.vectorD();
-  const double rounding = std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * static_cast<double>(pivots.size());
   if(solver.info() != Eigen::Success || !(pivots.minCoeff() > rounding * pivots.maxCoeff()))
-    throw std::runtime_error("functional map: the descriptors do not determine it, pass more of them.");
+    throw std::runtime_error(
+        "functional map: the descriptors do not determine it, pass more of them.");
   const Eigen::VectorXd c = solver.solve(Eigen::Map<const Eigen::VectorXd>(ba.data(), ba.size()));
   return Eigen::Map<const Eigen::MatrixXd>(c.data(), k, k);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C)
 {
-  internal::check_dimension("the number of columns of a map that is to be orthogonal", C.cols(), C.rows());
+  internal::check_dimension("the number of columns of a map that is to be orthogonal", C.cols(),
+                            C.rows());
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(C, Eigen::ComputeThinU | Eigen::ComputeThinV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
@@ -143,7 +155,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const 
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eigen::MatrixXd& C,
                                                                       const Spectral_shape& X,
-                                                                      const Spectral_shape& Y, double time)
+                                                                      const Spectral_shape& Y,
+                                                                      double time)
 {
   internal::require(time >= 0 && std::isfinite(time), "product manifold filter: the time ", time,
                     " is negative or not finite, pass a time of heat of at least 0.");
@@ -152,7 +165,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd product_manifold_scores(const Eige
   const Eigen::VectorXd left = (-time * Y.pairs.values.head(C.rows()).array()).exp();
   const Eigen::VectorXd right = (-time * X.pairs.values.head(C.cols()).array()).exp();
   const Eigen::MatrixXd damped = left.asDiagonal() * C * right.asDiagonal();
-  return Y.pairs.vectors.leftCols(C.rows()) * (damped * X.pairs.vectors.leftCols(C.cols()).transpose());
+  return Y.pairs.vectors.leftCols(C.rows()) *
+         (damped * X.pairs.vectors.leftCols(C.cols()).transpose());
 }
 
 } // namespace CGAL::Spectral_geometry

@@ -20,15 +20,18 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
 {
   internal::check_dimension("the number of columns of the coarse map", coarse.cols(),
                             source_restriction.rows());
-  internal::check_dimension("the number of rows of the coarse map", coarse.rows(), target_restriction.rows());
+  internal::check_dimension("the number of rows of the coarse map", coarse.rows(),
+                            target_restriction.rows());
   internal::require(tolerance >= 0 && tolerance < 1, "functional map: the tolerance is ", tolerance,
                     ", it must lie in [0, 1[.");
   for(const Eigen::MatrixXd* map : {&source_restriction, &coarse, &target_restriction})
-    internal::require(map->size() != 0 && map->allFinite(),
-                      "functional map: a map is empty or has an entry that is not finite, check the "
-                      "eigenvectors and restrictions.");
+    internal::require(
+        map->size() != 0 && map->allFinite(),
+        "functional map: a map is empty or has an entry that is not finite, check the "
+        "eigenvectors and restrictions.");
 
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction,
+                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& sigma = svd.singularValues();
   const Eigen::MatrixXd right = coarse * source_restriction;
   Lifted_functional_map result;

@@ -20,9 +20,11 @@ namespace CGAL::Spectral_geometry {
 CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
 nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads)
 {
-  internal::require(points.size() != 0, "nearest rows: there is no point to search for, pass at least one.");
+  internal::require(points.size() != 0,
+                    "nearest rows: there is no point to search for, pass at least one.");
   internal::check_dimension("the number of columns of the queries", queries.cols(), points.cols());
-  internal::require(threads >= 1, "nearest rows: the number of threads is ", threads, ", pass at least 1.");
+  internal::require(threads >= 1, "nearest rows: the number of threads is ", threads,
+                    ", pass at least 1.");
   for(const Eigen::MatrixXd* matrix : {&points, &queries})
     for(Eigen::Index i = 0; i < matrix->rows(); ++i)
       internal::require(matrix->row(i).allFinite(), "nearest rows: row ", i, " of the ",
@@ -33,26 +35,28 @@ nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int 
   const Eigen::MatrixXd query_columns = queries.transpose();
   std::vector<Eigen::Index> result(static_cast<std::size_t>(queries.rows()));
   constexpr Eigen::Index share = 256;
-  internal::for_each_task(static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
-    std::size_t place = 0;
-    for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i)
-      result[static_cast<std::size_t>(i)] = tree.nearest(query_columns.col(i), place);
-  });
+  internal::for_each_task(
+      static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
+        std::size_t place = 0;
+        for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i)
+          result[static_cast<std::size_t>(i)] = tree.nearest(query_columns.col(i), place);
+      });
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-functional_map_of_vertex_map(const Eigen::MatrixXd& source_vectors, const Eigen::MatrixXd& target_vectors,
-                             const Eigen::SparseMatrix<double>& target_B,
-                             const std::vector<Eigen::Index>& target_to_source)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd functional_map_of_vertex_map(
+    const Eigen::MatrixXd& source_vectors, const Eigen::MatrixXd& target_vectors,
+    const Eigen::SparseMatrix<double>& target_B, const std::vector<Eigen::Index>& target_to_source)
 {
   internal::check_dimension("the number of entries of the vertex map",
-                            static_cast<Eigen::Index>(target_to_source.size()), target_vectors.rows());
+                            static_cast<Eigen::Index>(target_to_source.size()),
+                            target_vectors.rows());
   for(std::size_t y = 0; y < target_to_source.size(); ++y)
     internal::require(target_to_source[y] >= 0 && target_to_source[y] < source_vectors.rows(),
                       "vertex map: entry ", y, " is ", target_to_source[y],
                       ", it must be a vertex of the source, in [0, ", source_vectors.rows(), ").");
-  internal::check_dimension("the size of the mass of the target", target_B.rows(), target_vectors.rows());
+  internal::check_dimension("the size of the mass of the target", target_B.rows(),
+                            target_vectors.rows());
   internal::check_dimension("the number of columns of the mass of the target", target_B.cols(),
                             target_vectors.rows());
   Eigen::MatrixXd pulled_back(target_vectors.rows(), source_vectors.cols());
@@ -67,17 +71,20 @@ target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vec
                      const Eigen::MatrixXd& target_vectors, int threads)
 {
   internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
-                    "vertex map: C is ", internal::size_name(C), ", but there are ", target_vectors.cols(),
-                    " target and ", source_vectors.cols(), " source eigenvectors, pass as many.");
-  return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(), target_vectors.leftCols(C.rows()),
-                      threads);
+                    "vertex map: C is ", internal::size_name(C), ", but there are ",
+                    target_vectors.cols(), " target and ", source_vectors.cols(),
+                    " source eigenvectors, pass as many.");
+  return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(),
+                      target_vectors.leftCols(C.rows()), threads);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                        const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors, int threads)
+                        const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors,
+                        int threads)
 {
-  const std::vector<Eigen::Index> nearest = target_to_source_map(C, source_vectors, target_vectors, threads);
+  const std::vector<Eigen::Index> nearest =
+      target_to_source_map(C, source_vectors, target_vectors, threads);
   internal::check_triangles(source_T, source_vectors.rows());
   const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose(),
                         queries = target_vectors.leftCols(C.rows()).transpose();
@@ -86,7 +93,8 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   for(Eigen::Index t = 0; t < source_T.rows(); ++t)
     for(int c = 0; c < 3; ++c) {
       star[static_cast<std::size_t>(source_T(t, c))].push_back(t);
-      lengths(c, t) = (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
+      lengths(c, t) =
+          (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
     }
 
   const auto sort_unique = [](std::vector<Eigen::Index>& numbers) {
@@ -117,13 +125,14 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
     for(const Eigen::Index v : vertices)
       distances.push_back((points.col(v) - query).squaredNorm());
     const auto distance = [&](const Eigen::Index v) {
-      return distances[static_cast<std::size_t>(std::lower_bound(vertices.begin(), vertices.end(), v) -
-                                                vertices.begin())];
+      return distances[static_cast<std::size_t>(
+          std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin())];
     };
     double best = (points.col(nearest[i]) - query).squaredNorm();
     found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};
     for(const Eigen::Index t : faces) {
-      const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)), distance(source_T(t, 2)));
+      const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)),
+                              distance(source_T(t, 2)));
       const internal::Point_of_triangle candidate =
           internal::closest_point_of_triangle_by_distances(d, lengths.col(t));
       if(candidate.squared_distance < best) {

@@ -19,8 +19,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Stiffness and mass of a mesh as functions of its positions, edge by edge, and the way back from derivatives
-/// with respect to their entries to derivatives with respect to positions.
+/// Stiffness and mass of a mesh as functions of its positions, edge by edge, and the way back from
+/// derivatives with respect to their entries to derivatives with respect to positions.
 class Operator_geometry
 {
 public:
@@ -35,7 +35,8 @@ public:
   {
     int i, j;
   };
-  /// Off the diagonal there is one number for each edge. The diagonal of L is minus the sum of its row.
+  /// Off the diagonal there is one number for each edge. The diagonal of L is minus the sum of its
+  /// row.
   struct Entries
   {
     Eigen::VectorXd L, B, B_diagonal, mass;
@@ -62,8 +63,9 @@ public:
       Triangle t;
       for(int k = 0; k < 3; ++k) {
         t.v[k] = T(f, k);
-        require(t.v[k] >= 0 && t.v[k] < n && t.v[k] != T(f, (k + 1) % 3), "relocation: triangle ", f,
-                " refers to vertex ", t.v[k], ", which does not exist or occurs twice; repair the indices.");
+        require(t.v[k] >= 0 && t.v[k] < n && t.v[k] != T(f, (k + 1) % 3), "relocation: triangle ",
+                f, " refers to vertex ", t.v[k],
+                ", which does not exist or occurs twice; repair the indices.");
       }
       for(int k = 0; k < 3; ++k)
         t.e[k] = edge_of(t.v[(k + 1) % 3], t.v[(k + 2) % 3]);
@@ -78,7 +80,10 @@ public:
   const std::vector<Entry>& row(const Index w) const { return m_rows[std::size_t(w)]; }
   const Local_operator& local_operator() const { return m_op; }
   /// Whether functions vanish there: it has no row in the operator.
-  bool vanishes_at(const Index w) const { return !m_border.empty() && m_border[std::size_t(w)] != 0; }
+  bool vanishes_at(const Index w) const
+  {
+    return !m_border.empty() && m_border[std::size_t(w)] != 0;
+  }
 
   Entries zero_entries() const
   {
@@ -110,8 +115,9 @@ public:
     return true;
   }
 
-  /// Adds the gradient of a function of the matrices, whose derivatives with respect to their entries are given. That
-  /// for an edge counts both entries, and for L what it does to the diagonal.
+  /// Adds the gradient of a function of the matrices, whose derivatives with respect to their
+  /// entries are given. That for an edge counts both entries, and for L what it does to the
+  /// diagonal.
   void add_gradient(const Entries& d, const Positions& V, Positions& gradient) const
   {
     for(const Triangle& t : m_triangles) {
@@ -129,7 +135,8 @@ public:
         by_share[k] = d.mass(t.v[k]) + d.B_diagonal(t.v[k]);
       }
       if(m_op.voronoi)
-        add_gradient_of_shares(element, by_share, density(mean) * element.twice_area / 2, by_cotangent);
+        add_gradient_of_shares(element, by_share, density(mean) * element.twice_area / 2,
+                               by_cotangent);
       if(mean)
         add_gradient_of_conductivity(t, edge, *mean, element, by_cotangent, density(mean) * by_area,
                                      gradient);
@@ -163,7 +170,8 @@ private:
       edge[k] = V.row(t.v[(k + 2) % 3]) - V.row(t.v[(k + 1) % 3]);
   }
 
-  // share_k = (1 + c_i c_j / Q) / 4 with Q the sum of the three products, in a triangle that is not obtuse.
+  // share_k = (1 + c_i c_j / Q) / 4 with Q the sum of the three products, in a triangle that is not
+  // obtuse.
   static void add_gradient_of_shares(const Triangle_element& element, const double (&by_share)[3],
                                      const double area, double (&by_cotangent)[3])
   {
@@ -184,13 +192,15 @@ private:
 
   // With l_k the lengths, A the area: cot_k = (l_{k+1}^2 + l_{k+2}^2 - l_k^2) / (4 A).
   static void add_gradient_of_cotangents(const Triangle& t, const Eigen::Vector3d (&edge)[3],
-                                         const double (&by_cotangent)[3], double by_area, Positions& gradient)
+                                         const double (&by_cotangent)[3], double by_area,
+                                         Positions& gradient)
   {
     const Eigen::Vector3d normal = edge[0].cross(edge[1]);
     const double double_area = normal.norm(), area = double_area / 2;
     double quadratic = 0, by_squared_length[3];
     for(int k = 0; k < 3; ++k) {
-      by_squared_length[k] = by_cotangent[(k + 1) % 3] + by_cotangent[(k + 2) % 3] - by_cotangent[k];
+      by_squared_length[k] =
+          by_cotangent[(k + 1) % 3] + by_cotangent[(k + 2) % 3] - by_cotangent[k];
       quadratic += by_squared_length[k] * edge[k].squaredNorm();
       by_squared_length[k] /= 4 * area;
     }
@@ -198,14 +208,16 @@ private:
     for(int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
       const Eigen::Vector3d change = (0.5 * by_area / double_area) * normal.cross(edge[k]) +
-                                     2 * by_squared_length[i] * edge[i] - 2 * by_squared_length[j] * edge[j];
+                                     2 * by_squared_length[i] * edge[i] -
+                                     2 * by_squared_length[j] * edge[j];
       gradient.row(t.v[k]) += change.transpose();
     }
   }
 
   // cot_k = -r_{k+1} . D r_{k+2} / |m| with m = e_0 x e_1 and r_k = m / |m| x e_k, backwards.
   static void add_gradient_of_conductivity(const Triangle& t, const Eigen::Vector3d (&edge)[3],
-                                           const Point_coefficients& mean, const Triangle_element& element,
+                                           const Point_coefficients& mean,
+                                           const Triangle_element& element,
                                            const double (&by_cotangent)[3], const double by_area,
                                            Positions& gradient)
   {

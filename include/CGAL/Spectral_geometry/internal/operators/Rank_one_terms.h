@@ -50,8 +50,10 @@ public:
     for(Index a = 0; a < size(); ++a)
       for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
         for(Sparse_rows::InnerIterator i(m_D, a); i; ++i) {
-          const int* p = std::lower_bound(rows + start[j.col()], rows + start[j.col() + 1], i.col());
-          m_entries.emplace_back(static_cast<int>(p - rows), static_cast<int>(a), i.value() * j.value());
+          const int* p =
+              std::lower_bound(rows + start[j.col()], rows + start[j.col() + 1], i.col());
+          m_entries.emplace_back(static_cast<int>(p - rows), static_cast<int>(a),
+                                 i.value() * j.value());
         }
     m_map.resize(m_pattern.nonZeros(), size());
     m_map.setFromTriplets(m_entries.begin(), m_entries.end());

@@ -17,8 +17,9 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Of a triangle with the edges p, then q from where that ends, and `sum` = p + q: at each corner the product of the edges that leave it,
-/// and |p x q|^2. A `Number` is a double; edges are whatever has three coordinates.
+/// Of a triangle with the edges p, then q from where that ends, and `sum` = p + q: at each corner
+/// the product of the edges that leave it, and |p x q|^2. A `Number` is a double; edges are
+/// whatever has three coordinates.
 template <class Number, class Edge, class Other_edge>
 CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, const Edge& sum,
                                             Number& at_start, Number& between, Number& at_end,
@@ -27,7 +28,8 @@ CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, 
   const auto dot = [](Number& result, const auto& a, const auto& b) {
     result = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  const Number n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+  const Number n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+                       p[0] * q[1] - p[1] * q[0]};
   dot(twice_area_squared, n, n);
   dot(at_start, p, sum);
   dot(between, p, q);
@@ -36,9 +38,9 @@ CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, 
 }
 
 /*!
- * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings of the collapses and
- * relocation. The cotangent at corner k is dot[k] / twice_area; the edge opposite to it gets half of that in L, each corner a third of the
- * area in M.
+ * What linear finite elements take from a triangle, wherever they are needed: assembly, the rings
+ * of the collapses and relocation. The cotangent at corner k is dot[k] / twice_area; the edge
+ * opposite to it gets half of that in L, each corner a third of the area in M.
  */
 struct Triangle_element
 {
@@ -49,8 +51,8 @@ struct Triangle_element
   bool is_degenerate() const { return !(twice_area > 0); }
 };
 
-/// `edge[k]` lies opposite to corner k, from corner k + 1 to corner k + 2. The area is that of the cross product of the two shortest
-/// edges: that of others would be a difference of larger numbers.
+/// `edge[k]` lies opposite to corner k, from corner k + 1 to corner k + 2. The area is that of the
+/// cross product of the two shortest edges: that of others would be a difference of larger numbers.
 inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
 {
   double square[3];
@@ -63,11 +65,12 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
   const int a = (longest + 1) % 3, b = (longest + 2) % 3;
   Triangle_element t;
   double twice_area_squared;
-  triangle_products(edge[a], edge[b], Eigen::Vector3d(-edge[longest]), t.dot[b], t.dot[longest], t.dot[a],
-                    twice_area_squared);
+  triangle_products(edge[a], edge[b], Eigen::Vector3d(-edge[longest]), t.dot[b], t.dot[longest],
+                    t.dot[a], twice_area_squared);
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  t.twice_area =
-      twice_area_squared > rounding * rounding * square[a] * square[b] ? std::sqrt(twice_area_squared) : 0.;
+  t.twice_area = twice_area_squared > rounding * rounding * square[a] * square[b]
+                     ? std::sqrt(twice_area_squared)
+                     : 0.;
   return t;
 }
 
@@ -80,7 +83,8 @@ inline std::optional<Point_coefficients> mean_coefficients(const Operator_coeffi
 {
   if(c.rows() == 0)
     return {};
-  return Point_coefficients((c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3);
+  return Point_coefficients(
+      (c.row(corners[0]) + c.row(corners[1]) + c.row(corners[2])).transpose() / 3);
 }
 
 inline double density(const std::optional<Point_coefficients>& mean)
@@ -101,8 +105,9 @@ inline Eigen::Matrix3d conductivity(const Point_coefficients& c)
   return D;
 }
 
-/// The same for an operator with coefficients or without, see `Local_operator`: edges are turned by a right angle within the triangle, and
-/// products are those of the conductivity. The area is that of the triangle, without the density.
+/// The same for an operator with coefficients or without, see `Local_operator`: edges are turned by
+/// a right angle within the triangle, and products are those of the conductivity. The area is that
+/// of the triangle, without the density.
 inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3],
                                          const std::optional<Point_coefficients>& mean)
 {
@@ -119,9 +124,10 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3],
   return t;
 }
 
-/// The part of a triangle's area that goes to its corner of cotangent c, a and b being those of the others: its Voronoi region, or in
-/// an obtuse triangle half or a quarter (Meyer et al. 2003, section 3.3). A common factor of the three does not matter: for
-/// an operator with a conductivity these are regions in its metric.
+/// The part of a triangle's area that goes to its corner of cotangent c, a and b being those of the
+/// others: its Voronoi region, or in an obtuse triangle half or a quarter (Meyer et al. 2003,
+/// section 3.3). A common factor of the three does not matter: for an operator with a conductivity
+/// these are regions in its metric.
 inline double mixed_voronoi_share(const double c, const double a, const double b)
 {
   if(c < 0)

@@ -16,10 +16,11 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// For each of n vertices the number of its component, from 0 in the order of their first vertices. `for_each_edge` calls its
-/// argument with the ends of each edge.
+/// For each of n vertices the number of its component, from 0 in the order of their first vertices.
+/// `for_each_edge` calls its argument with the ends of each edge.
 template <class For_each_edge>
-std::vector<Eigen::Index> connected_components(const Eigen::Index n, const For_each_edge& for_each_edge)
+std::vector<Eigen::Index> connected_components(const Eigen::Index n,
+                                               const For_each_edge& for_each_edge)
 {
   boost::disjoint_sets_with_storage<> sets(static_cast<std::size_t>(n));
   for_each_edge([&](const Eigen::Index i, const Eigen::Index j) {
@@ -37,7 +38,8 @@ std::vector<Eigen::Index> connected_components(const Eigen::Index n, const For_e
 }
 
 /// The same where triangles (m x 3) join vertices.
-inline std::vector<Eigen::Index> connected_components(const Eigen::Index n, const Eigen::MatrixXi& T)
+inline std::vector<Eigen::Index> connected_components(const Eigen::Index n,
+                                                      const Eigen::MatrixXi& T)
 {
   return connected_components(n, [&](const auto& join) {
     for(Eigen::Index f = 0; f < T.rows(); ++f)
@@ -94,7 +96,8 @@ public:
 
 private:
   template <class Put>
-  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const std::size_t each, const Put& put)
+  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const std::size_t each,
+               const Put& put)
     : m_begin(std::size_t(n) + 1, 0)
     , m_size(std::size_t(n), 0)
   {

@@ -54,9 +54,10 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
                                          const std::optional<Point_coefficients>& mean)
 {
   Eigen::Vector3d edge[3] = {r - q, p - r, q - p};
-  const double extent = (std::max)(
-      {edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(), edge[2].cwiseAbs().maxCoeff()});
-  // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is exact.
+  const double extent = (std::max)({edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(),
+                                    edge[2].cwiseAbs().maxCoeff()});
+  // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is
+  // exact.
   const int exponent = extent > 0. && std::isfinite(extent) ? std::ilogb(extent) : 0;
   for(Eigen::Vector3d& e : edge)
     for(int c = 0; c < 3; ++c)
@@ -76,8 +77,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
 {
-  require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ", V.cols(),
-          " columns.");
+  require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ",
+          V.cols(), " columns.");
   for(Eigen::Index v = 0; v < V.rows(); ++v)
     require(V.row(v).allFinite(), "Laplace operator: ", vertex_name(v),
             " has a coordinate that is not a finite number; repair or remove it.");
@@ -86,20 +87,23 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
 {
   require(T.cols() == 3 && T.rows() != 0,
-          "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T), ".");
+          "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T),
+          ".");
   for(Eigen::Index f = 0; f < T.rows(); ++f) {
     const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
-    require((std::min)({i, j, k}) >= 0 && (std::max)({i, j, k}) < n, "Laplace operator: ", face_name(f),
-            " refers to a vertex outside 0..", n - 1, "; repair the indices.");
+    require((std::min)({i, j, k}) >= 0 && (std::max)({i, j, k}) < n,
+            "Laplace operator: ", face_name(f), " refers to a vertex outside 0..", n - 1,
+            "; repair the indices.");
     require(i != j && j != k && k != i, "Laplace operator: ", face_name(f),
             " uses one vertex twice; remove the face.");
   }
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, const Eigen::Index n)
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op,
+                                                        const Eigen::Index n)
 {
-  require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ", op.theta,
-          ".");
+  require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ",
+          op.theta, ".");
   require(!op.voronoi || op.theta == 0.,
           "Local operator: Voronoi shares are those of a lumped mass, but theta is ", op.theta,
           "; set one of the two to 0.");
@@ -107,8 +111,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
   require(c.rows() == 0 || c.rows() == n, "Local operator: there are coefficients for ", c.rows(),
           " vertices, but the mesh has ", n, "; give one row for each.");
   for(Eigen::Index v = 0; v < c.rows(); ++v) {
-    require(c(v, 0) > 0. && std::isfinite(c(v, 0)), "Local operator: the density of ", vertex_name(v), " is ",
-            c(v, 0), "; use positive numbers.");
+    require(c(v, 0) > 0. && std::isfinite(c(v, 0)), "Local operator: the density of ",
+            vertex_name(v), " is ", c(v, 0), "; use positive numbers.");
     Eigen::Matrix3d D = conductivity(c.row(v).transpose());
     D /= D.trace(); // of any unit
     // Sylvester's criterion, each minor beside what it is a difference of.
@@ -116,7 +120,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
     require(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
                 xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz &&
                 D.determinant() > 0.,
-            "Local operator: the conductivity of ", vertex_name(v), " is not positive definite; correct it.");
+            "Local operator: the conductivity of ", vertex_name(v),
+            " is not positive definite; correct it.");
   }
 }
 
@@ -127,9 +132,11 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
   const Triangle_cotangents t = local_cotangents(V, corners, c);
   const Eigen::Vector3d own = // of the triangle itself, whatever conducts
       c.rows() == 0 ? t.cot : local_cotangents(V, corners, {}).cot;
-  require(own.cwiseAbs().maxCoeff() <= largest_cotangent && t.cot.allFinite() && std::isfinite(t.area),
+  require(own.cwiseAbs().maxCoeff() <= largest_cotangent && t.cot.allFinite() &&
+              std::isfinite(t.area),
           "Laplace operator: ", face_name(f),
-          " is a needle or too large, its cotangents or its area overflow the matrix; collapse its shortest "
+          " is a needle or too large, its cotangents or its area overflow the matrix; collapse its "
+          "shortest "
           "edge, remesh it or rescale the mesh.");
   return t;
 }
@@ -137,11 +144,13 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
 {
   for(Eigen::Index v = 0; v < mass.size(); ++v) {
-    require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ", vertex_name(v),
-            " is not a finite number; rescale the mesh.");
-    require(mass(v) > 0. || (T.array() != static_cast<int>(v)).all(), "Laplace operator: ", vertex_name(v),
+    require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ",
+            vertex_name(v), " is not a finite number; rescale the mesh.");
+    require(mass(v) > 0. || (T.array() != static_cast<int>(v)).all(),
+            "Laplace operator: ", vertex_name(v),
             " has no mass because all its faces have zero area; remove these faces.");
-    require(mass(v) > 0., "Laplace operator: ", vertex_name(v), " is isolated, no face uses it; remove it.");
+    require(mass(v) > 0., "Laplace operator: ", vertex_name(v),
+            " is isolated, no face uses it; remove it.");
   }
 }
 
@@ -198,7 +207,8 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
     return upper.selfadjointView<Eigen::Upper>();
   };
   const Eigen::VectorXd diagonal =
-      Eigen::VectorXd::Zero(n) - mirrored(stiffness) * Eigen::VectorXd::Ones(n); // so that rows sum to 0
+      Eigen::VectorXd::Zero(n) -
+      mirrored(stiffness) * Eigen::VectorXd::Ones(n); // so that rows sum to 0
   for(Eigen::Index i = 0; i < n; ++i) {
     stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
     consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
@@ -248,10 +258,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Ei
   return corner_masses;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T,
-                                                                const Eigen::MatrixXd& corner_masses,
-                                                                double theta)
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator
+laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                 const Eigen::MatrixXd& corner_masses, double theta)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
@@ -271,7 +280,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
   internal::check_triangles(T, V.rows());
   internal::check_local_operator(op, V.rows());
   Laplace_operator result = internal::assemble(T, V.rows(), op.theta, [&](const Eigen::Index f) {
-    return internal::lumped_element(internal::checked_cotangents(V, T, f, op.coefficients), op.voronoi);
+    return internal::lumped_element(internal::checked_cotangents(V, T, f, op.coefficients),
+                                    op.voronoi);
   });
   result.voronoi = op.voronoi;
   result.has_coefficients = op.coefficients.rows() != 0;

@@ -26,7 +26,8 @@ namespace CGAL::Spectral_geometry {
 namespace internal {
 
 /// The neighbours of each vertex.
-inline std::vector<std::vector<int>> vertex_neighbors(const Eigen::MatrixXi& T, const Eigen::Index n)
+inline std::vector<std::vector<int>> vertex_neighbors(const Eigen::MatrixXi& T,
+                                                      const Eigen::Index n)
 {
   std::vector<std::vector<int>> result(static_cast<std::size_t>(n));
   for(Eigen::Index f = 0; f < T.rows(); ++f)
@@ -40,7 +41,8 @@ inline std::vector<std::vector<int>> vertex_neighbors(const Eigen::MatrixXi& T, 
   return result;
 }
 
-/// Whole rings of v, v first, until there are so many vertices. `seen` has been zero everywhere, and is again.
+/// Whole rings of v, v first, until there are so many vertices. `seen` has been zero everywhere,
+/// and is again.
 inline std::vector<int> rings_of(const std::vector<std::vector<int>>& neighbors, const int v,
                                  const std::size_t wanted, std::vector<char>& seen)
 {
@@ -94,8 +96,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients curvature_coefficients(const
     const Eigen::Vector3d d1 = vector(form.maximal_principal_direction()),
                           d2 = vector(form.minimal_principal_direction()), n = d1.cross(d2);
     const double p1 = psi(form.principal_curvatures(0)), p2 = psi(form.principal_curvatures(1));
-    const Eigen::Matrix3d d =
-        p1 * d1 * d1.transpose() + p2 * d2 * d2.transpose() + std::sqrt(p1 * p2) * n * n.transpose();
+    const Eigen::Matrix3d d = p1 * d1 * d1.transpose() + p2 * d2 * d2.transpose() +
+                              std::sqrt(p1 * p2) * n * n.transpose();
     if(d.allFinite() && std::abs(n.norm() - 1) < 1e-6 && p1 > 0 && p2 > 0)
       D.row(v) << d(0, 0), d(0, 1), d(0, 2), d(1, 1), d(1, 2), d(2, 2);
   }

@@ -47,8 +47,9 @@ public:
     , m_lambda(std::move(lambda))
     , m_area(own.mass.sum())
     , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
-    , m_weight((m_lambda.array() + 4 * CGAL_PI * (own.has_coefficients ? unit_of_stiffness(own.L) : 1.))
-                   .pow(-options.low_modes))
+    , m_weight(
+          (m_lambda.array() + 4 * CGAL_PI * (own.has_coefficients ? unit_of_stiffness(own.L) : 1.))
+              .pow(-options.low_modes))
   {
     const double mean = (m_weight.array() * m_lambda.array().square()).mean();
     m_weight *= mean > 0. ? 1. / mean : 0.; // 0 where all eigenvalues are
@@ -78,7 +79,8 @@ public:
     double f = evaluate(m_lowest + s, g);
     Vector z = (0.1 * f / n) * s.cwiseInverse();
     while(!result.converged && result.iterations < m_options.maximum_iterations) {
-      if(m_options.progress && !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
+      if(m_options.progress &&
+         !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
         throw Cancelled();
       const Vector barrier = z.cwiseQuotient(s), target = (0.2 * s.dot(z) / n) * s.cwiseInverse();
       Vector dx, Qdx;
@@ -138,11 +140,16 @@ private:
   // The number of its component for each unknown.
   Vector spread(const Vector& of_components) const
   {
-    return Vector::NullaryExpr(m_start.size(), [&](Index a) { return of_components(m_component[a]); });
+    return Vector::NullaryExpr(m_start.size(),
+                               [&](Index a) { return of_components(m_component[a]); });
   }
 
-  // Each component with the mass that it has: without that those that fit badly would shrink, which lowers their residual.
-  Vector scaled(const Vector& x) const { return x.cwiseProduct(spread(m_share.cwiseQuotient(totals(x)))); }
+  // Each component with the mass that it has: without that those that fit badly would shrink, which
+  // lowers their residual.
+  Vector scaled(const Vector& x) const
+  {
+    return x.cwiseProduct(spread(m_share.cwiseQuotient(totals(x))));
+  }
 
   struct Edge
   {
@@ -174,7 +181,8 @@ private:
     for(auto& ring : rings)
       std::sort(ring.begin(), ring.end());
     const auto edge = [&](Index a, Index b) { // or null
-      const auto found = std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)));
+      const auto found =
+          std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)));
       return found != rings[a].end() && found->first == b ? &edges[found->second] : nullptr;
     };
     for(Edge& e : edges) {
@@ -199,7 +207,8 @@ private:
       m_stiffness.add({{e.i, 1.}, {e.j, -1.}}, e.left,
                       m_options.smallest_weight * (std::max)(scale * 0.05, e.left), scale);
       if(m_options.rings == 2 && e.opposite.size() == 2)
-        m_stiffness.add({{e.i, 1.}, {e.j, 1.}, {e.opposite[0], -1.}, {e.opposite[1], -1.}}, 0., 0., scale);
+        m_stiffness.add({{e.i, 1.}, {e.j, 1.}, {e.opposite[0], -1.}, {e.opposite[1], -1.}}, 0., 0.,
+                        scale);
       if(!diagonal) {
         m_mass.add({{e.i, 1.}, {e.j, 1.}}, e.mass, 0., 1. / N);
         b(e.i) -= e.mass;
@@ -225,8 +234,9 @@ private:
     m_mass.assemble(N);
   }
 
-  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T with t = b / (a + b) and q <= a + b has
-  // q t (1-t) at ij, up to a b / (a + b), and takes q (1-t) from a, q t from b. a or b may be next to nothing.
+  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T with t = b /
+  // (a + b) and q <= a + b has q t (1-t) at ij, up to a b / (a + b), and takes q (1-t) from a, q t
+  // from b. a or b may be next to nothing.
   template <class Find>
   void add_thin_triangles(Edge& e, const Find& edge, double scale)
   {
@@ -250,8 +260,9 @@ private:
     }
   }
 
-  // The lower triangle of H = sum_v A_v A_v^T / D_v, where row v of R, times the root of W, is A_v^T x. It only preconditions: of
-  // a vertex in whose row very many unknowns are, the diagonal is enough.
+  // The lower triangle of H = sum_v A_v A_v^T / D_v, where row v of R, times the root of W, is
+  // A_v^T x. It only preconditions: of a vertex in whose row very many unknowns are, the diagonal
+  // is enough.
   void assemble_normal_matrix(const Rows& G)
   {
     const Index nL = m_stiffness.size();
@@ -286,10 +297,12 @@ private:
     m_H.setFromTriplets(lower.begin(), lower.end());
   }
 
-  // The objective and half its gradient; or, for a direction, Q x. Two passes over the rows of G, by blocks that stay in the cache.
+  // The objective and half its gradient; or, for a direction, Q x. Two passes over the rows of G,
+  // by blocks that stay in the cache.
   double evaluate(const Vector& x, Vector& g, bool affine = true)
   {
-    const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(), panels = m_G.panels();
+    const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(),
+                panels = m_G.panels();
     const Sparse_matrix L = m_stiffness.matrix(x.head(nL)), B = m_mass.matrix(x.tail(nB));
     Tall_matrix R(m_row_mass.size(), K);
     struct Sums
@@ -340,8 +353,9 @@ private:
           subtract_product(A.row(q, 0), m_G.row(p, first), rows, minus_M.block(p, q));
       };
       const auto sample = [&](const Sparse_matrix& pattern, Vector& result) {
-        sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0), A.panel_size(),
-                        m_G.row(0, 0), m_G.panel_size(), panels, result.data(), rows);
+        sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0),
+                        A.panel_size(), m_G.row(0, 0), m_G.panel_size(), panels, result.data(),
+                        rows);
       };
       for(Index q = 0; q < panels; ++q) {
         A.rows(q, 0, rows) = R.rows(q, first, rows);
@@ -375,7 +389,8 @@ private:
   // Ranges of rows whose sums are formed apart, however many threads there are.
   Index number_of_ranges() const { return (std::min)(Index(8), 1 + m_row_mass.size() / 512); }
 
-  // Calls f(range, first row, number of rows, scratch, scratch) for blocks of rows, those of a range in order.
+  // Calls f(range, first row, number of rows, scratch, scratch) for blocks of rows, those of a
+  // range in order.
   template <class Function>
   void for_each_block(const Function& f)
   {
@@ -388,8 +403,8 @@ private:
     });
   }
 
-  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta + 1/10) H + tie + barrier +
-  // penalty; returns the square of that norm of r.
+  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta
+  // + 1/10) H + tie + barrier + penalty; returns the square of that norm of r.
   double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx)
   {
     Vector y(r.size()), q, p;
@@ -432,11 +447,12 @@ private:
     return 1. / (std::max)(1., (-dv.cwiseQuotient(v)).maxCoeff() / 0.95);
   }
 
-  // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left out, a block of more unknowns
-  // of the preconditioner is diagonal.
+  // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left
+  // out, a block of more unknowns of the preconditioner is diagonal.
   static constexpr Index largest_star = 64, largest_block = 256;
   static constexpr Index rows_of_block = 128;
-  static constexpr double penalty = 1e4; // of the totals of the mass; the other terms are about 1 or less
+  static constexpr double penalty =
+      1e4; // of the totals of the mass; the other terms are about 1 or less
   const Operator_fit_options& m_options;
   Tall_matrix m_G;
   const Vector m_lambda;
@@ -452,10 +468,11 @@ private:
   int m_steps = 1000; // of conjugate gradients, the last time
 };
 
-// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and those of other vertices has of each of the former
-// what its neighbours say: row v of L g = lambda B g, as ten sweeps of Gauss and Seidel leave it. That is used in place of what P reads
-// there, which may be another sheet, as in a pocket of the surface: its entries would be fitted to that, and its mode come down among the
-// fitted ones.
+// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and
+// those of other vertices has of each of the former what its neighbours say: row v of L g = lambda
+// B g, as ten sweeps of Gauss and Seidel leave it. That is used in place of what P reads there,
+// which may be another sheet, as in a pocket of the surface: its entries would be fitted to that,
+// and its mode come down among the fitted ones.
 inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
                                    Eigen::MatrixXd& G)
 {
@@ -483,14 +500,18 @@ inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::Vec
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_operator_fit_options(const Operator_fit_options& o)
 {
-  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings, ".");
+  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
+          ".");
   require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
           "operator fit: orthonormality and plain must be numbers from 0.");
-  require(o.low_modes >= 0. && o.low_modes <= 20., "operator fit: low_modes must be a number from 0 to 20.");
+  require(o.low_modes >= 0. && o.low_modes <= 20.,
+          "operator fit: low_modes must be a number from 0 to 20.");
   require(o.tie > 0. && std::isfinite(o.tie), "operator fit: tie must be a positive number.");
-  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. && o.smallest_mass <= 1.,
+  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. &&
+              o.smallest_mass <= 1.,
           "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
-  require(o.tolerance > 0. && o.tolerance < 1., "operator fit: tolerance must lie between 0 and 1.");
+  require(o.tolerance > 0. && o.tolerance < 1.,
+          "operator fit: tolerance must lie between 0 and 1.");
   require(o.maximum_iterations >= 0, "operator fit: maximum_iterations must not be negative.");
   require(o.threads >= 1, "operator fit: threads must be at least 1.");
 }
@@ -501,14 +522,17 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   const Eigen::Index N = P.rows(), n = P.cols(), K = pairs.size();
   require(N > 0 && coarse.L.rows() == N && coarse.L.cols() == N && coarse.B.rows() == N &&
               coarse.B.cols() == N && coarse.mass.size() == N,
-          "operator fit: P is ", size_name(P), " but the coarse operator has L ", size_name(coarse.L), ", B ",
-          size_name(coarse.B), " and ", coarse.mass.size(), " masses, pass matrices of one coarse mesh.");
+          "operator fit: P is ", size_name(P), " but the coarse operator has L ",
+          size_name(coarse.L), ", B ", size_name(coarse.B), " and ", coarse.mass.size(),
+          " masses, pass matrices of one coarse mesh.");
   require(fine.mass.size() == n && pairs.vectors.rows() == n && pairs.vectors.cols() == K && K > 0,
-          "operator fit: P is ", size_name(P), " but there are ", fine.mass.size(), " fine masses, ", K,
-          " eigenvalues and eigenvectors of ", size_name(pairs.vectors),
+          "operator fit: P is ", size_name(P), " but there are ", fine.mass.size(),
+          " fine masses, ", K, " eigenvalues and eigenvectors of ", size_name(pairs.vectors),
           ", pass the operator and at least one eigenpair of the fine mesh.");
-  require(coarse.boundary == Boundary_condition::neumann && fine.boundary == Boundary_condition::neumann,
-          "operator fit: the rows of a fitted Laplacian sum to zero, which those of the Dirichlet condition "
+  require(coarse.boundary == Boundary_condition::neumann &&
+              fine.boundary == Boundary_condition::neumann,
+          "operator fit: the rows of a fitted Laplacian sum to zero, which those of the Dirichlet "
+          "condition "
           "do not; pass operators without it.");
   for(Eigen::Index v = 0; v < N; ++v)
     require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)), "operator fit: the mass of ",
@@ -516,11 +540,13 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   const double area = fine.mass.sum();
   require(area > 0. && std::isfinite(area),
           "operator fit: the area of the fine mesh is not a positive number.");
-  const double rounding = 1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
+  const double rounding =
+      1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
   for(Eigen::Index k = 0; k < K; ++k)
     require(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) &&
                 pairs.vectors.col(k).allFinite(),
-            "operator fit: eigenpair ", k, " (counted from 0) has a number that is negative or not finite.");
+            "operator fit: eigenpair ", k,
+            " (counted from 0) has a number that is negative or not finite.");
   const auto check_entries = [&](const Eigen::SparseMatrix<double>& A, const char* name) {
     for(Eigen::Index j = 0; j < A.outerSize(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
@@ -534,11 +560,9 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_operator& coarse,
-                                                                const Eigen::SparseMatrix<double>& P,
-                                                                const Laplace_operator& fine,
-                                                                const Eigenpairs& fine_pairs,
-                                                                const Operator_fit_options& options)
+CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(
+    const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+    const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Operator_fit_options& options)
 {
   internal::check_operator_fit_options(options);
   internal::check_operator_fit(coarse, P, fine, fine_pairs);
@@ -554,7 +578,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_fit_result fit_operators(const Laplace_op
         "operator fit: the preconditioner could not be factorised; look for needle faces in the "
         "coarse mesh, or raise Operator_fit_options::tie.");
   }
-  result.op.theta = options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
+  result.op.theta =
+      options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
   return result;
 }
 

@@ -21,11 +21,13 @@ namespace CGAL::Spectral_geometry {
 namespace internal {
 
 /*!
- * Triangles glued along their sides, in their own metric: vertices have no positions. Slot 3 f + k is the side of face f that lies
- * opposite to its corner k. A vertex may be at several corners of a face, and sides of a face may be glued to each other.
+ * Triangles glued along their sides, in their own metric: vertices have no positions. Slot 3 f + k
+ * is the side of face f that lies opposite to its corner k. A vertex may be at several corners of a
+ * face, and sides of a face may be glued to each other.
  *
- * A face is known by the length of its sides, the dot products at its corners and its area. The last two follow from the lengths, but
- * Heron's formula would give the height of a flat triangle to half of the digits only.
+ * A face is known by the length of its sides, the dot products at its corners and its area. The
+ * last two follow from the lengths, but Heron's formula would give the height of a flat triangle to
+ * half of the digits only.
  */
 class Intrinsic_triangulation
 {
@@ -108,7 +110,8 @@ private:
     }
   }
 
-  // cot a + cot b >= 0 to rounding, multiplied by both areas. A corner without area has an angle of 0 or pi.
+  // cot a + cot b >= 0 to rounding, multiplied by both areas. A corner without area has an angle of
+  // 0 or pi.
   bool is_delaunay(const int s) const
   {
     constexpr double tolerance = 1e-10;
@@ -121,10 +124,11 @@ private:
     return dot(s) * b + dot(t) * a >= -tolerance * a * b;
   }
 
-  // What flips lower: the sum of the cotangents (the harmonic index, Bobenko and Springborn 2007), before that the number of faces
-  // without area, and where both have none the length of the edge. Compared as it is stored: rounding cannot lead in circles.
-  static std::tuple<int, double, double> energy(const Triangle_element& f, const Triangle_element& g,
-                                                const double length)
+  // What flips lower: the sum of the cotangents (the harmonic index, Bobenko and Springborn 2007),
+  // before that the number of faces without area, and where both have none the length of the edge.
+  // Compared as it is stored: rounding cannot lead in circles.
+  static std::tuple<int, double, double> energy(const Triangle_element& f,
+                                                const Triangle_element& g, const double length)
   {
     const auto cotangents = [](const Triangle_element& t) {
       return t.is_degenerate() ? 0. : (t.dot[0] + t.dot[1] + t.dot[2]) / t.twice_area;
@@ -140,14 +144,16 @@ private:
     int &flips_of_f = m_flips[std::size_t(s / 3)], &flips_of_g = m_flips[std::size_t(t / 3)];
     if(s / 3 == t / 3 || (std::max)(flips_of_f, flips_of_g) == most_flips)
       return false;
-    // Laid out in the plane, ij along x (Sharp and Crane 2020, section 3). Each vector is measured from its own end: a short one beside
-    // a long edge keeps its digits.
+    // Laid out in the plane, ij along x (Sharp and Crane 2020, section 3). Each vector is measured
+    // from its own end: a short one beside a long edge keeps its digits.
     const auto length = [&](const int slot) -> double& { return m_length[std::size_t(slot)]; };
-    const double l = length(s), c_height = element(s).twice_area / l, d_height = element(t).twice_area / l;
+    const double l = length(s), c_height = element(s).twice_area / l,
+                 d_height = element(t).twice_area / l;
     const Eigen::Vector3d ic(dot(s1) / l, c_height, 0), jc(-dot(s2) / l, c_height, 0);
     const Eigen::Vector3d id(dot(t2) / l, -d_height, 0), jd(-dot(t1) / l, -d_height, 0);
-    const Eigen::Vector3d cd = length(s2) + length(t1) < length(s1) + length(t2) ? Eigen::Vector3d(id - ic)
-                                                                                 : Eigen::Vector3d(jd - jc);
+    const Eigen::Vector3d cd = length(s2) + length(t1) < length(s1) + length(t2)
+                                   ? Eigen::Vector3d(id - ic)
+                                   : Eigen::Vector3d(jd - jc);
 
     Eigen::Vector3d edge_of_f[3], edge_of_g[3];
     edge_of_f[s % 3] = id, edge_of_f[s1 % 3] = -cd, edge_of_f[s2 % 3] = -ic;
@@ -174,8 +180,9 @@ private:
     return true;
   }
 
-  // Of a face. Large meshes of needles take hundreds. Where a surface is thinner than rounding, edges wind around it as often as
-  // lengths differ in magnitude, and would be unwound turn by turn.
+  // Of a face. Large meshes of needles take hundreds. Where a surface is thinner than rounding,
+  // edges wind around it as often as lengths differ in magnitude, and would be unwound turn by
+  // turn.
   static constexpr int most_flips = 10000;
 
   Eigen::MatrixXi m_T;
@@ -188,9 +195,8 @@ private:
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V,
-                                                                            const Eigen::MatrixXi& T,
-                                                                            const Mass mass)
+CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator
+intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Mass mass)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
@@ -204,11 +210,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
 
   Laplace_operator result = internal::assemble(corners, V.rows(), theta, [&](const Eigen::Index f) {
     const Triangle_cotangents t = mesh.cotangents(f);
-    internal::require(t.cot.cwiseAbs().maxCoeff() <= internal::largest_cotangent && std::isfinite(t.area),
-                      "Laplace operator: the intrinsic triangle of the vertices ", corners(f, 0), ", ",
-                      corners(f, 1), " and ", corners(f, 2),
-                      " (counted from 0) is a needle or too large, its cotangents or its area overflow the "
-                      "matrix; collapse its shortest edge, remesh there or rescale the mesh.");
+    internal::require(
+        t.cot.cwiseAbs().maxCoeff() <= internal::largest_cotangent && std::isfinite(t.area),
+        "Laplace operator: the intrinsic triangle of the vertices ", corners(f, 0), ", ",
+        corners(f, 1), " and ", corners(f, 2),
+        " (counted from 0) is a needle or too large, its cotangents or its area overflow the "
+        "matrix; collapse its shortest edge, remesh there or rescale the mesh.");
     internal::Face_element element = internal::lumped_element(t, mass == Mass::voronoi);
     for(int k = 0; k < 3; ++k)
       if(is_loop(f, k)) // its difference of values is 0
@@ -217,7 +224,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator intrinsic_delaunay_laplacian(cons
   });
   result.voronoi = mass == Mass::voronoi;
 
-  // Both of a loop's entries A/12 lie on the diagonal, where assembling by upper triangles leaves one of them.
+  // Both of a loop's entries A/12 lie on the diagonal, where assembling by upper triangles leaves
+  // one of them.
   for(Eigen::Index f = 0; f < corners.rows() && theta > 0.; ++f)
     for(int k = 0; k < 3; ++k)
       if(is_loop(f, k)) {

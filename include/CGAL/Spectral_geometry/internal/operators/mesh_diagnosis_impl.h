@@ -25,8 +25,8 @@ namespace CGAL::Spectral_geometry {
 
 namespace internal {
 
-/// The steps of a diagnosis. Faces that are no polygons of different, existing vertices are counted and left out
-/// of all that follows.
+/// The steps of a diagnosis. Faces that are no polygons of different, existing vertices are counted
+/// and left out of all that follows.
 class Mesh_examination
 {
 public:
@@ -56,7 +56,8 @@ public:
   }
 
 private:
-  using Key = std::pair<std::size_t, std::size_t>; // the smallest vertex of a face, and the sum of all
+  using Key =
+      std::pair<std::size_t, std::size_t>; // the smallest vertex of a face, and the sum of all
 
   struct Side // of a face, along an edge
   {
@@ -73,7 +74,8 @@ private:
 
   bool joined(const std::size_t low, const std::size_t high) const
   {
-    const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), Side{low, high, 0, 0, false});
+    const auto side =
+        std::lower_bound(m_sides.begin(), m_sides.end(), Side{low, high, 0, 0, false});
     return side != m_sides.end() && side->low == low && side->high == high;
   }
 
@@ -107,7 +109,8 @@ private:
         m_result.repeated_vertices.add(f);
       else {
         m_sound[f] = true;
-        sound.emplace_back(Key(sorted[0], std::accumulate(sorted.begin(), sorted.end(), std::size_t(0))), f);
+        sound.emplace_back(
+            Key(sorted[0], std::accumulate(sorted.begin(), sorted.end(), std::size_t(0))), f);
         if(sorted.size() > 3)
           m_result.polygons.add(f, sorted.size());
       }
@@ -137,8 +140,8 @@ private:
     }
   }
 
-  // Those of a vertex side by side by counting, then each vertex' own: they are few. Sorted at once, a mesh of a million
-  // triangles takes 1.4 times as long to diagnose.
+  // Those of a vertex side by side by counting, then each vertex' own: they are few. Sorted at
+  // once, a mesh of a million triangles takes 1.4 times as long to diagnose.
   void collect_sides()
   {
     std::vector<std::size_t> begin(m_n + 2, 0);
@@ -154,12 +157,14 @@ private:
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     m_sides.resize(begin.back());
-    for_each_side([&](const std::size_t face, const std::size_t i, const std::size_t v, const std::size_t w) {
-      m_sides[begin[(std::min)(v, w) + 1]++] = {(std::min)(v, w), (std::max)(v, w), face, std::uint32_t(i),
-                                                v < w};
-    });
+    for_each_side(
+        [&](const std::size_t face, const std::size_t i, const std::size_t v, const std::size_t w) {
+          m_sides[begin[(std::min)(v, w) + 1]++] = {(std::min)(v, w), (std::max)(v, w), face,
+                                                    std::uint32_t(i), v < w};
+        });
     for(std::size_t v = 0; v < m_n; ++v)
-      std::sort(m_sides.begin() + std::ptrdiff_t(begin[v]), m_sides.begin() + std::ptrdiff_t(begin[v + 1]));
+      std::sort(m_sides.begin() + std::ptrdiff_t(begin[v]),
+                m_sides.begin() + std::ptrdiff_t(begin[v + 1]));
   }
 
   void examine_edges()
@@ -212,7 +217,8 @@ private:
     std::vector<State> state(m_n, unused);
     for(std::size_t f = 0; f < m_polygons.size(); ++f) {
       const std::vector<std::size_t>& p = m_polygons[f];
-      if(!m_sound[f] || !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return m_finite[v]; }))
+      if(!m_sound[f] ||
+         !std::all_of(p.begin(), p.end(), [&](const std::size_t v) { return m_finite[v]; }))
         continue;
       double area = 1;
       if(p.size() == 3) {
@@ -238,20 +244,24 @@ private:
     order.reserve(m_n);
     for(std::size_t v = 0; v < m_n; ++v)
       if(m_finite[v])
-        order.push_back({{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
+        order.push_back(
+            {{m_V(Eigen::Index(v), 0), m_V(Eigen::Index(v), 1), m_V(Eigen::Index(v), 2)}, v});
     std::sort(order.begin(), order.end());
     for(std::size_t i = 1, first = 0; i < order.size(); ++i)
       if(order[i].first != order[first].first)
         first = i;
-      else if(!joined(order[first].second, order[i].second) && !joined(order[i - 1].second, order[i].second))
+      else if(!joined(order[first].second, order[i].second) &&
+              !joined(order[i - 1].second, order[i].second))
         add_smallest(m_result.coincident_vertices, {order[i].second, order[first].second});
   }
 
-  // Cells of level l are 2^(l + 1) wide and hold those that reach at least 2^l, and less than that: what is near lies in one of 27, and
-  // there are few in each, as one that is found near an earlier one is not put there.
+  // Cells of level l are 2^(l + 1) wide and hold those that reach at least 2^l, and less than that:
+  // what is near lies in one of 27, and there are few in each, as one that is found near an earlier
+  // one is not put there.
   void find_cracks()
   {
-    if(m_result.polygons.count != 0 || std::find(m_border.begin(), m_border.end(), true) == m_border.end())
+    if(m_result.polygons.count != 0 ||
+       std::find(m_border.begin(), m_border.end(), true) == m_border.end())
       return;
     Eigen::AlignedBox3d box;
     for(const Side& side : m_sides)
@@ -279,10 +289,12 @@ private:
       for(const auto& [level, cells] : levels) {
         const Cell at = cell_of(v, level);
         for(int k = 0; k < 27; ++k) {
-          const auto found = cells.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
+          const auto found =
+              cells.find({at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1});
           if(found != cells.end())
             for(const std::size_t w : found->second)
-              if(w < first && (point(v) - point(w)).norm() <= (std::min)(reach[v], reach[w]) && !joined(w, v))
+              if(w < first && (point(v) - point(w)).norm() <= (std::min)(reach[v], reach[w]) &&
+                 !joined(w, v))
                 first = w;
         }
       }
@@ -342,11 +354,12 @@ inline std::string counted(const std::size_t n, const char* one, const char* man
 
 inline const Mesh_component& smallest_component(const std::vector<Mesh_component>& all)
 {
-  return *std::min_element(all.begin(), all.end(), [](auto& a, auto& b) { return a.vertices < b.vertices; });
+  return *std::min_element(all.begin(), all.end(),
+                           [](auto& a, auto& b) { return a.vertices < b.vertices; });
 }
 
-/// Adds what was found, if anything: "3 of 17 faces have zero area, the first is face 4 (counted from 0): they ...". `singular` and
-/// `plural` are what one or several of them do.
+/// Adds what was found, if anything: "3 of 17 faces have zero area, the first is face 4 (counted
+/// from 0): they ...". `singular` and `plural` are what one or several of them do.
 inline void add_clause(std::vector<std::string>& clauses, const Mesh_finding& finding,
                        const std::size_t total, const bool faces, const std::string& singular,
                        const std::string& plural, const std::string& help)
@@ -356,21 +369,22 @@ inline void add_clause(std::vector<std::string>& clauses, const Mesh_finding& fi
   if(finding.count == 1)
     clauses.push_back(first + " " + singular + ": " + help);
   else if(finding.count > 1)
-    clauses.push_back(std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds + " " +
-                      plural + ", the first is " + first + ": " + help);
+    clauses.push_back(std::to_string(finding.count) + " of " + std::to_string(total) + " " + kinds +
+                      " " + plural + ", the first is " + first + ": " + help);
 }
 
 /// The same for edges, which have no number but two ends.
 inline void add_edge_clause(std::vector<std::string>& clauses, const Mesh_finding& finding,
-                            const std::string& singular, const std::string& plural, const std::string& help)
+                            const std::string& singular, const std::string& plural,
+                            const std::string& help)
 {
   const std::string first = "from vertex " + std::to_string(finding.first) + " to vertex " +
                             std::to_string(finding.second) + " (counted from 0)";
   if(finding.count == 1)
     clauses.push_back("the edge " + first + " " + singular + ": " + help);
   else if(finding.count > 1)
-    clauses.push_back(std::to_string(finding.count) + " edges " + plural + ", the first runs " + first +
-                      ": " + help);
+    clauses.push_back(std::to_string(finding.count) + " edges " + plural + ", the first runs " +
+                      first + ": " + help);
 }
 
 } // namespace internal
@@ -379,7 +393,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
 {
   using std::to_string;
   std::vector<std::string> result;
-  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many, const char* help) {
+  const auto vertices = [&](const Mesh_finding& f, const char* one, const char* many,
+                            const char* help) {
     internal::add_clause(result, f, number_of_vertices, false, one, many, help);
   };
   const auto faces = [&](const Mesh_finding& f, const std::string& one, const char* many,
@@ -387,9 +402,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
     internal::add_clause(result, f, number_of_faces, true, one, many, help);
   };
   vertices(non_finite_vertices, "has a coordinate that is not a finite number",
-           "have a coordinate that is not a finite number", "correct it or remove the faces around");
+           "have a coordinate that is not a finite number",
+           "correct it or remove the faces around");
   if(out_of_scale())
-    result.push_back(std::string("the largest coordinate is ") + (extent > 1 ? "above 1e50" : "below 1e-50") +
+    result.push_back(std::string("the largest coordinate is ") +
+                     (extent > 1 ? "above 1e50" : "below 1e-50") +
                      " in magnitude: scale the mesh to another unit of length");
   faces(foreign_indices, "uses a vertex that does not exist", "use a vertex that does not exist",
         "correct the indices");
@@ -401,15 +418,17 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::obstacles
   const std::string twin = "has the vertices of face " + to_string(duplicate_faces.second);
   faces(duplicate_faces, twin, "have the vertices of an earlier one",
         (duplicate_faces.count > 1 ? "it " + twin + "; " : std::string()) + "remove the copies");
-  internal::add_edge_clause(result, non_manifold_edges, "has more than two faces", "have more than two faces",
-                            "separate the sheets");
+  internal::add_edge_clause(result, non_manifold_edges, "has more than two faces",
+                            "have more than two faces", "separate the sheets");
   if(misoriented_edges.count != 0)
-    result.push_back(
-        "the faces " + to_string(misoriented_edges.first) + " and " + to_string(misoriented_edges.second) +
-        " (counted from 0) run along their common edge in the same direction, " +
-        internal::counted(misoriented_edges.count, "edge", "edges") + " in all: orient the faces alike");
+    result.push_back("the faces " + to_string(misoriented_edges.first) + " and " +
+                     to_string(misoriented_edges.second) +
+                     " (counted from 0) run along their common edge in the same direction, " +
+                     internal::counted(misoriented_edges.count, "edge", "edges") +
+                     " in all: orient the faces alike");
   vertices(non_manifold_vertices, "is where parts of the surface touch in a single vertex",
-           "are where parts of the surface touch in a single vertex", "give each part a vertex of its own");
+           "are where parts of the surface touch in a single vertex",
+           "give each part a vertex of its own");
   vertices(isolated_vertices, "is isolated, no face uses it", "are isolated, no face uses them",
            "remove every such vertex");
   faces(overflowing_faces, "is a needle or too large, its cotangents or its area overflow",
@@ -425,16 +444,17 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::remarks()
   std::vector<std::string> result;
   internal::add_edge_clause(result, zero_length_edges, "has no length", "have no length",
                             "their ends are merged first");
-  internal::add_clause(result, zero_area_faces, number_of_faces, true, "has zero area", "have zero area",
-                       "they contribute nothing to the operator");
+  internal::add_clause(result, zero_area_faces, number_of_faces, true, "has zero area",
+                       "have zero area", "they contribute nothing to the operator");
   internal::add_clause(result, coincident_vertices, number_of_vertices, false,
                        "lies where another vertex lies", "lie where another vertex lies",
                        "seams stay open unless they are stitched");
   if(components.size() > 1) {
     const Mesh_component& smallest = internal::smallest_component(components);
-    result.push_back("there are " + std::to_string(components.size()) + " components, the smallest of " +
-                     std::to_string(smallest.vertices) + " vertices around vertex " +
-                     std::to_string(smallest.first) + " (counted from 0): each of them is kept");
+    result.push_back("there are " + std::to_string(components.size()) +
+                     " components, the smallest of " + std::to_string(smallest.vertices) +
+                     " vertices around vertex " + std::to_string(smallest.first) +
+                     " (counted from 0): each of them is kept");
   }
   return result;
 }
@@ -444,7 +464,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::size_t Mesh_component::least_vertices() const
   if(!closed)
     return 3;
   const double characteristic = double(vertices) - double(faces) / 2;
-  return std::size_t(std::ceil((7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2 - 1e-9));
+  return std::size_t(
+      std::ceil((7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2 - 1e-9));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE std::string Mesh_diagnosis::too_small(const std::size_t N) const
@@ -470,12 +491,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::string Mesh_diagnosis::too_small(const std::s
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(const std::size_t K,
-                                                                                const std::size_t N) const
+CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string>
+Mesh_diagnosis::warnings(const std::size_t K, const std::size_t N) const
 {
   std::vector<std::string> result;
   if(N < least_vertices())
-    result.push_back("A target of " + internal::counted(N, "vertex", "vertices") + " cannot be reached: " +
+    result.push_back("A target of " + internal::counted(N, "vertex", "vertices") +
+                     " cannot be reached: " +
                      internal::counted(components.size(), "component needs", "components need") +
                      " at least " + std::to_string(least_vertices()) + " vertices.");
   if(components.size() > 1 && K <= components.size())
@@ -493,17 +515,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<std::string> Mesh_diagnosis::warnings(
                        " eigenvectors asked for, which belong to the larger components mostly.");
   }
   if(!cracks.empty())
-    result.push_back("The surface is cut at " +
-                     internal::counted(cracks.size(), "border vertex that lies", "border vertices that lie") +
-                     " on another, the first is vertex " + std::to_string(cracks.front().first) +
-                     " (counted from 0) on vertex " + std::to_string(cracks.front().second) +
-                     ": functions may jump there. Where that is not meant merge them; --repair of the "
-                     "programs closes cracks.");
+    result.push_back(
+        "The surface is cut at " +
+        internal::counted(cracks.size(), "border vertex that lies", "border vertices that lie") +
+        " on another, the first is vertex " + std::to_string(cracks.front().first) +
+        " (counted from 0) on vertex " + std::to_string(cracks.front().second) +
+        ": functions may jump there. Where that is not meant merge them; --repair of the "
+        "programs closes cracks.");
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Mesh_diagnosis
-diagnose_polygon_soup(const Eigen::MatrixXd& V, const std::vector<std::vector<std::size_t>>& polygons)
+CGAL_SPECTRAL_GEOMETRY_INLINE Mesh_diagnosis diagnose_polygon_soup(
+    const Eigen::MatrixXd& V, const std::vector<std::vector<std::size_t>>& polygons)
 {
   return internal::Mesh_examination(V, polygons).run();
 }

@@ -17,14 +17,14 @@ namespace internal {
 
 inline void check_length(const char* what, const Eigen::Index found, const Eigen::Index wanted)
 {
-  require(found == 0 || found == wanted, "Local operator: ", what, " has ", found, " entries where ", wanted,
-          " are needed; give one for each vertex.");
+  require(found == 0 || found == wanted, "Local operator: ", what, " has ", found,
+          " entries where ", wanted, " are needed; give one for each vertex.");
 }
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients weighted_coefficients(const Eigen::VectorXd& density,
-                                                                          const Eigen::VectorXd& conductivity)
+CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
+weighted_coefficients(const Eigen::VectorXd& density, const Eigen::VectorXd& conductivity)
 {
   const Eigen::Index n = density.size() != 0 ? density.size() : conductivity.size();
   internal::check_length("the conductivity", conductivity.size(), n);
@@ -42,8 +42,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
 anisotropic_coefficients(const Eigen::MatrixXd& conductivity, const Eigen::VectorXd& density)
 {
   const Eigen::Index n = conductivity.rows();
-  internal::require(conductivity.cols() == 6, "Local operator: the conductivity has ", conductivity.cols(),
-                    " columns; give six, xx, xy, xz, yy, yz, zz.");
+  internal::require(conductivity.cols() == 6, "Local operator: the conductivity has ",
+                    conductivity.cols(), " columns; give six, xx, xy, xz, yy, yz, zz.");
   internal::check_length("the density", density.size(), n);
   Operator_coefficients result(n, 7);
   result.col(0) = density.size() != 0 ? density : Eigen::VectorXd::Ones(n);
@@ -56,7 +56,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
     const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Operator_coefficients& of_faces)
 {
   internal::require(of_faces.rows() == T.rows(), "Local operator: there are coefficients for ",
-                    of_faces.rows(), " faces, but the mesh has ", T.rows(), "; give one row for each.");
+                    of_faces.rows(), " faces, but the mesh has ", T.rows(),
+                    "; give one row for each.");
   const Eigen::VectorXd area = barycentric_corner_masses(V, T).col(0);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(V.rows());
   Operator_coefficients result = Operator_coefficients::Zero(V.rows(), 7);

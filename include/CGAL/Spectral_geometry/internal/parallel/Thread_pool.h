@@ -28,13 +28,15 @@ namespace CGAL::Spectral_geometry::internal {
 /*!
  * Runs short loops on several threads, each with a workspace of its own.
  *
- * There are two loops of some microseconds in each collapse. A task scheduler spends as much on waking its
- * workers (measured with TBB: two threads as slow as one), so the workers here wait for the next loop with
- * their eyes open, and go to sleep when none comes for a while. The caller waits only for workers that have
- * entered a loop: one that the system has taken off its processor misses it and costs nothing.
+ * There are two loops of some microseconds in each collapse. A task scheduler spends as much on
+ * waking its workers (measured with TBB: two threads as slow as one), so the workers here wait for
+ * the next loop with their eyes open, and go to sleep when none comes for a while. The caller waits
+ * only for workers that have entered a loop: one that the system has taken off its processor misses
+ * it and costs nothing.
  *
- * What a call computes must depend on its index alone, so that the result is the same for any number of threads. What it throws,
- * on whichever thread, the caller gets when nobody is inside any more; calls that nobody has begun with are left out then.
+ * What a call computes must depend on its index alone, so that the result is the same for any
+ * number of threads. What it throws, on whichever thread, the caller gets when nobody is inside any
+ * more; calls that nobody has begun with are left out then.
  */
 template <class Workspace>
 class Thread_pool
@@ -44,7 +46,8 @@ public:
     : Thread_pool(threads, [](auto&& worker) { return std::thread(worker); })
   {}
 
-  /// `start(worker)` makes the threads. Where the system has no more of them the pool does with those it has got.
+  /// `start(worker)` makes the threads. Where the system has no more of them the pool does with
+  /// those it has got.
   template <class Start>
   Thread_pool(const int threads, const Start& start)
     : m_workspaces(threads > 1 ? std::size_t(threads) : 1)
@@ -81,7 +84,8 @@ public:
         body(i, m_workspaces.front());
       return;
     }
-    m_run = [](const void* b, const std::size_t begin, const std::size_t end, Workspace& workspace) {
+    m_run = [](const void* b, const std::size_t begin, const std::size_t end,
+               Workspace& workspace) {
       for(std::size_t i = begin; i < end; ++i)
         (*static_cast<const Body*>(b))(i, workspace);
     };
@@ -98,25 +102,28 @@ public:
   }
 
 private:
-  static constexpr std::size_t patience = 20000;     // spins, about a millisecond on an idle machine
+  static constexpr std::size_t patience = 20000; // spins, about a millisecond on an idle machine
   static constexpr std::size_t most_alone = 1 << 19; // calls, about half a second of collapses
 
   static void relax(const std::size_t spins)
   {
-    if(spins > 2048) // longer than a loop takes: somebody needs this processor, perhaps the one we wait for
+    if(spins >
+       2048) // longer than a loop takes: somebody needs this processor, perhaps the one we wait for
       std::this_thread::yield();
 #ifdef CGAL_SPECTRAL_DISPATCH
     _mm_pause();
 #endif
   }
 
-  // A worker that does not come out for a millisecond has lost its processor to somebody else. Where that happens the caller does the
-  // next calls alone, twice as many each time, while workers fall asleep: awake they would take the caller's processor, too.
+  // A worker that does not come out for a millisecond has lost its processor to somebody else.
+  // Where that happens the caller does the next calls alone, twice as many each time, while workers
+  // fall asleep: awake they would take the caller's processor, too.
   void wait_for_workers()
   {
     using Clock = std::chrono::steady_clock;
     Clock::time_point begin;
-    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0; ++spins) {
+    for(std::size_t spins = 0; (m_gate.load(std::memory_order_acquire) & inside_mask) != 0;
+        ++spins) {
       if(spins == 0)
         begin = Clock::now();
       relax(spins);
@@ -128,7 +135,8 @@ private:
   }
 
   // The gate: number of the loop, whether it is open, how many workers are inside.
-  static constexpr std::uint64_t inside_mask = 0x7fffffff, open_bit = 0x80000000, one_loop = 0x100000000;
+  static constexpr std::uint64_t inside_mask = 0x7fffffff, open_bit = 0x80000000,
+                                 one_loop = 0x100000000;
 
   static std::uint64_t loop_of(const std::uint64_t gate)
   {
@@ -153,7 +161,8 @@ private:
     }
   }
 
-  // False if the loop has been closed. Everything that was written before announce() is visible inside.
+  // False if the loop has been closed. Everything that was written before announce() is visible
+  // inside.
   bool enter(const std::uint64_t loop)
   {
     std::uint64_t gate = m_gate.load();
@@ -219,7 +228,8 @@ private:
   std::size_t m_size = 0, m_grain = 1;
   std::exception_ptr m_error; // the first that a call has thrown
   std::size_t m_alone = 0,
-              m_next_alone = 1 << 12; // calls that the caller does without workers, and the next time
+              m_next_alone =
+                  1 << 12; // calls that the caller does without workers, and the next time
 
   // Each in a cache line of its own: who waits reads the first of them all the time.
   alignas(cache_line) std::atomic<std::uint64_t> m_gate{0};
@@ -230,10 +240,12 @@ private:
   std::condition_variable m_wake;
 };
 
-/// Calls f(0) .. f(count - 1) on at most so many threads, in any order, as `Thread_pool::for_each()` does, `grain` of them in a row
-/// on one. Sums over tasks are up to the caller, in the order of the tasks, so that no result depends on the number of threads.
+/// Calls f(0) .. f(count - 1) on at most so many threads, in any order, as
+/// `Thread_pool::for_each()` does, `grain` of them in a row on one. Sums over tasks are up to the
+/// caller, in the order of the tasks, so that no result depends on the number of threads.
 template <class Function>
-void for_each_task(const Eigen::Index count, const int threads, const Function& f, const int grain = 1)
+void for_each_task(const Eigen::Index count, const int threads, const Function& f,
+                   const int grain = 1)
 {
   struct Nothing
   {};

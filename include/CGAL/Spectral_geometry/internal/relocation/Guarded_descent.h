@@ -15,13 +15,15 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
-L-BFGS (Nocedal and Wright, algorithm 7.5) over the positions of all vertices, with guards that cut the
-steps of single vertices: where the full step would break a triangle or leave the ball of a vertex, that vertex
-alone moves less and the others go on. A step of the whole that no longer descends is halved.
+L-BFGS (Nocedal and Wright, algorithm 7.5) over the positions of all vertices, with guards that cut
+the steps of single vertices: where the full step would break a triangle or leave the ball of a
+vertex, that vertex alone moves less and the others go on. A step of the whole that no longer
+descends is halved.
 
 `Objective`: `double value_and_gradient(const Positions&, Positions& gradient)`.
-`Guards`: `void tangential(const Positions& at, Positions& direction)` removes what a vertex may not do from a
-direction or gradient; `void admit(const Positions& from, Positions& to)` makes `to` legal, `from` being so.
+`Guards`: `void tangential(const Positions& at, Positions& direction)` removes what a vertex may not
+do from a direction or gradient; `void admit(const Positions& from, Positions& to)` makes `to`
+legal, `from` being so.
 */
 template <class Objective, class Guards>
 class Guarded_descent
@@ -76,9 +78,9 @@ private:
 
   static double dot(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
 
-  // The gradient at the vertices of a needle is larger than all others by orders of magnitude, and would be the
-  // only one that is followed. The first guess of the inverse Hessian levels it off: lengths
-  // below 1, one half at the median.
+  // The gradient at the vertices of a needle is larger than all others by orders of magnitude, and
+  // would be the only one that is followed. The first guess of the inverse Hessian levels it off:
+  // lengths below 1, one half at the median.
   void set_scales()
   {
     Eigen::VectorXd lengths = m_gradient.rowwise().norm();

@@ -37,8 +37,9 @@ struct Boundary_segment
   }
 };
 
-/// What single vertices and triangles may do while vertices are relocated. Legal at the start; afterwards `admit()`
-/// cuts the steps of the vertices that would break something, and of no others.
+/// What single vertices and triangles may do while vertices are relocated. Legal at the start;
+/// afterwards `admit()` cuts the steps of the vertices that would break something, and of no
+/// others.
 class Relocation_guards
 {
   using Held = Relocation_result::Held;
@@ -59,7 +60,8 @@ public:
     , m_smallest_angle(T.rows())
     , m_threads(options.threads)
   {
-    Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = Eigen::VectorXd::Zero(V.rows());
+    Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()),
+                    count = Eigen::VectorXd::Zero(V.rows());
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
       for(int k = 0; k < 3; ++k) {
         const int i = m_T(f, k), j = m_T(f, (k + 1) % 3);
@@ -97,7 +99,8 @@ public:
   using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
   void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
 
-  /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface is cut.
+  /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface
+  /// is cut.
   using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
   void set_leaps(Leaps leaps) { m_leaps = std::move(leaps); }
 
@@ -151,7 +154,8 @@ public:
           if(round >= 4)
             to.row(v) = from.row(v);
           else
-            to.row(v) = nearest_allowed(v, from.row(v), 0.5 * (from.row(v) + to.row(v))).transpose();
+            to.row(v) =
+                nearest_allowed(v, from.row(v), 0.5 * (from.row(v) + to.row(v))).transpose();
         }
   }
 
@@ -180,7 +184,8 @@ private:
 
   Eigen::Vector3d normal_of(const Eigen::Index f, const Positions& V) const
   {
-    const Eigen::Vector3d a = V.row(m_T(f, 1)) - V.row(m_T(f, 0)), b = V.row(m_T(f, 2)) - V.row(m_T(f, 0));
+    const Eigen::Vector3d a = V.row(m_T(f, 1)) - V.row(m_T(f, 0)),
+                          b = V.row(m_T(f, 2)) - V.row(m_T(f, 0));
     return a.cross(b);
   }
 
@@ -201,7 +206,8 @@ private:
     });
   }
 
-  Eigen::Vector3d nearest_allowed(const Eigen::Index v, const Eigen::Vector3d& from, Eigen::Vector3d to) const
+  Eigen::Vector3d nearest_allowed(const Eigen::Index v, const Eigen::Vector3d& from,
+                                  Eigen::Vector3d to) const
   {
     if(m_fixed[std::size_t(v)] || !to.allFinite())
       return from;
@@ -245,19 +251,21 @@ private:
   std::vector<std::vector<Boundary_segment>> m_boundary;
   Allowed m_allowed;
   Leaps m_leaps;
-  mutable std::vector<Held> m_held_by;        // of each vertex, 1 for what it was asked not to do, ever
+  mutable std::vector<Held> m_held_by; // of each vertex, 1 for what it was asked not to do, ever
   Eigen::VectorXd m_radius, m_smallest_angle; // of each vertex; of each triangle, what is allowed
   int m_threads;
   std::vector<Eigen::Vector3d> m_normal;
 };
 
-/// Tells whether the closest point of a surface leaps: it is further from that of the start of a step than three times the step.
-/// Legs lie close to the body and some faces intersect; one vertex whose signals leap would end the descent for all.
+/// Tells whether the closest point of a surface leaps: it is further from that of the start of a
+/// step than three times the step. Legs lie close to the body and some faces intersect; one vertex
+/// whose signals leap would end the descent for all.
 class Sheet_guard
 {
 public:
   /// For so many coarse vertices. The others are kept by reference.
-  Sheet_guard(const Closest_point_query& closest, const Surface_regions& regions, const std::size_t vertices)
+  Sheet_guard(const Closest_point_query& closest, const Surface_regions& regions,
+              const std::size_t vertices)
     : m_closest(closest)
     , m_regions(regions)
     , m_starts(vertices)
@@ -267,11 +275,13 @@ public:
   {
     Start& start = m_starts[std::size_t(v)];
     if(!start.closest || start.position != from) {
-      start.closest = start.closest ? m_regions.of_coarse_vertex(m_closest, v, from, start.closest->face)
-                                    : m_regions.of_coarse_vertex(m_closest, v, from);
+      start.closest = start.closest
+                          ? m_regions.of_coarse_vertex(m_closest, v, from, start.closest->face)
+                          : m_regions.of_coarse_vertex(m_closest, v, from);
       start.position = from;
     }
-    const Closest_point_query::Answer now = m_regions.of_coarse_vertex(m_closest, v, to, start.closest->face);
+    const Closest_point_query::Answer now =
+        m_regions.of_coarse_vertex(m_closest, v, to, start.closest->face);
     return (now.point - start.closest->point).norm() > 3 * (to - from).norm();
   }
 

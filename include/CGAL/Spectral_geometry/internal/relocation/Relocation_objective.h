@@ -19,14 +19,15 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a tolerance: a penalty that begins at
-/// half of it, steep enough to end before its whole.
+/// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a
+/// tolerance: a penalty that begins at half of it, steep enough to end before its whole.
 class Size_bounds
 {
 public:
   using Positions = Operator_geometry::Positions;
 
-  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine, const double tolerance)
+  Size_bounds(const Eigen::MatrixXi& T, const Positions& V, const Mesh_matrices& fine,
+              const double tolerance)
     : m_T(T)
     , m_tolerance(tolerance)
     , m_closed(boundary_edges(T).empty() && boundary_edges(fine.T).empty())
@@ -44,7 +45,10 @@ public:
   double area() const { return m_area.from; }
 
   /// Of the coarse mesh with these positions, and of the fine one.
-  std::pair<double, double> areas(const Positions& V) const { return {measure(m_T, V).first, m_fine_area}; }
+  std::pair<double, double> areas(const Positions& V) const
+  {
+    return {measure(m_T, V).first, m_fine_area};
+  }
 
   bool within(const Positions& V) const
   {
@@ -90,7 +94,8 @@ private:
     }
   };
 
-  // Where the meshes are far apart (a few vertices, or an offset) that of the fine one is not to be reached at any price.
+  // Where the meshes are far apart (a few vertices, or an offset) that of the fine one is not to be
+  // reached at any price.
   static Range range(const double coarse, const double fine)
   {
     const double change = std::clamp(fine / coarse - 1, -0.1, 0.1);
@@ -104,7 +109,8 @@ private:
     double area = 0, volume = 0;
     const Eigen::Vector3d origin = V.row(0);
     for(Eigen::Index f = 0; f < T.rows(); ++f) {
-      const Eigen::Vector3d p = V.row(T(f, 0)).transpose() - origin, q = V.row(T(f, 1)).transpose() - origin,
+      const Eigen::Vector3d p = V.row(T(f, 0)).transpose() - origin,
+                            q = V.row(T(f, 1)).transpose() - origin,
                             r = V.row(T(f, 2)).transpose() - origin;
       area += (q - p).cross(r - p).norm() / 2;
       volume += p.dot(q.cross(r)) / 6;
@@ -133,7 +139,8 @@ class Relocation_objective
 public:
   using Positions = Operator_geometry::Positions;
 
-  /// F and Z: the signals that P carries, whether S sees them (`carried`) or not; `sampled`: others that it sees, or null.
+  /// F and Z: the signals that P carries, whether S sees them (`carried`) or not; `sampled`: others
+  /// that it sees, or null.
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                        const Local_operator& op, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,

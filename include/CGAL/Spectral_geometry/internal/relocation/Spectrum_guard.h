@@ -22,16 +22,19 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
-Keeps the eigenvalues of a coarse mesh just beyond those that are compared from falling: a penalty on the mean change
-of the modes `first`, ..., `last - 1`, each relative to what it was at the start and at unit area.
+Keeps the eigenvalues of a coarse mesh just beyond those that are compared from falling: a penalty
+on the mean change of the modes `first`, ..., `last - 1`, each relative to what it was at the start
+and at unit area.
 
-Why they fall: in E (Eq. 2) and in its smoothed form a coarse mode i beyond K meets only signals with
-\f$ \lambda_j < \widetilde\lambda_i \f$, so that each of its terms \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ becomes
-smaller when \f$ \widetilde\lambda_i \f$ does. And they are too low already: with the averaged mass the leading error of
-the elements is \f$ -x^2 / 461 \f$ of the eigenvalue, see `commutativity_floor()`.
+Why they fall: in E (Eq. 2) and in its smoothed form a coarse mode i beyond K meets only signals
+with \f$ \lambda_j < \widetilde\lambda_i \f$, so that each of its terms \f$ (\lambda_j -
+\widetilde\lambda_i)^2 C_{ij}^2 \f$ becomes smaller when \f$ \widetilde\lambda_i \f$ does. And they
+are too low already: with the averaged mass the leading error of the elements is \f$ -x^2 / 461 \f$
+of the eigenvalue, see `commutativity_floor()`.
 
-Between two calls of `refresh()` the eigenvectors stay, and an eigenvalue is their Rayleigh quotient: right to the
-first order in the movement, and never below by its sum over all modes up to the last. Needs nothing of the fine mesh.
+Between two calls of `refresh()` the eigenvectors stay, and an eigenvalue is their Rayleigh
+quotient: right to the first order in the movement, and never below by its sum over all modes up to
+the last. Needs nothing of the fine mesh.
 */
 class Spectrum_guard
 {
@@ -40,8 +43,8 @@ public:
   using Index = Eigen::Index;
 
   /// Without modes, or where a vertex has no face, it does nothing.
-  Spectrum_guard(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op, const Index first,
-                 const Index last)
+  Spectrum_guard(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op,
+                 const Index first, const Index last)
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_first(first)
@@ -58,7 +61,8 @@ public:
 
   bool is_active() const { return m_last > m_first; }
 
-  /// The eigenvectors of the mesh as it is now: from those before by two steps of inverse iteration on all of them.
+  /// The eigenvectors of the mesh as it is now: from those before by two steps of inverse iteration
+  /// on all of them.
   void refresh(const Positions& V)
   {
     if(!is_active())
@@ -98,8 +102,9 @@ public:
   }
 
 private:
-  // It begins above zero, so that eigenvectors that are not up to date do no harm. An aim of 0.005 lowered the error of these
-  // eigenvalues by 17 % instead of 7 % and |C|_L by 28 % instead of 31 % (means over eight runs).
+  // It begins above zero, so that eigenvectors that are not up to date do no harm. An aim of 0.005
+  // lowered the error of these eigenvalues by 17 % instead of 7 % and |C|_L by 28 % instead of 31 %
+  // (means over eight runs).
   static constexpr double aim = 0.002, width = 0.005;
 
   // Modes beyond the last that are followed as well: the iteration turns the last ones least.
@@ -117,7 +122,8 @@ private:
       m_reference = op.mass.sum() * pairs.values.segment(m_first, m_last - m_first).array();
   }
 
-  // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span. False where rounding leaves one of the two without a factor.
+  // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span. False where rounding leaves one of
+  // the two without a factor.
   bool follow(const Laplace_operator& op)
   {
     const double shift =
@@ -142,7 +148,8 @@ private:
     return true;
   }
 
-  // Of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was taken last.
+  // Of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was taken
+  // last.
   void add_gradient(const double slope, const Positions& V, Positions& gradient) const
   {
     Operator_geometry::Entries d = m_geometry.zero_entries();

@@ -44,14 +44,16 @@ public:
       a = first ? m_regions.of_coarse_vertex(m_closest, w, V.row(w))
                 : m_regions.of_coarse_vertex(m_closest, w, V.row(w), a.face);
       const Eigen::RowVector3i t = m_T.row(a.face);
-      F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) + a.weights(2) * m_F.row(t(2));
-      Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) + a.weights(2) * m_Z.row(t(2));
+      F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) +
+                 a.weights(2) * m_F.row(t(2));
+      Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) +
+                 a.weights(2) * m_Z.row(t(2));
     };
     for_each_task(V.rows(), m_threads, read_off, 16);
   }
 
-  // The signals are linear in the face. A closest point on an edge stays on it for a while, one in a corner does
-  // not move at all.
+  // The signals are linear in the face. A closest point on an edge stays on it for a while, one in
+  // a corner does not move at all.
   void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
   {
     const auto add = [&](const Eigen::Index w) {

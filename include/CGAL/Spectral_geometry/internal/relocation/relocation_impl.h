@@ -36,9 +36,10 @@ class Relocation
 public:
   using Positions = Operator_geometry::Positions;
 
-  Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
-             const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
-             const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
+  Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+             const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
+             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
+             const std::vector<bool>& fixed, const Relocation_options& options)
     : m_options(options)
     , m_start(V)
     , m_T(T)
@@ -53,7 +54,8 @@ public:
     , m_regions(m_coarse, fine, P)
   {
     m_timer.start();
-    if(options.signals != Relocation_options::Signals::carried || std::isfinite(options.largest_distance))
+    if(options.signals != Relocation_options::Signals::carried ||
+       std::isfinite(options.largest_distance))
       m_closest = std::make_unique<Closest_point_query>(fine);
     set_guards(fixed);
     set_objective();
@@ -76,7 +78,8 @@ public:
     double last = descent.value();
     using Reason = Relocation_result::Stop_reason;
     for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
-      if(m_options.progress && !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
+      if(m_options.progress &&
+         !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
         throw Cancelled();
       if(!(m_timer.time() < m_options.maximum_seconds)) {
         result.stop_reason = Reason::seconds;
@@ -126,8 +129,9 @@ public:
   }
 
 private:
-  // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || / || C ||, where C and D are
-  // Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass leaves no modes.
+  // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || /
+  // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass
+  // leaves no modes.
   double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
   {
     const Laplace_operator op = laplace_operator(V, m_T, m_op);
@@ -167,7 +171,8 @@ private:
       m_guards.set_leaps(Sheet_guard(*m_closest, m_regions, on_boundary.size()));
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
-        return (m_regions.of_coarse_vertex(*m_closest, v, p).point - p).norm() <= m_options.largest_distance;
+        return (m_regions.of_coarse_vertex(*m_closest, v, p).point - p).norm() <=
+               m_options.largest_distance;
       });
   }
 
@@ -178,16 +183,17 @@ private:
                    m_F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_sampled =
-          std::make_unique<Surface_signals>(*m_closest, m_regions, m_fine.T, m_F, m_Z, m_options.threads);
+      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_regions, m_fine.T, m_F, m_Z,
+                                                    m_options.threads);
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
         largest > 0 ? m_options.smoothing / largest : 0., m_options);
   }
 
-  // Goes back where triangles that were apart meet and where the fine surface is left behind, and everywhere while the size is
-  // out of its bounds. Vertices that did stay from then on, so that the others go on around them.
+  // Goes back where triangles that were apart meet and where the fine surface is left behind, and
+  // everywhere while the size is out of its bounds. Vertices that did stay from then on, so that
+  // the others go on around them.
   Positions repaired(Positions V)
   {
     for(int round = 0;; ++round) {
@@ -246,8 +252,9 @@ private:
     m_furthest = *std::max_element(distances.begin(), distances.end());
   }
 
-  // The corners of the faces closest to fine vertices that are further from V than any was at the start. The face that was
-  // closest then is nearly always near enough still, and the search is spared.
+  // The corners of the faces closest to fine vertices that are further from V than any was at the
+  // start. The face that was closest then is nearly always near enough still, and the search is
+  // spared.
   void mark_left_behind(const Positions& V, std::vector<char>& marks) const
   {
     const Closest_point_query closest(Mesh_matrices{V, m_T});
@@ -255,7 +262,8 @@ private:
     const auto look = [&](const Eigen::Index i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
       const Eigen::Index nearest = m_nearest[std::size_t(i)];
-      if(std::sqrt(closest_point_of_triangle(point, closest.corners(nearest)).squared_distance) <= m_furthest)
+      if(std::sqrt(closest_point_of_triangle(point, closest.corners(nearest)).squared_distance) <=
+         m_furthest)
         return;
       const Closest_point_query::Answer answer = closest(point);
       if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
@@ -294,12 +302,12 @@ private:
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
     Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
-    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
-    const std::vector<bool>& fixed, const Relocation_options& options)
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+    const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
 {
   using internal::require;
-  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ", internal::size_name(P),
-          " where ", V.rows(), " x ", fine.V.rows(),
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ",
+          internal::size_name(P), " where ", V.rows(), " x ", fine.V.rows(),
           " is needed, coarse x fine; pass matrices that belong together.");
   internal::require_signals("relocation: ", F, Z, P.cols());
   for(Eigen::Index v = 0; v < V.rows(); ++v)

@@ -17,9 +17,10 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The nearest of many points in a space of many dimensions, exactly (Omohundro 1989), by balls in the leading dimensions alone: what
-/// eigenvectors of low frequency tell apart needs no look at the others. On 28,000 points that 100 eigenvectors embed, queried by those of
-/// another pose, it takes 0.4 of the time of CGAL's k-d tree, in three dimensions twice as long.
+/// The nearest of many points in a space of many dimensions, exactly (Omohundro 1989), by balls in
+/// the leading dimensions alone: what eigenvectors of low frequency tell apart needs no look at the
+/// others. On 28,000 points that 100 eigenvectors embed, queried by those of another pose, it takes
+/// 0.4 of the time of CGAL's k-d tree, in three dimensions twice as long.
 class Ball_tree
 {
 public:
@@ -40,8 +41,9 @@ public:
       m_points.col(static_cast<Eigen::Index>(i)) = points.col(m_order[i]);
   }
 
-  /// The column nearest to `query`, the first of them where several are. `place` is where the answer was found and where, in the
-  /// next call, to look first: after a query nearby that saves much of the search. May be called from several threads.
+  /// The column nearest to `query`, the first of them where several are. `place` is where the
+  /// answer was found and where, in the next call, to look first: after a query nearby that saves
+  /// much of the search. May be called from several threads.
   template <class Vector>
   Eigen::Index nearest(const Vector& query, std::size_t& place) const
   {
@@ -101,7 +103,8 @@ private:
   template <class Vector>
   double distance(const Vector& query, const std::size_t node) const
   {
-    return (m_centers.col(static_cast<Eigen::Index>(node)) - query.head(m_leading)).norm() - m_radii[node];
+    return (m_centers.col(static_cast<Eigen::Index>(node)) - query.head(m_leading)).norm() -
+           m_radii[node];
   }
 
   template <class Vector>
@@ -118,8 +121,8 @@ private:
   }
 
   template <class Vector>
-  void search(const Vector& query, const std::size_t node, const std::size_t begin, const std::size_t end,
-              const double bound, Nearest& best) const
+  void search(const Vector& query, const std::size_t node, const std::size_t begin,
+              const std::size_t end, const double bound, Nearest& best) const
   {
     if(bound > best.distance)
       return;

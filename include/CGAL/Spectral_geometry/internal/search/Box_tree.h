@@ -18,9 +18,10 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
- * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and which is asked for what is
- * near. CGAL's AABB tree and Boost's R-tree would be built anew or restructured at every collapse; here leaves stay where the
- * first boxes put them: halves by the median of their centres along the longest side, however unevenly these lie.
+ * A binary tree of boxes, one leaf for each item, in which single boxes change: O(log n) each, and
+ * which is asked for what is near. CGAL's AABB tree and Boost's R-tree would be built anew or
+ * restructured at every collapse; here leaves stay where the first boxes put them: halves by the
+ * median of their centres along the longest side, however unevenly these lie.
  */
 class Box_tree
 {
@@ -65,7 +66,8 @@ public:
     }
   }
 
-  /// Whether `found(item)` is true for an item below a node, the root at first, whose box meets this one; looks no further then.
+  /// Whether `found(item)` is true for an item below a node, the root at first, whose box meets
+  /// this one; looks no further then.
   template <class Found>
   bool any(const Box& box, const Found& found, const std::size_t node = 1) const
   {
@@ -76,8 +78,9 @@ public:
     return any(box, found, 2 * node) || any(box, found, 2 * node + 1);
   }
 
-  /// Calls `visit(item)` for items below a node, the root at first, whose boxes are nearer to `p` than the root of `bound`, which
-  /// `visit` lowers; near boxes first. That of an item that is alone in the tree is not looked at.
+  /// Calls `visit(item)` for items below a node, the root at first, whose boxes are nearer to `p`
+  /// than the root of `bound`, which `visit` lowers; near boxes first. That of an item that is
+  /// alone in the tree is not looked at.
   template <class Visit>
   void visit_near(const Eigen::Vector3d& p, const double& bound, const Visit& visit,
                   const std::size_t node = 1) const
@@ -95,7 +98,8 @@ public:
 
 private:
   // Orders the items of `places` leaves, a power of two, the first of which is `begin`.
-  void halve(const std::size_t begin, const std::size_t places, const std::vector<Eigen::Vector3d>& centres)
+  void halve(const std::size_t begin, const std::size_t places,
+             const std::vector<Eigen::Vector3d>& centres)
   {
     if(places < 2)
       return;
@@ -107,9 +111,10 @@ private:
       Eigen::Index side;
       all.sizes().maxCoeff(&side);
       const auto at = [this](const std::size_t i) { return m_item.begin() + std::ptrdiff_t(i); };
-      std::nth_element(at(begin), at(middle), at(end), [&](const std::uint32_t a, const std::uint32_t b) {
-        return std::make_pair(centres[a][side], a) < std::make_pair(centres[b][side], b);
-      });
+      std::nth_element(
+          at(begin), at(middle), at(end), [&](const std::uint32_t a, const std::uint32_t b) {
+            return std::make_pair(centres[a][side], a) < std::make_pair(centres[b][side], b);
+          });
       halve(middle, places / 2, centres);
     }
     halve(begin, places / 2, centres);

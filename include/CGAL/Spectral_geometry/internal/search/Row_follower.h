@@ -31,18 +31,21 @@ struct Followed_rows
 };
 
 /*!
-Finds the rows of P, of whatever origin, that read functions off another part of the body. A coarse edge is torn where the feet of its
-ends, P V, lie further apart on the fine surface than three times what their distance in space accounts for. Which end is wrong, and how
-far the wrong rows reach into an armpit, where no edge is torn, say the normals: sheets that face each other have opposite ones.
+Finds the rows of P, of whatever origin, that read functions off another part of the body. A coarse
+edge is torn where the feet of its ends, P V, lie further apart on the fine surface than three times
+what their distance in space accounts for. Which end is wrong, and how far the wrong rows reach into
+an armpit, where no edge is torn, say the normals: sheets that face each other have opposite ones.
 
-So the ends of torn edges and the vertices whose feet have a normal of the other side are in doubt. In each component of the coarse mesh
-the largest group of the others, held together by edges, is right. From there on vertex after vertex is asked whether its foot can be
-reached from those of its neighbours; one whose foot cannot, or has the wrong normal, gets the closest point of what can.
+So the ends of torn edges and the vertices whose feet have a normal of the other side are in doubt.
+In each component of the coarse mesh the largest group of the others, held together by edges, is
+right. From there on vertex after vertex is asked whether its foot can be reached from those of its
+neighbours; one whose foot cannot, or has the wrong normal, gets the closest point of what can.
 */
 class Row_follower
 {
 public:
-  Row_follower(const Mesh_matrices& coarse, const Mesh_matrices& fine, const Eigen::SparseMatrix<double>& P)
+  Row_follower(const Mesh_matrices& coarse, const Mesh_matrices& fine,
+               const Eigen::SparseMatrix<double>& P)
     : m_coarse(coarse)
     , m_fine(fine)
     , m_rings(Vertex_rings::of_vertices(coarse.T, coarse.V.rows()))
@@ -125,10 +128,12 @@ private:
   double allowed(const int v, const int w) const
   {
     const Row &a = m_rows[std::size_t(v)], &b = m_rows[std::size_t(w)];
-    return 3 * ((m_coarse.V.row(v) - m_coarse.V.row(w)).norm() + a.off + b.off) + 2 * (a.extent + b.extent);
+    return 3 * ((m_coarse.V.row(v) - m_coarse.V.row(w)).norm() + a.off + b.off) +
+           2 * (a.extent + b.extent);
   }
 
-  // Distances along fine edges from the feet of `sources`, up to a bound, or until all entries of `targets`, if any, are reached.
+  // Distances along fine edges from the feet of `sources`, up to a bound, or until all entries of
+  // `targets`, if any, are reached.
   void spread(const std::vector<int>& sources, const double bound, const std::vector<int>& targets)
   {
     for(const int i : m_touched)
@@ -206,7 +211,8 @@ private:
     return a.cross(b);
   }
 
-  // Normals of the coarse vertices, turned where most of a component say that the meshes are oriented unlike each other.
+  // Normals of the coarse vertices, turned where most of a component say that the meshes are
+  // oriented unlike each other.
   void set_sides()
   {
     m_normals = normals(m_coarse);

@@ -23,10 +23,11 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /*!
-Which places of a fine and of a coarse surface belong together, so that a closest point is not found on another part of the body that
-lies in the way. Each fine vertex goes with the coarse vertex whose row of P is nearest to it on the surface; a coarse vertex may
-have its closest point where the fine vertices go with one at most two edges away from it, and the other way round. Two edges,
-since the regions of one edge end where a vertex that is moved may go.
+Which places of a fine and of a coarse surface belong together, so that a closest point is not found
+on another part of the body that lies in the way. Each fine vertex goes with the coarse vertex whose
+row of P is nearest to it on the surface; a coarse vertex may have its closest point where the fine
+vertices go with one at most two edges away from it, and the other way round. Two edges, since the
+regions of one edge end where a vertex that is moved may go.
 */
 class Surface_regions
 {
@@ -49,16 +50,17 @@ public:
   }
 
   /// The closest point on the fine surface of a coarse vertex that is at `p`.
-  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine, const Eigen::Index v,
-                                               const Eigen::Vector3d& p) const
+  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
+                                               const Eigen::Index v, const Eigen::Vector3d& p) const
   {
     const Eigen::Index home = m_home[std::size_t(v)].face;
     return home < 0 ? fine(p) : of_coarse_vertex(fine, v, p, home);
   }
 
   /// The same from a face where it was before, which saves most of the search.
-  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine, const Eigen::Index v,
-                                               const Eigen::Vector3d& p, const Eigen::Index face) const
+  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
+                                               const Eigen::Index v, const Eigen::Vector3d& p,
+                                               const Eigen::Index face) const
   {
     const int own = m_home[std::size_t(v)].row;
     return fine.among(p, face, [&](const Eigen::Index f) {
@@ -72,7 +74,8 @@ public:
   }
 
   /// P at the closest points of the coarse vertices, which are at V.
-  Eigen::SparseMatrix<double> restriction(const Closest_point_query& fine, const Eigen::MatrixXd& V) const
+  Eigen::SparseMatrix<double> restriction(const Closest_point_query& fine,
+                                          const Eigen::MatrixXd& V) const
   {
     return interpolation(m_fine, V.rows(),
                          [&](const Eigen::Index v) { return of_coarse_vertex(fine, v, V.row(v)); });
@@ -101,7 +104,8 @@ public:
   }
 
 private:
-  // A fine face where the row of a coarse vertex is, and the coarse vertex that this place goes with: another one where rows share it.
+  // A fine face where the row of a coarse vertex is, and the coarse vertex that this place goes
+  // with: another one where rows share it.
   struct Home
   {
     Eigen::Index face = -1;
@@ -116,7 +120,8 @@ private:
       return true;
     if(m_rings.size(v) > m_rings.size(w))
       std::swap(v, w);
-    return std::any_of(m_rings.begin(v), m_rings.end(v), [&](const int u) { return m_rings.has(w, u); });
+    return std::any_of(m_rings.begin(v), m_rings.end(v),
+                       [&](const int u) { return m_rings.has(w, u); });
   }
 
   // Dijkstra's algorithm along the fine edges, from all entries of P at once.

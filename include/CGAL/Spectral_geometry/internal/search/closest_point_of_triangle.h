@@ -18,20 +18,25 @@ struct Point_of_triangle
   double squared_distance; // to the query
 };
 
-/// The point of a triangle that is closest to a query, in any dimension: the best of the projections on the three edges and, when it lies
-/// inside, on the plane. Each candidate is a point of the triangle and its distance is measured, by `squared_distance(weights)`, so that
-/// an ill-conditioned plane (a needle) can lose accuracy but never give a point off the triangle; a face without area is the union of its
-/// edges, a face without extent a point. The kernel's projection goes through the normal.
+/// The point of a triangle that is closest to a query, in any dimension: the best of the
+/// projections on the three edges and, when it lies inside, on the plane. Each candidate is a point
+/// of the triangle and its distance is measured, by `squared_distance(weights)`, so that an
+/// ill-conditioned plane (a needle) can lose accuracy but never give a point off the triangle; a
+/// face without area is the union of its edges, a face without extent a point. The kernel's
+/// projection goes through the normal.
 ///
-/// `best` is the first corner. `lengths`, squared, of the edges, the i-th of which leads from corner i to the next; `along`: its inner
-/// product with the way from corner i to the query. `ab` and `bq` are inner products of b, from the first corner to the last, with the
-/// first edge and with the way to the query.
+/// `best` is the first corner. `lengths`, squared, of the edges, the i-th of which leads from
+/// corner i to the next; `along`: its inner product with the way from corner i to the query. `ab`
+/// and `bq` are inner products of b, from the first corner to the last, with the first edge and
+/// with the way to the query.
 template <class Squared_distance>
 Point_of_triangle closest_of_projections(Point_of_triangle best, const Eigen::Vector3d& lengths,
-                                         const Eigen::Vector3d& along, const double ab, const double bq,
-                                         const double rounding, const Squared_distance& squared_distance)
+                                         const Eigen::Vector3d& along, const double ab,
+                                         const double bq, const double rounding,
+                                         const Squared_distance& squared_distance)
 {
-  // Strictly closer: a vertex or an edge that is tried first wins against an interior point that only rounding makes as close.
+  // Strictly closer: a vertex or an edge that is tried first wins against an interior point that
+  // only rounding makes as close.
   const auto keep_closer = [&](const Eigen::Vector3d& weights) {
     const double d = squared_distance(weights);
     if(d < best.squared_distance - rounding)
@@ -62,25 +67,25 @@ inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
     lengths(i) = edge.squaredNorm();
     along(i) = edge.dot(query - triangle.col(i));
   }
-  const Eigen::Vector3d a = triangle.col(1) - triangle.col(0), b = triangle.col(2) - triangle.col(0),
-                        q = query - triangle.col(0);
+  const Eigen::Vector3d a = triangle.col(1) - triangle.col(0),
+                        b = triangle.col(2) - triangle.col(0), q = query - triangle.col(0);
   return closest_of_projections(
       {Eigen::Vector3d::UnitX(), q.squaredNorm()}, lengths, along, a.dot(b), b.dot(q), 0.,
       [&](const Eigen::Vector3d& weights) { return (triangle * weights - query).squaredNorm(); });
 }
 
-/// The same in a space of any dimension, from squared distances alone: d of the query from the corners, l of the edges. Exact to the
-/// rounding of the d, which is too little for a query that is all but on the triangle: a point has to be closer than that to win
-/// against a corner.
+/// The same in a space of any dimension, from squared distances alone: d of the query from the
+/// corners, l of the edges. Exact to the rounding of the d, which is too little for a query that is
+/// all but on the triangle: a point has to be closer than that to win against a corner.
 inline Point_of_triangle closest_point_of_triangle_by_distances(const Eigen::Vector3d& d,
                                                                 const Eigen::Vector3d& l)
 {
   const Eigen::Vector3d along = (d + l - Eigen::Vector3d(d(1), d(2), d(0))) / 2;
-  return closest_of_projections({Eigen::Vector3d::UnitX(), d(0)}, l, along, (l(0) + l(2) - l(1)) / 2,
-                                l(2) - along(2), 1e-14 * d.sum(), [&](const Eigen::Vector3d& w) {
-                                  return w.dot(d) -
-                                         (w(0) * w(1) * l(0) + w(1) * w(2) * l(1) + w(2) * w(0) * l(2));
-                                });
+  return closest_of_projections(
+      {Eigen::Vector3d::UnitX(), d(0)}, l, along, (l(0) + l(2) - l(1)) / 2, l(2) - along(2),
+      1e-14 * d.sum(), [&](const Eigen::Vector3d& w) {
+        return w.dot(d) - (w(0) * w(1) * l(0) + w(1) * w(2) * l(1) + w(2) * w(0) * l(2));
+      });
 }
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -44,7 +44,8 @@ public:
     return among(query, 0, [](Eigen::Index) { return true; });
   }
 
-  /// The same among the faces for which `may_be` is true, one of which is `face`: the nearer that one is, the shorter the search.
+  /// The same among the faces for which `may_be` is true, one of which is `face`: the nearer that
+  /// one is, the shorter the search.
   template <class May_be>
   Answer among(const Eigen::Vector3d& query, Eigen::Index face, const May_be& may_be) const
   {
@@ -59,14 +60,18 @@ public:
     return {face, best.weights, corners(face) * best.weights};
   }
 
-  const Eigen::Matrix3d& corners(const Eigen::Index face) const { return m_corners[std::size_t(face)]; }
+  const Eigen::Matrix3d& corners(const Eigen::Index face) const
+  {
+    return m_corners[std::size_t(face)];
+  }
 
 private:
   std::vector<Eigen::Matrix3d> m_corners; // of each face, a column each
   Box_tree m_tree;
 };
 
-/// The matrix of which row i, of `rows`, reads functions off at `answer(i)`, a closest point of the surface.
+/// The matrix of which row i, of `rows`, reads functions off at `answer(i)`, a closest point of the
+/// surface.
 template <class Answer_of>
 Eigen::SparseMatrix<double> interpolation(const Mesh_matrices& surface, const Eigen::Index rows,
                                           const Answer_of& answer)

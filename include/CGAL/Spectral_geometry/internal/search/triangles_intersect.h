@@ -46,10 +46,12 @@ inline Eigen::AlignedBox3d box_of(const Corners& t)
   return box;
 }
 
-/// Whether the corners of t from the `common`-th on lie on one side of the plane of s, certainly: doubles suffice for most.
+/// Whether the corners of t from the `common`-th on lie on one side of the plane of s, certainly:
+/// doubles suffice for most.
 inline bool lie_on_one_side(const Corners& s, const Corners& t, const std::size_t common)
 {
-  const Eigen::Vector3d a = s[1].point - s[0].point, b = s[2].point - s[0].point, normal = a.cross(b);
+  const Eigen::Vector3d a = s[1].point - s[0].point, b = s[2].point - s[0].point,
+                        normal = a.cross(b);
   const double size = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
   int side = 0;
   for(std::size_t k = common; k < 3; ++k) {
@@ -63,11 +65,13 @@ inline bool lie_on_one_side(const Corners& s, const Corners& t, const std::size_
   return true;
 }
 
-/// triangles_intersect() for triangles whose first `common` vertices are common, without the first look.
+/// triangles_intersect() for triangles whose first `common` vertices are common, without the first
+/// look.
 CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
                                                                std::size_t common);
 
-/// Whether two triangles meet in more than their common vertices or edge. Exact. A triangle without area meets nothing.
+/// Whether two triangles meet in more than their common vertices or edge. Exact. A triangle without
+/// area meets nothing.
 inline bool triangles_intersect(Corners s, Corners t)
 {
   std::size_t common = 0; // those come to the front
@@ -86,8 +90,8 @@ inline bool triangles_intersect(Corners s, Corners t)
 /// Pairs of faces, the smaller index first, in ascending order.
 using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
-/// Whether `found(f, g)` is true for two faces f < g of the mesh (V, T) that meet in more than a common vertex or edge; looks no
-/// further then.
+/// Whether `found(f, g)` is true for two faces f < g of the mesh (V, T) that meet in more than a
+/// common vertex or edge; looks no further then.
 template <class Positions, class Found>
 bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, const Found& found)
 {
@@ -101,7 +105,8 @@ bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, c
   tree.build(boxes);
   for(std::size_t f = 0; f < faces.size(); ++f)
     if(tree.any(boxes[f], [&](const std::size_t g) {
-         return f < g && triangles_intersect(faces[f], faces[g]) && found(Eigen::Index(f), Eigen::Index(g));
+         return f < g && triangles_intersect(faces[f], faces[g]) &&
+                found(Eigen::Index(f), Eigen::Index(g));
        }))
       return true;
   return false;

@@ -28,8 +28,8 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
-/// The merge that was announced, given the slot that has gone on. The loop keeps v1 in every version tried; should it keep v0, the
-/// weights change places.
+/// The merge that was announced, given the slot that has gone on. The loop keeps v1 in every
+/// version tried; should it keep v0, the weights change places.
 inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept,
                                                          Spectral_geometry::Merge_forest::Merge m)
 {
@@ -46,30 +46,33 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
 /// @{
 
 /*!
- * The record of a simplification, from which every level of detail between its start and its end can be had
- * again: the merges in order, those of edges without length before the loop included, and where each left its
- * vertex. A merge and a point: 48 bytes for each collapse.
+ * The record of a simplification, from which every level of detail between its start and its end
+ * can be had again: the merges in order, those of edges without length before the loop included,
+ * and where each left its vertex. A merge and a point: 48 bytes for each collapse.
  *
- * P at any level comes from the log alone, the mesh from `Collapse_replay` with a copy of the input:
+ * P at any level comes from the log alone, the mesh from `Collapse_replay` with a copy of the
+ * input:
  *
  * \code
  * Mesh copy = mesh;
  * const auto result = SMS::spectral_edge_collapse(mesh, 600, options);
  * SMS::Collapse_replay<Mesh> replay(copy, result.log);
  * for(const std::size_t N : {5000, 2000, 1000}) {
- *   replay.collapse_to(N); // `copy` is what spectral_edge_collapse(copy, N, options) would have made of it
- *   const Eigen::SparseMatrix<double> P = replay.restriction();
+ *   replay.collapse_to(N); // `copy` is what spectral_edge_collapse(copy, N, options) would have
+ *   made of it const Eigen::SparseMatrix<double> P = replay.restriction();
  * }
  * \endcode
  *
- * (Without `Spectral_edge_collapse_options::quadrics_above`, which depends on the target, and from 3 K vertices on: below,
- * the weights do as well, see `weights_for_target()`; set `Spectral_options::weights` to 1 for all.)
+ * (Without `Spectral_edge_collapse_options::quadrics_above`, which depends on the target, and from
+ * 3 K vertices on: below, the weights do as well, see `weights_for_target()`; set
+ * `Spectral_options::weights` to 1 for all.)
  *
- * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done to the mesh
- * after the collapses, relocation of its vertices for instance, is not in the log. Neither are vertices that were
- * moved between two runs.
+ * Vertices are known by their *slot*, the position in `vertices(mesh)` of the input. What is done
+ * to the mesh after the collapses, relocation of its vertices for instance, is not in the log.
+ * Neither are vertices that were moved between two runs.
  *
- * Made by `Spectral_policies::log()`, `Restriction_visitor::log()`, `spectral_edge_collapse()` and `quadric_edge_collapse()`.
+ * Made by `Spectral_policies::log()`, `Restriction_visitor::log()`, `spectral_edge_collapse()` and
+ * `quadric_edge_collapse()`.
  */
 class Collapse_log
 {
@@ -84,7 +87,8 @@ public:
     : m_forest(n)
   {}
 
-  /// The merges, and for each where its vertex was put. Throws `std::invalid_argument` if their numbers differ.
+  /// The merges, and for each where its vertex was put. Throws `std::invalid_argument` if their
+  /// numbers differ.
   Collapse_log(Spectral_geometry::Merge_forest forest, std::vector<Eigen::Vector3d> points)
     : m_forest(std::move(forest))
     , m_points(std::move(points))
@@ -94,9 +98,10 @@ public:
                       " merges; give one for each.");
   }
 
-  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha F_removed. What
-  /// `Merge_forest::merge()` throws.
-  void merge(const Index removed, const Index kept, const double alpha, const Eigen::Vector3d& point)
+  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha
+  /// F_removed. What `Merge_forest::merge()` throws.
+  void merge(const Index removed, const Index kept, const double alpha,
+             const Eigen::Vector3d& point)
   {
     m_points.push_back(point); // first, so that both get it or none
     try {
@@ -107,14 +112,16 @@ public:
     }
   }
 
-  /// Appends the log of a second simplification that started where this one ended: `slots[i]` is the slot of
-  /// this one that the second calls i. Throws `std::invalid_argument` if they do not fit.
+  /// Appends the log of a second simplification that started where this one ended: `slots[i]` is
+  /// the slot of this one that the second calls i. Throws `std::invalid_argument` if they do not
+  /// fit.
   void append(const Collapse_log& second, const std::vector<Index>& slots)
   {
     internal::require(Index(slots.size()) == second.m_forest.number_of_slots() &&
                           slots.size() == number_of_vertices_left(),
-                      "Collapse_log: the log to append starts at ", second.m_forest.number_of_slots(),
-                      " vertices, but ", number_of_vertices_left(), " are left here, and ", slots.size(),
+                      "Collapse_log: the log to append starts at ",
+                      second.m_forest.number_of_slots(), " vertices, but ",
+                      number_of_vertices_left(), " are left here, and ", slots.size(),
                       " slots are given; let all three agree.");
     for(std::size_t i = 0; i < second.m_points.size(); ++i) {
       const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
@@ -135,10 +142,11 @@ public:
   std::size_t number_of_vertices_left() const { return number_of_vertices() - m_points.size(); }
 
   /*!
-   * P of the level of N vertices, N x number_of_vertices(): rows in ascending order of slots, which is the order of
-   * `vertices()` of the replayed mesh before its garbage is collected.
+   * P of the level of N vertices, N x number_of_vertices(): rows in ascending order of slots, which
+   * is the order of `vertices()` of the replayed mesh before its garbage is collected.
    *
-   * Throws `std::invalid_argument` unless N is from number_of_vertices_left() to number_of_vertices().
+   * Throws `std::invalid_argument` unless N is from number_of_vertices_left() to
+   * number_of_vertices().
    */
   Eigen::SparseMatrix<double> restriction(const std::size_t N) const
   {
@@ -146,7 +154,8 @@ public:
     return m_forest.restriction(m_forest.kept_slots(merges), merges);
   }
 
-  /// For each vertex of the input the row of restriction(N) that it has gone to. Throws as restriction() does.
+  /// For each vertex of the input the row of restriction(N) that it has gone to. Throws as
+  /// restriction() does.
   std::vector<std::size_t> vertex_map(const std::size_t N) const
   {
     const Index merges = number_of_merges(N);
@@ -158,7 +167,8 @@ public:
   {
     internal::require(N >= number_of_vertices_left() && N <= number_of_vertices(),
                       "Collapse_log: a level of ", N, " vertices is asked for; use a number from ",
-                      number_of_vertices_left(), " to ", number_of_vertices(), ", those of this log.");
+                      number_of_vertices_left(), " to ", number_of_vertices(),
+                      ", those of this log.");
     return Index(number_of_vertices() - N);
   }
 
@@ -168,17 +178,18 @@ private:
 };
 
 /*!
- * Collapses a copy of the input of a `Collapse_log` to one level after the other, from fine to coarse, without
- * computing a single cost.
+ * Collapses a copy of the input of a `Collapse_log` to one level after the other, from fine to
+ * coarse, without computing a single cost.
  *
- * Each merge is done by `Euler::collapse_edge()` on the edge that the run collapsed. On a copy (`Mesh copy = mesh;`
- * before the run) the mesh of N vertices is therefore the very one that a run of the same options stopped at N leaves (those that
- * depend on the target, see `Collapse_log`, set alike): the same connectivity
- * and coordinates, and the same order of vertices, faces and edges, before garbage is collected. On the same mesh
- * rebuilt in another way (read from a file again, in another type) connectivity and coordinates are the same, but
- * the vertex that goes on after a collapse may be the other one of the two, so that the order may differ;
- * restriction() follows the mesh as it is. Among the edges without length, which are merged before a run asks
- * whether to stop, there are levels that no run stops at.
+ * Each merge is done by `Euler::collapse_edge()` on the edge that the run collapsed. On a copy
+ * (`Mesh copy = mesh;` before the run) the mesh of N vertices is therefore the very one that a run
+ * of the same options stopped at N leaves (those that depend on the target, see `Collapse_log`, set
+ * alike): the same connectivity and coordinates, and the same order of vertices, faces and edges,
+ * before garbage is collected. On the same mesh rebuilt in another way (read from a file again, in
+ * another type) connectivity and coordinates are the same, but the vertex that goes on after a
+ * collapse may be the other one of the two, so that the order may differ; restriction() follows the
+ * mesh as it is. Among the edges without length, which are merged before a run asks whether to
+ * stop, there are levels that no run stops at.
  *
  * Coordinates that are not `double` are restored from `double`; an end of an edge stays what it is.
  *
@@ -197,9 +208,11 @@ public:
   /*!
    * @param mesh a copy of the input of the log, as it was before the run; must outlive this object
    * @param log is kept; move it here if it is needed no more
-   * @param np `vertex_point_map`, and `edge_is_constrained_map` if the run had one: both those of the copy
+   * @param np `vertex_point_map`, and `edge_is_constrained_map` if the run had one: both those of
+   * the copy
    *
-   * @throws std::invalid_argument if the mesh has another number of vertices than the input of the log
+   * @throws std::invalid_argument if the mesh has another number of vertices than the input of the
+   * log
    */
   Collapse_replay(Triangle_mesh& mesh, Collapse_log log,
                   const NamedParameters& np = parameters::default_values())
@@ -211,16 +224,18 @@ public:
     , m_slots(mesh, "Collapse_replay")
   {
     internal::require(std::size_t(m_slots.size()) == m_log.number_of_vertices(),
-                      "Collapse_replay: the mesh has ", m_slots.size(), " vertices, but the log starts at ",
-                      m_log.number_of_vertices(), "; pass a copy of the input as it was before the run.");
+                      "Collapse_replay: the mesh has ", m_slots.size(),
+                      " vertices, but the log starts at ", m_log.number_of_vertices(),
+                      "; pass a copy of the input as it was before the run.");
   }
 
   /*!
    * Collapses the mesh to N vertices.
    *
-   * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log to
-   *         number_of_vertices() (a replay goes forward only: begin again with another copy); where two vertices are not
-   *         joined that should be: the mesh is not a copy of the input, and is left where that was found
+   * @throws std::invalid_argument, before anything is changed, unless N is from the end of the log
+   *         to number_of_vertices() (a replay goes forward only: begin again with another copy);
+   *         where two vertices are not joined that should be: the mesh is not a copy of the input,
+   *         and is left where that was found
    * @throws std::logic_error when the mesh has got new vertices
    */
   void collapse_to(const std::size_t N)
@@ -239,15 +254,24 @@ public:
   }
 
   /// Number of vertices of the mesh as it is.
-  std::size_t number_of_vertices() const { return m_log.number_of_vertices() - std::size_t(m_done); }
+  std::size_t number_of_vertices() const
+  {
+    return m_log.number_of_vertices() - std::size_t(m_done);
+  }
 
-  /// For each vertex of the mesh as it is, in the order of `vertices(mesh)`, its slot: which vertex of the input it goes on from.
+  /// For each vertex of the mesh as it is, in the order of `vertices(mesh)`, its slot: which vertex
+  /// of the input it goes on from.
   std::vector<Index> slots() const { return m_slots.current(); }
 
-  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const { return m_log.forest().restriction(slots(), m_done); }
+  /// P of the mesh as it is: rows in the order of `vertices(mesh)` now, columns in that of the
+  /// input.
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    return m_log.forest().restriction(slots(), m_done);
+  }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
+  /// into.
   std::vector<std::size_t> vertex_map() const { return m_log.forest().vertex_map(slots(), m_done); }
 
 private:
@@ -262,9 +286,10 @@ private:
     const vertex_descriptor removed = m_vertices[std::size_t(m.removed)],
                             kept = m_vertices[std::size_t(m.kept)];
     const auto [h, are_joined] = halfedge(removed, kept, *m_mesh);
-    internal::require(are_joined, "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
-                      " are not joined by an edge where the log merges them; pass a copy of the input as it "
-                      "was before the run.");
+    internal::require(
+        are_joined, "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
+        " are not joined by an edge where the log merges them; pass a copy of the input as it "
+        "was before the run.");
     const Point point = at == internal::to_vector(get(m_vpm, kept)) ? Point(get(m_vpm, kept))
                         : at == internal::to_vector(get(m_vpm, removed))
                             ? Point(get(m_vpm, removed))
@@ -280,8 +305,9 @@ private:
   {
     if constexpr(!parameters::is_default_parameter<NamedParameters,
                                                    internal_np::edge_is_constrained_t>::value)
-      return Euler::collapse_edge(edge(h, *m_mesh), *m_mesh,
-                                  parameters::get_parameter(m_np, internal_np::edge_is_constrained));
+      return Euler::collapse_edge(
+          edge(h, *m_mesh), *m_mesh,
+          parameters::get_parameter(m_np, internal_np::edge_is_constrained));
     else
       return Euler::collapse_edge(edge(h, *m_mesh), *m_mesh);
   }

@@ -26,13 +26,14 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * The vertices of a mesh that lie at its features: those of the border, and those of edges where the normals of both faces are at
- * least an angle apart, with the corners where the border itself turns by that angle. As named parameter
- * `vertex_is_constrained_map` of `spectral_edge_collapse()` or `Spectral_policies` it keeps all of them in place, and their edges:
+ * The vertices of a mesh that lie at its features: those of the border, and those of edges where
+ * the normals of both faces are at least an angle apart, with the corners where the border itself
+ * turns by that angle. As named parameter `vertex_is_constrained_map` of `spectral_edge_collapse()`
+ * or `Spectral_policies` it keeps all of them in place, and their edges:
  *
  * \code
- * spectral_edge_collapse(mesh, N, {}, parameters::vertex_is_constrained_map(Feature_vertices_map<Mesh>(mesh, true, 60)));
- * \endcode
+ * spectral_edge_collapse(mesh, N, {},
+ * parameters::vertex_is_constrained_map(Feature_vertices_map<Mesh>(mesh, true, 60))); \endcode
  *
  * The features are found once, when it is made. Copies share what was found.
  *
@@ -44,7 +45,8 @@ template <class TriangleMesh>
 class Feature_vertices_map
 {
   using Vertex = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
-  using Flags = typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<bool>>::const_type;
+  using Flags =
+      typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<bool>>::const_type;
 
 public:
   using key_type = Vertex;
@@ -58,7 +60,8 @@ public:
   /// @param np `vertex_point_map`; coordinates go through `CGAL::to_double`
   /// @throws std::invalid_argument for another angle
   template <class NamedParameters = parameters::Default_named_parameters>
-  Feature_vertices_map(const TriangleMesh& mesh, const bool border, const std::optional<double> degrees = {},
+  Feature_vertices_map(const TriangleMesh& mesh, const bool border,
+                       const std::optional<double> degrees = {},
                        const NamedParameters& np = parameters::default_values())
     : m_flags(get(CGAL::dynamic_vertex_property_t<bool>(), mesh))
   {
@@ -68,14 +71,17 @@ public:
           std::to_string(*degrees));
     for(const Vertex v : vertices(mesh))
       put(m_flags, v, false);
-    const auto points = parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
-                                                     get_const_property_map(vertex_point, mesh));
+    const auto points =
+        parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                     get_const_property_map(vertex_point, mesh));
     const auto position = [&](const Vertex v) {
       const auto& p = get(points, v);
-      return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+      return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
+                             CGAL::to_double(p.z()));
     };
     const auto along = [&](const auto h) {
-      return Eigen::Vector3d((position(target(h, mesh)) - position(source(h, mesh))).stableNormalized());
+      return Eigen::Vector3d(
+          (position(target(h, mesh)) - position(source(h, mesh))).stableNormalized());
     };
     const auto normal = [&](const auto h) {
       return Eigen::Vector3d(along(h).cross(along(next(h, mesh))).stableNormalized());
@@ -89,7 +95,8 @@ public:
       const bool at_border = is_border(h, mesh);
       if(at_border && (border || apart(along(h), along(next(h, mesh)))))
         put(m_flags, target(h, mesh), true);
-      if(at_border || is_border(opposite(h, mesh), mesh) || !apart(normal(h), normal(opposite(h, mesh))))
+      if(at_border || is_border(opposite(h, mesh), mesh) ||
+         !apart(normal(h), normal(opposite(h, mesh))))
         continue;
       put(m_flags, source(h, mesh), true);
       put(m_flags, target(h, mesh), true);

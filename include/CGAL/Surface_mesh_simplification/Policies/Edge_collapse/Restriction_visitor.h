@@ -43,8 +43,9 @@ public:
 
   void check_mesh(const TriangleMesh& mesh)
   {
-    require(&mesh == m_mesh, "Restriction_visitor: edge_collapse() was called with another mesh than the one "
-                             "that the visitor was made for; make a visitor for that mesh.");
+    require(&mesh == m_mesh,
+            "Restriction_visitor: edge_collapse() was called with another mesh than the one "
+            "that the visitor was made for; make a visitor for that mesh.");
     m_slots.check();
     m_announced.reset(); // left so by an exception during a collapse
   }
@@ -54,9 +55,10 @@ public:
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
     // Without a placement CGAL leaves the kept vertex where it is.
-    const double weight = placement ? projected_edge_weight(to_vector(profile.p1()), to_vector(profile.p0()),
-                                                            to_vector(*placement))
-                                    : 0.;
+    const double weight =
+        placement ? projected_edge_weight(to_vector(profile.p1()), to_vector(profile.p0()),
+                                          to_vector(*placement))
+                  : 0.;
     m_announced = {m_slots.slot(profile.v0()), m_slots.slot(profile.v1()), weight};
   }
 
@@ -66,7 +68,8 @@ public:
     if(!m_announced) // an edge without length, collapsed before the loop
       m_announced = {m_slots.slot(profile.v0()), m_slots.slot(profile.v1()), 0.5};
     const Merge m = merge_into(m_slots.slot(kept_vertex), *std::exchange(m_announced, {}));
-    m_log.merge(m.removed, m.kept, m.alpha, to_vector(get(profile.vertex_point_map(), kept_vertex)));
+    m_log.merge(m.removed, m.kept, m.alpha,
+                to_vector(get(profile.vertex_point_map(), kept_vertex)));
   }
 
   void on_finished() const {}
@@ -89,32 +92,33 @@ private:
 } // namespace internal
 
 /*!
- * A visitor that tracks the restriction P from the input to the simplified mesh under *any* cost and
- * placement, so that Garland-Heckbert, Lindstrom-Turk or a cost of your own can be judged as the spectral one
- * is.
+ * A visitor that tracks the restriction P from the input to the simplified mesh under *any* cost
+ * and placement, so that Garland-Heckbert, Lindstrom-Turk or a cost of your own can be judged as
+ * the spectral one is.
  *
- * When the edge (u, v) is collapsed to x, the value of a function there becomes \f$ (1 - \alpha) F_u + \alpha
- * F_v \f$ with \f$ \alpha = (x - u) \cdot (v - u) / |v - u|^2 \f$ clamped to [0, 1] (appendix A of Lescoat et
- * al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020), and 1/2 on an edge without
- * length. P is the product of these steps.
+ * When the edge (u, v) is collapsed to x, the value of a function there becomes \f$ (1 - \alpha)
+ * F_u + \alpha F_v \f$ with \f$ \alpha = (x - u) \cdot (v - u) / |v - u|^2 \f$ clamped to [0, 1]
+ * (appendix A of Lescoat et al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2),
+ * 2020), and 1/2 on an edge without length. P is the product of these steps.
  *
  * \code
  * SMS::Restriction_visitor visitor(mesh);
- * SMS::edge_collapse(mesh, stop, CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
+ * SMS::edge_collapse(mesh, stop,
+ * CGAL::parameters::get_cost(cost).get_placement(placement).visitor(visitor));
  * Eigen::SparseMatrix<double> P = visitor.restriction();
  * \endcode
  *
  * \cgalModels{EdgeCollapseSimplificationVisitor}
  *
- * The object is a handle: copies, those that
- * `edge_collapse()` makes included, share what is tracked. The mesh must outlive it and must not be given new
- * vertices. A second `edge_collapse()` with the same visitor continues, and P still starts at the mesh of the
- * constructor. Constant time and memory per collapse. `Spectral_policies` tracks its own P: it needs no such
- * visitor.
+ * The object is a handle: copies, those that `edge_collapse()` makes included, share what is
+ * tracked. The mesh must outlive it and must not be given new vertices. A second `edge_collapse()`
+ * with the same visitor continues, and P still starts at the mesh of the constructor. Constant time
+ * and memory per collapse. `Spectral_policies` tracks its own P: it needs no such visitor.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
- * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part; copied, as
- *         `edge_collapse()` itself copies visitors; a `std::reference_wrapper` is followed
+ * @tparam UserVisitor a visitor that every call is handed on to, after this one has done its part;
+ *         copied, as `edge_collapse()` itself copies visitors; a `std::reference_wrapper` is
+ *         followed
  */
 template <class TriangleMesh, class UserVisitor = internal::Dummy_visitor>
 class Restriction_visitor
@@ -132,8 +136,8 @@ public:
     : Base(std::make_shared<Tracker>(mesh), std::move(user))
   {}
 
-  /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in that at
-  /// construction. Rows sum to 1 and columns have at most one nonzero.
+  /// P, coarse x fine: rows in the order of `vertices(mesh)` at the time of the call, columns in
+  /// that at construction. Rows sum to 1 and columns have at most one nonzero.
   ///
   /// @throws std::logic_error when the mesh has got new vertices
   Eigen::SparseMatrix<double> restriction() const
@@ -141,7 +145,8 @@ public:
     return log().forest().restriction(this->m_follower->slots().current());
   }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
+  /// into.
   std::vector<std::size_t> vertex_map() const
   {
     return log().forest().vertex_map(this->m_follower->slots().current());
@@ -153,7 +158,8 @@ public:
   /// The merges and the points, from which `Collapse_replay` makes every level of detail.
   const Collapse_log& log() const { return this->m_follower->log(); }
 
-  /// as in the concept; throws `std::invalid_argument` for another mesh than that of the constructor
+  /// as in the concept; throws `std::invalid_argument` for another mesh than that of the
+  /// constructor
   void OnStarted(Triangle_mesh& mesh)
   {
     this->m_follower->check_mesh(mesh);

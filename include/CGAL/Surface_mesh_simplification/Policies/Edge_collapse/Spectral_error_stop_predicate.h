@@ -26,13 +26,17 @@ namespace CGAL::Surface_mesh_simplification {
  * SMS::Spectral_error_stop_predicate stop(spectral, 0.14);
  * \endcode
  *
- * The error is \f$ \epsilon = \sqrt{E / \sum_k \lambda_k^2} \f$, `Spectral_policies::relative_error()`: 0 for the
- * input, independent of its scale and size, and for the lumped mass an upper bound of the commutativity norm,
- * \f$ |C|_L \le \epsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of Lescoat et al.).
+ * The error is \f$ \epsilon = \sqrt{E / \sum_k \lambda_k^2} \f$,
+ * `Spectral_policies::relative_error()`: 0 for the input, independent of its scale and size, and
+ * for the lumped mass an upper bound of the commutativity norm,
+ * \f$ |C|_L \le \epsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of Lescoat
+ * et al.).
  *
- * *Choosing the bound.* With Weyl's law, \f$ \lambda_k \approx 4 \pi k \f$ at unit area, and \f$ |C| \approx \sqrt K \f$:
- * \f$ |C|_L \le 7.3 K \epsilon \f$. In practice the norm is a tenth of that at 48 K vertices, four tenths at 12 K and eight
- * tenths at 6 K; below about 4 K vertices |C| is smaller and the estimate fails. Measured with K = 100, on_edge (rocker-arm.obj, 10,044 vertices, lumped mass; homer.obj, 6,002, averaged):
+ * *Choosing the bound.* With Weyl's law, \f$ \lambda_k \approx 4 \pi k \f$ at unit area, and \f$
+ * |C| \approx \sqrt K \f$: \f$ |C|_L \le 7.3 K \epsilon \f$. In practice the norm is a tenth of
+ * that at 48 K vertices, four tenths at 12 K and eight tenths at 6 K; below about 4 K vertices |C|
+ * is smaller and the estimate fails. Measured with K = 100, on_edge (rocker-arm.obj, 10,044
+ * vertices, lumped mass; homer.obj, 6,002, averaged):
  *
  * | vertices / K                 | 48    | 24   | 12   | 6    | 3    |
  * |------------------------------|-------|------|------|------|------|
@@ -41,13 +45,14 @@ namespace CGAL::Surface_mesh_simplification {
  * | error, averaged              | 0.055 | 0.11 | 0.14 | 0.16 | 0.16 |
  * | mean eigenvalue error        | 0.2 % | 0.5 % | 0.8 % | 1.9 % | 6.7 % |
  *
- * So 0.1 keeps the spectrum closely, 0.14 well, and 0.16 is about as far as the metric sees: near 3 K vertices the error
- * reaches its largest value and then *falls*, because signals that are averaged out on both sides of Eq. 2 no longer
- * differ. A bound above that value never stops a run: give it a number of vertices as well, 3 K for
- * instance, with `Spectral_stop_predicate`.
+ * So 0.1 keeps the spectrum closely, 0.14 well, and 0.16 is about as far as the metric sees: near 3
+ * K vertices the error reaches its largest value and then *falls*, because signals that are
+ * averaged out on both sides of Eq. 2 no longer differ. A bound above that value never stops a run:
+ * give it a number of vertices as well, 3 K for instance, with `Spectral_stop_predicate`.
  *
- * The bound holds for the result to rounding, but for edges without length, which are merged before any predicate is
- * asked. It needs the visitor of the policies, and, where the placement is wrapped, the wrapper.
+ * The bound holds for the result to rounding, but for edges without length, which are merged before
+ * any predicate is asked. It needs the visitor of the policies, and, where the placement is
+ * wrapped, the wrapper.
  *
  * @tparam Policies a `Spectral_policies`; deduced
  * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
@@ -62,22 +67,24 @@ public:
     : Spectral_error_stop_predicate(policies, maximum_error, policies.get_placement())
   {}
 
-  /// The same for a placement that wraps that of the policies, `Constrained_placement` for instance.
+  /// The same for a placement that wraps that of the policies, `Constrained_placement` for
+  /// instance.
   Spectral_error_stop_predicate(const Policies& policies, const double maximum_error,
                                 const GetPlacement& placement)
     : m_state(policies.shared_state())
     , m_placement(placement)
     , m_bound(maximum_error)
   {
-    internal::require(maximum_error >= 0, "Spectral_error_stop_predicate: the bound is ", maximum_error,
-                      ", use a number from 0.");
+    internal::require(maximum_error >= 0, "Spectral_error_stop_predicate: the bound is ",
+                      maximum_error, ", use a number from 0.");
   }
 
   /// whether to stop before the collapse of the selected candidate
   template <class Cost, class Profile>
   bool operator()(const Cost&, const Profile& profile, std::size_t, std::size_t) const
   {
-    // A ten-thousandth of a per cent aside, so that rounding does not lift the result over the bound.
+    // A ten-thousandth of a per cent aside, so that rounding does not lift the result over the
+    // bound.
     return m_state->relative_error_after(profile, m_placement) * (1 + 1e-6) > m_bound;
   }
 

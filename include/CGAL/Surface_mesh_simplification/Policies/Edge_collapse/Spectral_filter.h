@@ -19,12 +19,13 @@ namespace CGAL::Surface_mesh_simplification {
 
 /*!
  * For the named parameter `filter` of `edge_collapse()`: refuses a collapse that would move a
- * vertex of `Spectral_options::kept_vertices`, or merge two of them, or put a face through another where
- * `Spectral_options::keep_free_of_self_intersections` asks for none.
+ * vertex of `Spectral_options::kept_vertices`, or merge two of them, or put a face through another
+ * where `Spectral_options::keep_free_of_self_intersections` asks for none.
  *
- * `Spectral_placement` never proposes one. A placement wrapped around it may: `Constrained_placement` takes the first
- * end with a constrained edge, whatever is at the other. `spectral_edge_collapse()` uses this filter by itself; with
- * `edge_collapse()` pass `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
+ * `Spectral_placement` never proposes one. A placement wrapped around it may:
+ * `Constrained_placement` takes the first end with a constrained edge, whatever is at the other.
+ * `spectral_edge_collapse()` uses this filter by itself; with `edge_collapse()` pass
+ * `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
  */
 template <class State, class UserFilter = internal::Dummy_filter>
 class Spectral_filter

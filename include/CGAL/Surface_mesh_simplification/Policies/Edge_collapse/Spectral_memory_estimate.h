@@ -41,45 +41,57 @@ inline double memory_of_eigenpairs(const double n, const double K,
 /// @{
 
 /*!
- * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to be compared with what the
- * machine has before a large mesh is started. Two phases compete: the Krylov space of the eigensolver, of 2.6 K vectors of n
- * doubles (or `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and
- * the loop, which keeps the eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or mixtures that the metric
- * sees. Relocation keeps F and Z of at most 128 mixtures, twice; `fit_operators` solves once more beside them. Filtered noise
- * takes a factor and the signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
+ * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to
+ * be compared with what the machine has before a large mesh is started. Two phases compete: the
+ * Krylov space of the eigensolver, of 2.6 K vectors of n doubles (or
+ * `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which
+ * is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and the
+ * loop, which keeps the eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or
+ * mixtures that the metric sees. Relocation keeps F and Z of at most 128 mixtures, twice;
+ * `fit_operators` solves once more beside them. Filtered noise takes a factor and the signals. The
+ * constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates are within
+ * about a quarter.
  *
- * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the first stage takes a number of bytes per
- * vertex of the input that does not depend on K. What `quadrics_above` saves in the loop is not subtracted.
+ * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
+ * first stage takes a number of bytes per vertex of the input that does not depend on K. What
+ * `quadrics_above` saves in the loop is not subtracted.
  *
- * The shape term keeps a quadric for each vertex, `Spectral_options::keep_free_of_self_intersections` a tree of boxes.
+ * The shape term keeps a quadric for each vertex,
+ * `Spectral_options::keep_free_of_self_intersections` a tree of boxes.
  *
  * @param number_of_vertices n of the input
- * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs are given
- * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`, `fit_operators`,
- *        `pre_simplify`, `coefficients` and `eigenpairs_options` matter, placement and so on do not
+ * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs
+ * are given
+ * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`,
+ *        `fit_operators`, `pre_simplify`, `coefficients` and `eigenpairs_options` matter, placement
+ *        and so on do not
  */
 inline double
 estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number_of_eigenvectors,
                  const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options())
 {
   const bool reduced = options.pre_simplify != 0 && number_of_vertices > options.pre_simplify;
-  const double input = double(number_of_vertices), n = reduced ? double(options.pre_simplify) : input;
+  const double input = double(number_of_vertices),
+               n = reduced ? double(options.pre_simplify) : input;
   const double K = double(number_of_eigenvectors);
   const bool filtered = internal::is_filtered(options);
   const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
-  const double seen = options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
+  const double seen =
+      options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
   const double mixed =
       options.number_of_mixtures == 0 ? K : (std::min)(K, 4. * double(options.number_of_mixtures));
   const double noise = options.relocate ? 64 : double(options.number_of_mixtures);
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.
   const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;
-  double loop = 1650 + sizeof(internal::Spectral_block) * std::ceil(seen / internal::spectral_width);
+  double loop =
+      1650 + sizeof(internal::Spectral_block) * std::ceil(seen / internal::spectral_width);
   if(options.shape > 0)
     loop += sizeof(internal::Spectral_quadric);
-  if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2 is there
+  if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2
+                                              // is there
     loop += 1.5 * 2 * sizeof(Eigen::AlignedBox3d) + 8;
-  const double solver = solves     ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options)
+  const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options)
                         : filtered ? n * (900 + 8 * 3 * noise)
                                    : 0;
   // Columns that stay: eigenvectors, those of the user, F and Z of filtered noise.
@@ -90,7 +102,8 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const double fit = options.fit_operators && !options.eigenpairs
                          ? internal::memory_of_eigenpairs(n, 1.2 * K, options.eigenpairs_options)
                          : 0;
-  const double both = (std::max)({solver, collapses, n * 8 * given + (std::max)(n * 8 * after, fit)});
+  const double both =
+      (std::max)({solver, collapses, n * 8 * given + (std::max)(n * 8 * after, fit)});
   const double coefficients =
       5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
   return input * internal::bytes_of_mesh + coefficients +
@@ -98,8 +111,9 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
 }
 
 /*!
- * Returns about how many bytes it takes to judge a result by `Spectral_geometry::evaluate_spectrum()`: first the eigenpairs of the
- * whole input, whatever `Spectral_edge_collapse_options::pre_simplify` was, then those of the result beside them. It
+ * Returns about how many bytes it takes to judge a result by
+ * `Spectral_geometry::evaluate_spectrum()`: first the eigenpairs of the whole input, whatever
+ * `Spectral_edge_collapse_options::pre_simplify` was, then those of the result beside them. It
  * comes after the run of `estimated_memory()`: the larger one counts.
  *
  * @param number_of_vertices n of the input

@@ -27,10 +27,11 @@ namespace CGAL::Surface_mesh_simplification {
 enum class Spectral_placement_strategy {
   midpoint, ///< strategy (i): the middle of the edge; one evaluation per candidate
   on_edge,  ///< strategy (ii): the minimiser along the edge of a parabola through three samples
-  /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the edge, or the
-  /// cheapest sample, those of `on_edge` included, so that no candidate costs more than there; with a shape term its
-  /// minimiser, or the cheapest of the ends and the middle. The weights come
-  /// from the projection on the edge, so P times the fine positions is no longer the coarse positions.
+  /// strategy (iii), appendix A: the minimiser in space of a quadric through ten samples around the
+  /// edge, or the cheapest sample, those of `on_edge` included, so that no candidate costs more
+  /// than there; with a shape term its minimiser, or the cheapest of the ends and the middle. The
+  /// weights come from the projection on the edge, so P times the fine positions is no longer the
+  /// coarse positions.
   free
 };
 
@@ -38,56 +39,64 @@ enum class Spectral_placement_strategy {
 enum class Spectral_signal_source {
   /// the first K eigenvectors, or mixtures of them
   eigenpairs,
-  /// random functions without high frequencies: mixtures of about the first K eigenvectors that no eigensolver has made, see
-  /// `Spectral_geometry::filtered_signals()`. One factorisation and a few solves. There are no eigenpairs then, and E and the
-  /// relative error are estimates
+  /// random functions without high frequencies: mixtures of about the first K eigenvectors that no
+  /// eigensolver has made, see `Spectral_geometry::filtered_signals()`. One factorisation and a few
+  /// solves. There are no eigenpairs then, and E and the relative error are estimates
   filtered_noise
 };
 
-/// Candidates that were given up when their turn came, by cause. One edge may be counted several times: it comes back whenever
-/// something near it has changed.
+/// Candidates that were given up when their turn came, by cause. One edge may be counted several
+/// times: it comes back whenever something near it has changed.
 struct Spectral_refusals
 {
   std::size_t topology =
-      0; ///< CGAL's link condition and the like; a filter that is not in `Spectral_policies::filter()`, where a wrapper does not ask our placement
+      0; ///< CGAL's link condition and the like; a filter that is not in
+         ///< `Spectral_policies::filter()`, where a wrapper does not ask our placement
   std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
   std::size_t filter = 0;   ///< the `filter` named parameter
-  /// no position without a degenerate triangle, none that leaves kept vertices where they are, or for the next reason
+  /// no position without a degenerate triangle, none that leaves kept vertices where they are, or
+  /// for the next reason
   std::size_t placement = 0;
-  /// no position near the edge's cost without a face through another; where a placement is wrapped, whatever the wrapper did then
+  /// no position near the edge's cost without a face through another; where a placement is wrapped,
+  /// whatever the wrapper did then
   std::size_t crossing = 0;
 };
 
 /// What a run is doing; see `Spectral_options::progress`.
 enum class Spectral_phase {
-  pre_simplification, ///< collapsing by quadrics, of `Spectral_edge_collapse_options::pre_simplify` or `quadrics_above`
-  eigenpairs,  ///< solving for the basis
-  first_costs, ///< evaluating every edge once
-  collapses,   ///< inside the collapse loop
-  relocation,  ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
-  operator_fit ///< choosing a Laplacian and a mass for them, see `Spectral_edge_collapse_options::fit_operators`
+  pre_simplification, ///< collapsing by quadrics, of `Spectral_edge_collapse_options::pre_simplify`
+                      ///< or `quadrics_above`
+  eigenpairs,         ///< solving for the basis
+  first_costs,        ///< evaluating every edge once
+  collapses,          ///< inside the collapse loop
+  relocation, ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
+  operator_fit ///< choosing a Laplacian and a mass for them, see
+               ///< `Spectral_edge_collapse_options::fit_operators`
 };
 
 /// The argument of `Spectral_options::progress`.
 struct Spectral_progress
 {
   Spectral_phase phase; ///< what is being done
-  /// of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may come twice
+  /// of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may
+  /// come twice
   double fraction;
   std::size_t number_of_vertices; ///< of the mesh as it is now
 };
 
 /*!
- * The options of `Spectral_policies`, in the manner of the parameter structures of the other policies; those of
- * `spectral_edge_collapse()` are `Spectral_edge_collapse_options`. The defaults are what was found best, see `best()`.
+ * The options of `Spectral_policies`, in the manner of the parameter structures of the other
+ * policies; those of `spectral_edge_collapse()` are `Spectral_edge_collapse_options`. The defaults
+ * are what was found best, see `best()`.
  */
 struct Spectral_options
 {
-  /// The defaults: averaged mass, free placement, shape term, no new self-intersections. Chosen by measurement, see the manual.
+  /// The defaults: averaged mass, free placement, shape term, no new self-intersections. Chosen by
+  /// measurement, see the manual.
   static Spectral_options best() { return Spectral_options(); }
 
-  /// What Lescoat et al. describe, *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020: lumped mass, placement
-  /// on the edge, E alone, of all K eigenvectors.
+  /// What Lescoat et al. describe, *Spectral Mesh Simplification*, Computer Graphics Forum 39(2),
+  /// 2020: lumped mass, placement on the edge, E alone, of all K eigenvectors.
   static Spectral_options paper()
   {
     Spectral_options options;
@@ -104,123 +113,141 @@ struct Spectral_options
   /// `eigenpairs` are given: they bring their own number of columns.
   Eigen::Index number_of_eigenvectors = 100;
 
-  /// r, the number of random mixtures of the signals that the metric sees in their place; 0: the signals themselves. E is
-  /// a squared norm of something linear in the signals, so mixtures estimate it without bias, with a relative standard
-  /// deviation of at most sqrt(2 / r). The order of the collapses needs no more, and costs do not depend on K. No more than r
-  /// signals are never mixed. Multiples of 16 are free of padding. With 16, 32 and all 100 eigenvectors |C|_L after relocation
-  /// was 1.08, 1.02 and 1.01 times that of all 100 in version 0.2 (geometric means of twelve meshes). Not negative.
+  /// r, the number of random mixtures of the signals that the metric sees in their place; 0: the
+  /// signals themselves. E is a squared norm of something linear in the signals, so mixtures
+  /// estimate it without bias, with a relative standard deviation of at most sqrt(2 / r). The order
+  /// of the collapses needs no more, and costs do not depend on K. No more than r signals are never
+  /// mixed. Multiples of 16 are free of padding. With 16, 32 and all 100 eigenvectors |C|_L after
+  /// relocation was 1.08, 1.02 and 1.01 times that of all 100 in version 0.2 (geometric means of
+  /// twelve meshes). Not negative.
   Eigen::Index number_of_mixtures = 32;
 
   /// Which mixtures, or which noise. The same seed gives the same result everywhere.
   std::uint64_t seed = 1;
 
-  /// Where the signals come from, unless `signals` or `eigenpairs` are given. With `filtered_noise` there are
-  /// `number_of_mixtures` of them, which must not be 0, and no `weights`.
+  /// Where the signals come from, unless `signals` or `eigenpairs` are given. With `filtered_noise`
+  /// there are `number_of_mixtures` of them, which must not be 0, and no `weights`.
   Spectral_signal_source source = Spectral_signal_source::eigenpairs;
 
-  /// How many signals of filtered noise are made and kept for a relocation afterwards, where that is more than
-  /// `number_of_mixtures`; `spectral_edge_collapse()` sets it. One factorisation serves both. Not negative.
+  /// How many signals of filtered noise are made and kept for a relocation afterwards, where that
+  /// is more than `number_of_mixtures`; `spectral_edge_collapse()` sets it. One factorisation
+  /// serves both. Not negative.
   Eigen::Index number_of_relocation_signals = 0;
 
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::free;
 
-  /// The shape term: a candidate costs the change of E plus `shape` S n times that of a probabilistic plane quadric, where
-  /// S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing left and n the number of vertices now. Without unit: one value
-  /// serves every scale, resolution, K and target; 1 to 10 are alike. 0: the paper's metric, E alone. As with all CGAL costs,
-  /// a cost dates from the last collapse near the edge and uses the n of that moment.
+  /// The shape term: a candidate costs the change of E plus `shape` S n times that of a
+  /// probabilistic plane quadric, where S = || Z ||_B^2 (the sum of lambda_k^2) is the E of nothing
+  /// left and n the number of vertices now. Without unit: one value serves every scale, resolution,
+  /// K and target; 1 to 10 are alike. 0: the paper's metric, E alone. As with all CGAL costs, a
+  /// cost dates from the last collapse near the edge and uses the n of that moment.
   double shape = 3;
 
-  /// With a shape term no change of E counts for more than this many times S (M_u + M_v), what the signals have at both ends:
-  /// beside needles E is larger than that by orders of magnitude, and they would never be collapsed. Where an error bound is to be
-  /// kept they must not be: then infinite, as `spectral_edge_collapse()` has it with `maximum_error`. Positive.
+  /// With a shape term no change of E counts for more than this many times S (M_u + M_v), what the
+  /// signals have at both ends: beside needles E is larger than that by orders of magnitude, and
+  /// they would never be collapsed. Where an error bound is to be kept they must not be: then
+  /// infinite, as `spectral_edge_collapse()` has it with `maximum_error`. Positive.
   double largest_loss = 10;
 
-  /// No collapse puts a face through another, unless one that it replaces went through that one already. Where the placement
-  /// found would, the ends and the middle of the edge are tried, at no more than 16 times its cost or that of the collapses of
-  /// late, and then the edge stays until a collapse beside it. Beside faces that cross already, as in scans, this holds until
-  /// a twentieth as many points as the input has vertices were refused for it, in each run of the loop: more of them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by `Spectral_filter` alone.
-  /// Of collapses by quadrics it holds for the mesh that they end with, and an edge whose collapse would waits.
+  /// No collapse puts a face through another, unless one that it replaces went through that one
+  /// already. Where the placement found would, the ends and the middle of the edge are tried, at no
+  /// more than 16 times its cost or that of the collapses of late, and then the edge stays until a
+  /// collapse beside it. Beside faces that cross already, as in scans, this holds until a twentieth
+  /// as many points as the input has vertices were refused for it, in each run of the loop: more of
+  /// them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by
+  /// `Spectral_filter` alone. Of collapses by quadrics it holds for the mesh that they end with,
+  /// and an edge whose collapse would waits.
   bool keep_free_of_self_intersections = true;
 
-  /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's; `averaged`,
-  /// the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within 1-2 %; `voronoi` is Meyer et al.'s.
+  /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's;
+  /// `averaged`, the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within
+  /// 1-2 %; `voronoi` is Meyer et al.'s.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
-  /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of `vertices(mesh)`: a density and a
-  /// conductivity, which may depend on the direction; see `Spectral_geometry::Operator_coefficients`. The collapses merge
-  /// them as they merge signals, see `Spectral_edge_collapse_result::coefficients`. Empty: the Laplace-Beltrami operator.
+  /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of
+  /// `vertices(mesh)`: a density and a conductivity, which may depend on the direction; see
+  /// `Spectral_geometry::Operator_coefficients`. The collapses merge them as they merge signals,
+  /// see `Spectral_edge_collapse_result::coefficients`. Empty: the Laplace-Beltrami operator.
   Spectral_geometry::Operator_coefficients coefficients;
 
-  /// What functions do on the border of the mesh. With `dirichlet`, where they vanish, `preserve_border` is set: a vertex of the
-  /// border is one of vertices of the border, wherever a wrapper of the placement puts it. Signals of the user's must vanish there.
+  /// What functions do on the border of the mesh. With `dirichlet`, where they vanish,
+  /// `preserve_border` is set: a vertex of the border is one of vertices of the border, wherever a
+  /// wrapper of the placement puts it. Signals of the user's must vanish there.
   Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
 
   /// Whether eigenvectors are those of the intrinsic Delaunay triangulation of the input, see
-  /// `Spectral_geometry::intrinsic_delaunay_laplacian()`: for inputs of needles and obtuse triangles, whose own operator is that of a
-  /// poorer space. The metric follows the triangles of the mesh all the same, so that E begins with the difference of both
-  /// operators. Not with `coefficients`, `boundary` or `signals`.
+  /// `Spectral_geometry::intrinsic_delaunay_laplacian()`: for inputs of needles and obtuse
+  /// triangles, whose own operator is that of a poorer space. The metric follows the triangles of
+  /// the mesh all the same, so that E begins with the difference of both operators. Not with
+  /// `coefficients`, `boundary` or `signals`.
   bool intrinsic_delaunay = false;
 
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.
   bool binary = false;
 
-  /// On an edge with exactly one border vertex, keeps the position and the value of that vertex. With the
-  /// placement `free`, edges of the border are collapsed to a point on them.
+  /// On an edge with exactly one border vertex, keeps the position and the value of that vertex.
+  /// With the placement `free`, edges of the border are collapsed to a point on them.
   bool preserve_border = false;
 
   /// Signals F to preserve instead of eigenvectors, n x K, rows in the order of `vertices(mesh)`;
   /// they need not be orthonormal. Then Z = B^-1 L F (Eq. 2). Empty: eigenvectors.
   Eigen::MatrixXd signals;
 
-  /// Eigenpairs of the input in the mass chosen above, at the input's scale, so that several targets
-  /// cost one solve. Their residuals are checked. Null: they are computed.
+  /// Eigenpairs of the input in the mass chosen above, at the input's scale, so that several
+  /// targets cost one solve. Their residuals are checked. Null: they are computed.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
-  /// How the basis is computed when it is not given; `threads` below are used if they are more. The metric would do
-  /// with a rougher one (the norms of the result do not change up to a tolerance of 1e-4), but 1e-8 costs least in all:
-  /// from there on Z = F Lambda needs no rows of its own, which the loop would carry, and the pairs can judge the result.
+  /// How the basis is computed when it is not given; `threads` below are used if they are more. The
+  /// metric would do with a rougher one (the norms of the result do not change up to a tolerance of
+  /// 1e-4), but 1e-8 costs least in all: from there on Z = F Lambda needs no rows of its own, which
+  /// the loop would carry, and the pairs can judge the result.
   Spectral_geometry::Eigenpairs_options eigenpairs_options =
       Spectral_geometry::Eigenpairs_options::with_tolerance(1e-8);
 
   /// A non-negative weight for each of the K signals: E = sum_k weights(k) E_k. Empty: all 1.
   Eigen::VectorXd weights;
 
-  /// Vertices that survive, as positions in `vertices(mesh)`, from 0; a readable map from vertices to `bool` passed as the
-  /// named parameter `vertex_is_constrained_map` does the same. A collapse next to one ends on it: its position
-  /// and its values stay exactly what they were (its row of P is a single 1), and two of them are never merged.
-  /// Which of its two handles a mesh goes on with after a collapse is CGAL's choice: the vertex map says where
-  /// each went. Edge constraints do not promise this: they keep edges. Works together with them (see
-  /// `Spectral_filter`), with `preserve_border` (an edge from a kept inner vertex to a border vertex that is
-  /// not kept stays) and with `Spectral_edge_collapse_options::pre_simplify`.
+  /// Vertices that survive, as positions in `vertices(mesh)`, from 0; a readable map from vertices
+  /// to `bool` passed as the named parameter `vertex_is_constrained_map` does the same. A collapse
+  /// next to one ends on it: its position and its values stay exactly what they were (its row of P
+  /// is a single 1), and two of them are never merged. Which of its two handles a mesh goes on with
+  /// after a collapse is CGAL's choice: the vertex map says where each went. Edge constraints do
+  /// not promise this: they keep edges. Works together with them (see `Spectral_filter`), with
+  /// `preserve_border` (an edge from a kept inner vertex to a border vertex that is not kept stays)
+  /// and with `Spectral_edge_collapse_options::pre_simplify`.
   std::vector<std::size_t> kept_vertices;
 
-  /// Number of threads that find eigenpairs, and that relocate in `spectral_edge_collapse()`; from 1. The result does not
-  /// depend on it. The collapses run on one.
+  /// Number of threads that find eigenpairs, and that relocate in `spectral_edge_collapse()`; from
+  /// 1. The result does not depend on it. The collapses run on one.
   int threads = 1;
 
-  /// Called now and then with the phase, how far it is, and the number of vertices now. Returning `false`
-  /// cancels: before the mesh changes `Spectral_geometry::Cancelled` is thrown; afterwards `spectral_edge_collapse()` stops between two
-  /// collapses and returns a valid mesh with the P of what was done. The same holds for `edge_collapse()` with
-  /// `Spectral_stop_predicate`.
+  /// Called now and then with the phase, how far it is, and the number of vertices now. Returning
+  /// `false` cancels: before the mesh changes `Spectral_geometry::Cancelled` is thrown; afterwards
+  /// `spectral_edge_collapse()` stops between two collapses and returns a valid mesh with the P of
+  /// what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
 
-  /// Cancels as the callback does, from another thread or a signal handler, when it becomes true; it is looked at between
-  /// two collapses, before each report, and never changed. Must outlive the policies. Null: nobody cancels.
+  /// Cancels as the callback does, from another thread or a signal handler, when it becomes true;
+  /// it is looked at between two collapses, before each report, and never changed. Must outlive the
+  /// policies. Null: nobody cancels.
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// `Spectral_options::weights` for a target of N vertices. From 3 K vertices on all K eigenvectors have the weight 1 (section
-/// 4.3 of the paper), below only N / 4 after the `zeros` first: one of eigenvalue 0 for each component. There the upper modes
-/// cannot be had, and those who ask for them lose the lower ones with them: whole limbs, which carry few modes, are given up.
-inline Eigen::VectorXd weights_for_target(const std::size_t number_of_vertices, const Eigen::Index K,
-                                          const Eigen::Index zeros = 1)
+/// `Spectral_options::weights` for a target of N vertices. From 3 K vertices on all K eigenvectors
+/// have the weight 1 (section
+/// 4.3 of the paper), below only N / 4 after the `zeros` first: one of eigenvalue 0 for each
+/// component. There the upper modes cannot be had, and those who ask for them lose the lower ones
+/// with them: whole limbs, which carry few modes, are given up.
+inline Eigen::VectorXd weights_for_target(const std::size_t number_of_vertices,
+                                          const Eigen::Index K, const Eigen::Index zeros = 1)
 {
   const Eigen::Index N = Eigen::Index(number_of_vertices);
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(K);
   if(N / 3 < K)
-    weights.tail((std::max)(K - zeros - (std::max)(N / 4, Eigen::Index(1)), Eigen::Index(0))).setZero();
+    weights.tail((std::max)(K - zeros - (std::max)(N / 4, Eigen::Index(1)), Eigen::Index(0)))
+        .setZero();
   return weights;
 }
 
@@ -238,7 +265,8 @@ inline bool report_progress(const Spectral_options& options, const Spectral_phas
                             const double fraction, const std::size_t number_of_vertices)
 {
   return !is_cancelled(options) &&
-         (!options.progress || options.progress(Spectral_progress{phase, fraction, number_of_vertices})) &&
+         (!options.progress ||
+          options.progress(Spectral_progress{phase, fraction, number_of_vertices})) &&
          !is_cancelled(options); // the callback may have waited for somebody
 }
 

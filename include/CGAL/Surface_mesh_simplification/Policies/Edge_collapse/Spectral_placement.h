@@ -16,14 +16,15 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * A handle on the state of `Spectral_policies`: the point on the edge where the cost is least (section 3.4 of the paper), its
- * midpoint, or a point near the edge (appendix A). No point where every position makes a triangle without
- * area, moves a vertex that is to be kept or puts a face through another, or where the collapse is topologically impossible.
+ * A handle on the state of `Spectral_policies`: the point on the edge where the cost is least
+ * (section 3.4 of the paper), its midpoint, or a point near the edge (appendix A). No point where
+ * every position makes a triangle without area, moves a vertex that is to be kept or puts a face
+ * through another, or where the collapse is topologically impossible.
  *
  * \cgalModels{GetPlacement}
  *
- * Made by `Spectral_policies::get_placement()`. May be wrapped, by `Constrained_placement` for instance: the cost
- * is then evaluated at the point that the wrapper returns.
+ * Made by `Spectral_policies::get_placement()`. May be wrapped, by `Constrained_placement` for
+ * instance: the cost is then evaluated at the point that the wrapper returns.
  */
 template <class State>
 class Spectral_placement

@@ -38,15 +38,16 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Cost, placement and visitor for `edge_collapse()` that keep the spectrum of the Laplace-Beltrami operator.
+ * Cost, placement and visitor for `edge_collapse()` that keep the spectrum of the Laplace-Beltrami
+ * operator.
  *
  * Each candidate costs the change of
  * \f[ E = \| P Z - \tilde M^{-1} \tilde L P F \|_{\tilde M}^2, \qquad Z = M^{-1} L F \f]
- * (Eq. 2 of Lescoat et al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020), where F holds the first K
- * eigenvectors of the input and P is the restriction from the input to the current mesh. With
- * `Spectral_options::mass` set to `averaged` the mass matrix B replaces M in its weak form,
- * \f$ E = \sum_w \| (\tilde B P Z - \tilde L P F)_w \|^2 / \tilde M_w \f$. Values are those of the input scaled to unit
- * area.
+ * (Eq. 2 of Lescoat et al., *Spectral Mesh Simplification*, Computer Graphics Forum 39(2), 2020),
+ * where F holds the first K eigenvectors of the input and P is the restriction from the input to
+ * the current mesh. With `Spectral_options::mass` set to `averaged` the mass matrix B replaces M in
+ * its weak form, \f$ E = \sum_w \| (\tilde B P Z - \tilde L P F)_w \|^2 / \tilde M_w \f$. Values
+ * are those of the input scaled to unit area.
  *
  * \code
  * SMS::Spectral_policies spectral(mesh);
@@ -57,19 +58,22 @@ namespace CGAL::Surface_mesh_simplification {
  * Eigen::SparseMatrix<double> P = spectral.restriction();
  * \endcode
  *
- * All three must be passed; without the visitor the first cost throws `std::logic_error`. The object is a
- * handle: copies share one state; one that has been moved from throws `std::logic_error` when it is used. The mesh must outlive it, and must not be given new vertices. A
- * second `edge_collapse()` with the same policies continues, and P still starts at the original
+ * All three must be passed; without the visitor the first cost throws `std::logic_error`. The
+ * object is a handle: copies share one state; one that has been moved from throws
+ * `std::logic_error` when it is used. The mesh must outlive it, and must not be given new vertices.
+ * A second `edge_collapse()` with the same policies continues, and P still starts at the original
  * input.
  *
  * @tparam TriangleMesh a model of `MutableFaceGraph` with support for dynamic vertex properties
- * @tparam GeomTraits   a kernel, that of the points by default; exact numbers are read by `to_double()`
+ * @tparam GeomTraits   a kernel, that of the points by default; exact numbers are read by
+ * `to_double()`
  * @tparam VertexPointMap the mesh's own by default
  */
-template <class TriangleMesh,
-          class GeomTraits = typename Kernel_traits<typename boost::property_traits<
-              typename boost::property_map<TriangleMesh, vertex_point_t>::type>::value_type>::Kernel,
-          class VertexPointMap = typename boost::property_map<TriangleMesh, vertex_point_t>::type>
+template <
+    class TriangleMesh,
+    class GeomTraits = typename Kernel_traits<typename boost::property_traits<
+        typename boost::property_map<TriangleMesh, vertex_point_t>::type>::value_type>::Kernel,
+    class VertexPointMap = typename boost::property_map<TriangleMesh, vertex_point_t>::type>
 class Spectral_policies
 {
 public:
@@ -92,16 +96,17 @@ public:
    * @param mesh a triangle mesh without isolated vertices
    * @param options see `Spectral_options`
    * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets;
-   *        `vertex_is_constrained_map`, a readable map from vertices to `bool`: those to be kept, in addition to
-   *        `Spectral_options::kept_vertices`. It is read here and not again
+   *        `vertex_is_constrained_map`, a readable map from vertices to `bool`: those to be kept,
+   *        in addition to `Spectral_options::kept_vertices`. It is read here and not again
    *
-   * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the first
-   * offender
+   * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the
+   * first offender
    * @throws std::runtime_error when the eigenpairs do not converge
    * @throws Spectral_geometry::Cancelled when the progress callback returns false
    */
   template <class NamedParameters = parameters::Default_named_parameters>
-  explicit Spectral_policies(Triangle_mesh& mesh, const Spectral_options& options = Spectral_options(),
+  explicit Spectral_policies(Triangle_mesh& mesh,
+                             const Spectral_options& options = Spectral_options(),
                              const NamedParameters& np = parameters::default_values())
     : m_state(std::make_shared<State>(mesh, options, np))
   {}
@@ -112,34 +117,38 @@ public:
   /// The placement that `edge_collapse()` must get, a model of `GetPlacement`; it may be wrapped.
   Get_placement get_placement() const { return Get_placement(shared_state()); }
 
-  /// The visitor that `edge_collapse()` must get. It also calls yours, if any; `std::ref(v)` is called itself, anything else is copied.
+  /// The visitor that `edge_collapse()` must get. It also calls yours, if any; `std::ref(v)` is
+  /// called itself, anything else is copied.
   template <class Visitor = internal::Dummy_visitor>
   Spectral_visitor<State, Visitor> visitor(Visitor user_visitor = Visitor()) const
   {
     return Spectral_visitor<State, Visitor>(shared_state(), std::move(user_visitor));
   }
 
-  /// Where the placement is wrapped, in `Constrained_placement` for instance, and there are vertices to keep, or no face is to go
-  /// through another: the filter that `edge_collapse()` must get. It also asks yours, if any, which is copied.
+  /// Where the placement is wrapped, in `Constrained_placement` for instance, and there are
+  /// vertices to keep, or no face is to go through another: the filter that `edge_collapse()` must
+  /// get. It also asks yours, if any, which is copied.
   template <class Filter = internal::Dummy_filter>
   Spectral_filter<State, Filter> filter(Filter user_filter = Filter()) const
   {
     return Spectral_filter<State, Filter>(shared_state(), std::move(user_filter));
   }
 
-  /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call, columns in that
-  /// at construction. Rows sum to 1 and columns have at most one nonzero.
+  /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call,
+  /// columns in that at construction. Rows sum to 1 and columns have at most one nonzero.
   Eigen::SparseMatrix<double> restriction() const { return state().restriction(); }
 
-  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged into.
+  /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
+  /// into.
   std::vector<std::size_t> vertex_map() const { return state().vertex_map(); }
 
-  /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every level of detail
-  /// between the input and the current mesh.
+  /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every
+  /// level of detail between the input and the current mesh.
   Collapse_log log() const { return state().log(); }
 
-  /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric coordinates of the
-  /// closest point of the current mesh on the same part of the body. Rows sum to 1.
+  /// Fine x coarse: takes functions on the current mesh back to the input, by barycentric
+  /// coordinates of the closest point of the current mesh on the same part of the body. Rows sum to
+  /// 1.
   Eigen::SparseMatrix<double> prolongation() const
   {
     return Spectral_geometry::closest_point_prolongation(
@@ -151,13 +160,18 @@ public:
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
   /// `Spectral_options::eigenpairs` to simplify the same input again.
-  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return state().eigenpairs(); }
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const
+  {
+    return state().eigenpairs();
+  }
 
   /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.
   double error() const { return state().error(); }
 
-  /// sqrt(E / sum_k w_k lambda_k^2) over the eigenvectors that the metric sees, w being `Spectral_options::weights`, which does not depend on scale; for signals of the user's sqrt(E) / || Z ||_B. 0 where
-  /// the signals are constant (K = 1 for instance): P carries constants over exactly.
+  /// sqrt(E / sum_k w_k lambda_k^2) over the eigenvectors that the metric sees, w being
+  /// `Spectral_options::weights`, which does not depend on scale; for signals of the user's sqrt(E)
+  /// / || Z ||_B. 0 where the signals are constant (K = 1 for instance): P carries constants over
+  /// exactly.
   double relative_error() const { return state().relative_error(); }
 
   /// \cond SKIP_IN_MANUAL

@@ -21,15 +21,15 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 
 /*!
- * Ends a run at a number of vertices, at an error, or when the user cancels it,
- * whichever comes first, and calls `Spectral_options::progress` about a hundred times. What
- * `spectral_edge_collapse()` uses; with `edge_collapse()` the only place where its collapses can be cancelled, because the mesh is
- * valid here.
+ * Ends a run at a number of vertices, at an error, or when the user cancels it, whichever comes
+ * first, and calls `Spectral_options::progress` about a hundred times. What
+ * `spectral_edge_collapse()` uses; with `edge_collapse()` the only place where its collapses can be
+ * cancelled, because the mesh is valid here.
  *
  * \cgalModels{StopPredicate}
  *
- * It needs the visitor of the policies. What the functions below say is of the last run that asked it: a second
- * `edge_collapse()` with the same predicate begins anew.
+ * It needs the visitor of the policies. What the functions below say is of the last run that asked
+ * it: a second `edge_collapse()` with the same predicate begins anew.
  *
  * @tparam Policies a `Spectral_policies`; deduced
  * @tparam GetPlacement the placement that `edge_collapse()` gets; deduced
@@ -46,7 +46,8 @@ public:
     : Spectral_stop_predicate(policies, number_of_vertices, maximum_error, policies.get_placement())
   {}
 
-  /// The same for a placement that wraps that of the policies, `Constrained_placement` for instance.
+  /// The same for a placement that wraps that of the policies, `Constrained_placement` for
+  /// instance.
   Spectral_stop_predicate(const Policies& policies, const std::size_t number_of_vertices,
                           const double maximum_error, const GetPlacement& placement)
     : m_state(policies.shared_state())
@@ -98,8 +99,10 @@ private:
   double fraction() const
   {
     const std::size_t n = m_state->number_of_vertices();
-    const double by_count = m_begin > m_target ? double(m_begin - n) / double(m_begin - m_target) : 1.;
-    const double by_error = std::isfinite(m_bound) && m_bound > 0 ? m_state->relative_error() / m_bound : 0.;
+    const double by_count =
+        m_begin > m_target ? double(m_begin - n) / double(m_begin - m_target) : 1.;
+    const double by_error =
+        std::isfinite(m_bound) && m_bound > 0 ? m_state->relative_error() / m_bound : 0.;
     return (std::min)(1., (std::max)(by_count, by_error));
   }
 

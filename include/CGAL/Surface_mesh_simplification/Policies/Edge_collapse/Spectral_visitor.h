@@ -19,8 +19,8 @@ namespace CGAL::Surface_mesh_simplification {
 /// @{
 namespace internal {
 
-/// Tells a follower of the mesh what `edge_collapse()` does, and then a visitor of the user's. The run ends with the visitor, even when
-/// an exception leaves the loop.
+/// Tells a follower of the mesh what `edge_collapse()` does, and then a visitor of the user's. The
+/// run ends with the visitor, even when an exception leaves the loop.
 template <class Follower, class UserVisitor>
 class Following_visitor
 {
@@ -52,7 +52,8 @@ public:
   }
 
   template <class Profile, class OptionalCost, class Size>
-  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial, const Size current)
+  void OnSelected(const Profile& profile, const OptionalCost& cost, const Size initial,
+                  const Size current)
   {
     m_follower->on_selected();
     user().OnSelected(profile, cost, initial, current);
@@ -97,9 +98,9 @@ private:
  *
  * \cgalModels{EdgeCollapseSimplificationVisitor}
  *
- * Made by `Spectral_policies::visitor()`. The user's visitor is called before the state in `OnStarted`,
- * where it may still change the mesh, and after it everywhere else. It is copied, as `edge_collapse()` itself copies
- * visitors; pass `std::ref(my_visitor)` to share it.
+ * Made by `Spectral_policies::visitor()`. The user's visitor is called before the state in
+ * `OnStarted`, where it may still change the mesh, and after it everywhere else. It is copied, as
+ * `edge_collapse()` itself copies visitors; pass `std::ref(my_visitor)` to share it.
  */
 template <class State, class UserVisitor = internal::Dummy_visitor>
 class Spectral_visitor : public internal::Following_visitor<State, UserVisitor>

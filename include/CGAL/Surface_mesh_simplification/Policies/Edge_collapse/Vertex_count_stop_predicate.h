@@ -21,10 +21,11 @@ namespace CGAL::Surface_mesh_simplification {
  *
  * \cgalModels{StopPredicate}
  *
- * CGAL tells a stop predicate edge counts only, and counting vertices is linear while a mesh is being
- * collapsed. Each collapse removes one vertex, and two or three edges: so the vertices are counted at
- * the first call, and one less is taken whenever the edge count has fallen by that much. Any other
- * change of the edge count, a new run on a changed mesh for instance, makes it count again.
+ * CGAL tells a stop predicate edge counts only, and counting vertices is linear while a mesh is
+ * being collapsed. Each collapse removes one vertex, and two or three edges: so the vertices are
+ * counted at the first call, and one less is taken whenever the edge count has fallen by that much.
+ * Any other change of the edge count, a new run on a changed mesh for instance, makes it count
+ * again.
  *
  * The mesh must outlive the predicate. Copies made before the first call are independent.
  */

@@ -29,9 +29,9 @@ Eigen::Vector3d to_vector(const Point& p)
   return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
 }
 
-/// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1], the weight of `v` when the edge (u, v) is collapsed
-/// to x (appendix A of Lescoat et al. 2020); 1/2 on an edge without length, where no end is closer to x than
-/// the other.
+/// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1], the weight of `v` when the edge (u, v) is
+/// collapsed to x (appendix A of Lescoat et al. 2020); 1/2 on an edge without length, where no end
+/// is closer to x than the other.
 inline double projected_edge_weight(const Eigen::Vector3d& u, const Eigen::Vector3d& v,
                                     const Eigen::Vector3d& x)
 {
@@ -42,8 +42,8 @@ inline double projected_edge_weight(const Eigen::Vector3d& u, const Eigen::Vecto
   return (std::min)((std::max)(edge.dot(x - u) / squared_length, 0.), 1.);
 }
 
-/// A number for each vertex of a mesh that follows it when garbage is collected; 0 for vertices that were added later. May be
-/// destroyed after the mesh.
+/// A number for each vertex of a mesh that follows it when garbage is collected; 0 for vertices
+/// that were added later. May be destroyed after the mesh.
 template <class TriangleMesh>
 class Vertex_slot_map
 {
@@ -54,7 +54,8 @@ public:
     : m_map(get(dynamic_vertex_property_t<Eigen::Index>(), mesh))
   {}
 
-  /// Whether the mesh still holds the numbers. False after it has been assigned to; true where that cannot be told.
+  /// Whether the mesh still holds the numbers. False after it has been assigned to; true where that
+  /// cannot be told.
   bool attach(const TriangleMesh&) { return true; }
 
   Eigen::Index operator[](const vertex_descriptor v) const { return get(m_map, v); }
@@ -64,8 +65,9 @@ private:
   typename boost::property_map<TriangleMesh, dynamic_vertex_property_t<Eigen::Index>>::type m_map;
 };
 
-/// The dynamic properties of a `Surface_mesh` are removed from it when their map is destroyed, and are lost without notice when it
-/// is assigned to. So this is a property with a name, which is looked up; what nobody uses any more goes when the next one is made.
+/// The dynamic properties of a `Surface_mesh` are removed from it when their map is destroyed, and
+/// are lost without notice when it is assigned to. So this is a property with a name, which is
+/// looked up; what nobody uses any more goes when the next one is made.
 template <class Point>
 class Vertex_slot_map<Surface_mesh<Point>>
 {
@@ -111,7 +113,8 @@ private:
 #endif
   }
 
-  // The names that are in use, of all meshes of this type: a copy of a mesh has its properties, too.
+  // The names that are in use, of all meshes of this type: a copy of a mesh has its properties,
+  // too.
   class Names
   {
   public:
@@ -151,8 +154,8 @@ private:
   Map m_map;
 };
 
-/// Which column of the restriction a vertex stands for: its position in `vertices(mesh)` at construction,
-/// kept while the mesh is collapsed and its garbage collected.
+/// Which column of the restriction a vertex stands for: its position in `vertices(mesh)` at
+/// construction, kept while the mesh is collapsed and its garbage collected.
 template <class TriangleMesh>
 class Fine_vertex_slots
 {
@@ -173,16 +176,16 @@ public:
 
   Eigen::Index size() const { return m_size; } ///< number of vertices at construction
 
-  /// The slot of a vertex. A vertex that a collapse has just removed still has one: its handle is looked up,
-  /// never followed.
+  /// The slot of a vertex. A vertex that a collapse has just removed still has one: its handle is
+  /// looked up, never followed.
   Eigen::Index slot(const vertex_descriptor v) const
   {
     // The map holds slot + 1: a vertex that appeared after construction reads as 0.
     const Eigen::Index s = m_slots[v];
     if(s == 0)
-      throw std::logic_error(m_owner +
-                             ": a vertex of the mesh was not there when it was made; make a new one "
-                             "after adding vertices.");
+      throw std::logic_error(
+          m_owner + ": a vertex of the mesh was not there when it was made; make a new one "
+                    "after adding vertices.");
     return s - 1;
   }
 
@@ -202,7 +205,8 @@ public:
   {
     if(!m_slots.attach(*m_mesh))
       throw std::logic_error(
-          m_owner + ": another mesh has been assigned to the one that it was made for; make a new one.");
+          m_owner +
+          ": another mesh has been assigned to the one that it was made for; make a new one.");
   }
 
   /// The slots of `vertices(mesh)`, in that order. Throws what check() throws.

@@ -19,10 +19,11 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// One flag for each vertex in the order of `vertices(mesh)`, from indices in that order and from the named parameter
-/// `vertex_is_constrained_map`; empty if there is none to keep.
+/// One flag for each vertex in the order of `vertices(mesh)`, from indices in that order and from
+/// the named parameter `vertex_is_constrained_map`; empty if there is none to keep.
 template <class TriangleMesh, class NamedParameters>
-std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<std::size_t>& indices,
+std::vector<char> kept_vertex_flags(const TriangleMesh& mesh,
+                                    const std::vector<std::size_t>& indices,
                                     const NamedParameters& np)
 {
   std::vector<char> flags;
@@ -43,10 +44,11 @@ std::vector<char> kept_vertex_flags(const TriangleMesh& mesh, const std::vector<
   return any ? flags : std::vector<char>();
 }
 
-/// The vertices that must be left where they are: those to keep and the ends of constrained edges. Empty, or one flag for each.
+/// The vertices that must be left where they are: those to keep and the ends of constrained edges.
+/// Empty, or one flag for each.
 template <class TriangleMesh, class NamedParameters>
-std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh, const std::vector<char>& kept,
-                                     const NamedParameters& np)
+std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh,
+                                     const std::vector<char>& kept, const NamedParameters& np)
 {
   std::vector<char> fixed = kept;
   if constexpr(!parameters::is_default_parameter<NamedParameters,
@@ -65,8 +67,8 @@ std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh, 
   return fixed;
 }
 
-/// Throws where two vertices to be kept are joined by edges without length: `edge_collapse()` merges their ends before
-/// it asks for a cost. `kept`: empty, or one flag for each row of V.
+/// Throws where two vertices to be kept are joined by edges without length: `edge_collapse()`
+/// merges their ends before it asks for a cost. `kept`: empty, or one flag for each row of V.
 inline void check_kept_vertices_apart(const std::vector<char>& kept, const Eigen::MatrixXd& V,
                                       const Eigen::MatrixXi& T)
 {
@@ -84,7 +86,8 @@ inline void check_kept_vertices_apart(const std::vector<char>& kept, const Eigen
     if(kept[v]) {
       Eigen::Index& first = kept_at[std::size_t(place[v])];
       require(first < 0, "Spectral_options: the vertices ", first, " and ", v,
-              " are both to be kept, but edges without length join them and are collapsed before anything "
+              " are both to be kept, but edges without length join them and are collapsed before "
+              "anything "
               "else; keep one of the two.");
       first = Eigen::Index(v);
     }

@@ -29,13 +29,15 @@ namespace CGAL::Surface_mesh_simplification::internal {
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           const Eigen::Index n)
 {
-  require(options.threads >= 1, "Spectral_options: threads is ", options.threads, ", use a number from 1.");
-  require(options.shape >= 0 && std::isfinite(options.shape), "Spectral_options: shape is ", options.shape,
-          ", use a number from 0.");
+  require(options.threads >= 1, "Spectral_options: threads is ", options.threads,
+          ", use a number from 1.");
+  require(options.shape >= 0 && std::isfinite(options.shape), "Spectral_options: shape is ",
+          options.shape, ", use a number from 0.");
   require(options.largest_loss > 0, "Spectral_options: largest_loss is ", options.largest_loss,
           ", use a number above 0.");
   if(options.signals.size() != 0) {
-    require(!options.eigenpairs, "Spectral_options: both signals and eigenpairs are given, use one of them.");
+    require(!options.eigenpairs,
+            "Spectral_options: both signals and eigenpairs are given, use one of them.");
     require(options.signals.rows() == n, "Spectral_options: signals has ", options.signals.rows(),
             " rows, but the mesh has ", n, " vertices; give one row for each.");
     require(options.signals.allFinite(),
@@ -43,27 +45,35 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
   }
   if(options.eigenpairs) {
     const Spectral_geometry::Eigenpairs& pairs = *options.eigenpairs;
-    require(pairs.vectors.rows() == n, "Spectral_options: the eigenvectors have ", pairs.vectors.rows(),
-            " rows, but the mesh has ", n, " vertices; give the eigenpairs of this mesh.");
-    require(pairs.values.size() == pairs.vectors.cols(), "Spectral_options: there are ", pairs.values.size(),
-            " eigenvalues for ", pairs.vectors.cols(), " eigenvectors; give one for each.");
-    require(pairs.values.size() != 0,
-            "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
+    require(pairs.vectors.rows() == n, "Spectral_options: the eigenvectors have ",
+            pairs.vectors.rows(), " rows, but the mesh has ", n,
+            " vertices; give the eigenpairs of this mesh.");
+    require(pairs.values.size() == pairs.vectors.cols(), "Spectral_options: there are ",
+            pairs.values.size(), " eigenvalues for ", pairs.vectors.cols(),
+            " eigenvectors; give one for each.");
+    require(
+        pairs.values.size() != 0,
+        "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
   }
-  require(options.number_of_relocation_signals >= 0, "Spectral_options: number_of_relocation_signals is ",
+  require(options.number_of_relocation_signals >= 0,
+          "Spectral_options: number_of_relocation_signals is ",
           options.number_of_relocation_signals, ", use a number from 0.");
   require(options.number_of_mixtures >= 0, "Spectral_options: number_of_mixtures is ",
           options.number_of_mixtures, ", use a number from 0.");
   if(is_filtered(options)) {
-    require(options.number_of_mixtures != 0, "Spectral_options: number_of_mixtures is 0, but filtered noise "
-                                             "has no signals to be seen one by one; use 16, or eigenpairs.");
-    require(options.weights.size() == 0, "Spectral_options: weights are for eigenvectors or signals, but the "
-                                         "source is filtered noise; leave one of them out.");
+    require(options.number_of_mixtures != 0,
+            "Spectral_options: number_of_mixtures is 0, but filtered noise "
+            "has no signals to be seen one by one; use 16, or eigenpairs.");
+    require(options.weights.size() == 0,
+            "Spectral_options: weights are for eigenvectors or signals, but the "
+            "source is filtered noise; leave one of them out.");
   }
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
-  require(!options.intrinsic_delaunay || (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
-                                          options.boundary == Spectral_geometry::Boundary_condition::neumann),
-          "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami operator, but "
+  require(!options.intrinsic_delaunay ||
+              (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
+               options.boundary == Spectral_geometry::Boundary_condition::neumann),
+          "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami "
+          "operator, but "
           "coefficients, signals or a boundary condition are given; leave one of the two out.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   require(given || (options.number_of_eigenvectors >= 1 && options.number_of_eigenvectors < n),
@@ -78,16 +88,19 @@ local_operator(const Spectral_options& options)
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
-operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Spectral_options& options)
+operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                  const Spectral_options& options)
 {
-  return options.intrinsic_delaunay ? Spectral_geometry::intrinsic_delaunay_laplacian(V, T, options.mass)
-                                    : Spectral_geometry::laplace_operator(V, T, local_operator(options));
+  return options.intrinsic_delaunay
+             ? Spectral_geometry::intrinsic_delaunay_laplacian(V, T, options.mass)
+             : Spectral_geometry::laplace_operator(V, T, local_operator(options));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
 {
   require(Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)),
-          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in magnitude; rescale "
+          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+          "magnitude; rescale "
           "the mesh.");
 }
 
@@ -99,13 +112,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_op
   require(options.weights.size() == K, "Spectral_options: there are ", options.weights.size(),
           " weights for ", K, " signals; give one for each.");
   for(Eigen::Index k = 0; k < K; ++k)
-    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]), "Spectral_options: weight ", k,
-            " is negative or not finite; use numbers from 0.");
+    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]),
+            "Spectral_options: weight ", k, " is negative or not finite; use numbers from 0.");
   return options.weights;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op,
-                                                         const Eigen::MatrixXd& F)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
 {
   Eigen::MatrixXd Z = op.L * F;
   if(op.theta == 0)
@@ -122,9 +135,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd spectral_z(const Spectral_geometry
   return Z;
 }
 
-/// What rounding leaves of || B^-1 L F ||_B for constant signals, || |L| |F| ||_{M^-1} times a few units in the last place:
-/// needles, with their large cotangents, leave most.
-inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
+/// What rounding leaves of || B^-1 L F ||_B for constant signals, || |L| |F| ||_{M^-1} times a few
+/// units in the last place: needles, with their large cotangents, leave most.
+inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& op,
+                                     const Eigen::MatrixXd& F)
 {
   const Eigen::SparseMatrix<double> size_of_L = op.L.cwiseAbs();
   double sum = 0;
@@ -133,8 +147,8 @@ inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& 
   return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
 }
 
-/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K = 1 on a mesh with
-/// needles, where the solver may leave a lambda of 1e-5 for 0.
+/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K
+/// = 1 on a mesh with needles, where the solver may leave a lambda of 1e-5 for 0.
 inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
                                      const Spectral_geometry::Eigenpairs& pairs,
                                      const Eigen::VectorXd& residuals)
@@ -146,16 +160,16 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
   return true;
 }
 
-/// Whether || Z ||_B^2 is what rounding leaves for constant signals: L f is then a rounding of 0 beside its diagonal times f,
-/// and Z is that over a mass of about 1 / n.
+/// Whether || Z ||_B^2 is what rounding leaves for constant signals: L f is then a rounding of 0
+/// beside its diagonal times f, and Z is that over a mass of about 1 / n.
 inline bool is_rounding(const double sum_of_squares, const double norm_of_F, const Eigen::Index n)
 {
   const double rounding = 1e-14 * double(n);
   return !(sum_of_squares > rounding * rounding * norm_of_F);
 }
 
-/// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals must be small, or the very ones that
-/// they came with, as those of rough pairs are.
+/// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals
+/// must be small, or the very ones that they came with, as those of rough pairs are.
 inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
                                          const Spectral_geometry::Laplace_operator& op,
                                          const Spectral_geometry::Mass mass)
@@ -184,10 +198,11 @@ inline void check_signals_on_border(const Spectral_options& options, const Eigen
               " of the border, as the Dirichlet condition wants; set them to 0 there.");
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(const Eigen::Index rows, const Eigen::Index r,
-                                                              const std::uint64_t seed)
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+random_mixtures(const Eigen::Index rows, const Eigen::Index r, const std::uint64_t seed)
 {
-  // G. E. P. Box and M. E. Muller 1958: the normal distribution of the standard library differs from one to the next.
+  // G. E. P. Box and M. E. Muller 1958: the normal distribution of the standard library differs
+  // from one to the next.
   std::mt19937_64 random(seed);
   const auto uniform = [&random] { return (double(random() >> 11) + 0.5) / 9007199254740992.; };
   Eigen::MatrixXd normal(rows, r);
@@ -227,8 +242,10 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
   basis.signals = Spectral_signals(Z.rows(), R.cols());
   basis.signals.set(0, options.signals * R, Z * R);
-  basis.sum_of_squares = ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
-  const double rounding = rounding_of_spectral_z(op, options.signals * weights.cwiseSqrt().asDiagonal());
+  basis.sum_of_squares =
+      ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
+  const double rounding =
+      rounding_of_spectral_z(op, options.signals * weights.cwiseSqrt().asDiagonal());
   const double norm_of_F = (op.mass.transpose() * options.signals.cwiseAbs2()).dot(weights) / area;
   if(!(basis.sum_of_squares > area * rounding * rounding) ||
      is_rounding(basis.sum_of_squares, norm_of_F, Z.rows()))
@@ -237,10 +254,10 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   return basis;
 }
 
-inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op,
-                                          const Spectral_options& options,
-                                          std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs,
-                                          const double area, const Eigen::Index components)
+inline Spectral_basis
+basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectral_options& options,
+                    std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs, const double area,
+                    const Eigen::Index components)
 {
   Spectral_basis basis;
   Eigen::VectorXd weights = spectral_weights(options, pairs->size());
@@ -251,15 +268,17 @@ inline Spectral_basis basis_of_eigenpairs(const Spectral_geometry::Laplace_opera
      is_rounding(basis.sum_of_squares, weights.sum(), pairs->vectors.rows()))
     basis.sum_of_squares = 0;
   basis.rough = pairs_are_rough(residuals);
-  // P carries the constants of each component over exactly: they are nothing to look at. Where cotangents of 0 take a
-  // component apart, L has more functions of eigenvalue 0, and these cost something once triangles change.
+  // P carries the constants of each component over exactly: they are nothing to look at. Where
+  // cotangents of 0 take a component apart, L has more functions of eigenvalue 0, and these cost
+  // something once triangles change.
   const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
   if(zeros <= components)
     weights.head((std::min)(zeros, pairs->size())).setZero();
   const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
   basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
   for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {
-    const auto columns = R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
+    const auto columns =
+        R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
     const Eigen::MatrixXd F = pairs->vectors * columns;
     if(basis.rough)
       basis.signals.set(first, F, area * spectral_z(op, F));
@@ -287,7 +306,8 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
   basis.sum_of_squares = area * area * (op.B * filtered->Z).cwiseProduct(filtered->Z).sum();
   if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
     basis.sum_of_squares = 0;
-  const double scale = std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
+  const double scale =
+      std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
   basis.signals = Spectral_signals(op.L.rows(), r);
   basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r));
   basis.filtered = filtered;
@@ -312,11 +332,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
-      solver.threads = (std::max)(solver.threads, options.threads); // the result does not depend on it
+      solver.threads =
+          (std::max)(solver.threads, options.threads); // the result does not depend on it
       // A callback of the solver's own is asked as well.
       solver.progress = [&options, &V](const double fraction) {
         const auto& own = options.eigenpairs_options.progress;
-        return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(V.rows())) &&
+        return report_progress(options, Spectral_phase::eigenpairs, fraction,
+                               std::size_t(V.rows())) &&
                (!own || own(fraction));
       };
       pairs = std::make_shared<Spectral_geometry::Eigenpairs>(

@@ -28,7 +28,8 @@ template <class T>
 using Spectral_optional = boost::optional<T>;
 #endif
 
-/// What a handle stands for. Throws `std::logic_error` where it was made by default or has been moved from.
+/// What a handle stands for. Throws `std::logic_error` where it was made by default or has been
+/// moved from.
 template <class State>
 State& state_of_handle(const std::shared_ptr<State>& state, const char* const handle)
 {

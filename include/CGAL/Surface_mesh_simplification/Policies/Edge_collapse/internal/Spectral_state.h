@@ -41,16 +41,16 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * What cost, placement and visitor of one `Spectral_policies` share: F and Z or their mixtures, the residual
- * R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
+ * What cost, placement and visitor of one `Spectral_policies` share: F and Z or their mixtures, the
+ * residual R = B Z - L F, mass, E, positions, the restriction, and the counts of what happened.
  *
- * It translates between the mesh and slots (the order of `vertices(mesh)` at construction) and leaves
- * the mathematics to `Spectral_collapse_core`. `edge_collapse()` copies the policies several
+ * It translates between the mesh and slots (the order of `vertices(mesh)` at construction) and
+ * leaves the mathematics to `Spectral_collapse_core`. `edge_collapse()` copies the policies several
  * times; all copies are handles on one state.
  *
- * Life of a run: on_started() builds everything from the mesh as it is; placement() and cost() evaluate an edge;
- * on_collapsing() captures which merge is about to happen; on_collapsed() follows the mesh; on_finished() ends it.
- * A further run continues: F, Z and P go on from where they are.
+ * Life of a run: on_started() builds everything from the mesh as it is; placement() and cost()
+ * evaluate an edge; on_collapsing() captures which merge is about to happen; on_collapsed() follows
+ * the mesh; on_finished() ends it. A further run continues: F, Z and P go on from where they are.
  */
 template <class TriangleMesh, class GeomTraits, class VertexPointMap>
 class Spectral_state
@@ -71,17 +71,18 @@ public:
 
   /// @}
 
-  /// Reads the mesh, finds the basis. `np` as of `Spectral_policies`. Throws `std::invalid_argument` for a mesh, an option or a basis that
-  /// cannot be used (the first offender is named), `Spectral_geometry::Cancelled` where the progress
-  /// callback asks for it.
+  /// Reads the mesh, finds the basis. `np` as of `Spectral_policies`. Throws
+  /// `std::invalid_argument` for a mesh, an option or a basis that cannot be used (the first
+  /// offender is named), `Spectral_geometry::Cancelled` where the progress callback asks for it.
   template <class NamedParameters>
   Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const NamedParameters& np)
     : m_mesh(&mesh)
     , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                          get_property_map(vertex_point, mesh)))
-    , m_has_own_points(parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
-    , m_traits(
-          parameters::choose_parameter<Geom_traits>(parameters::get_parameter(np, internal_np::geom_traits)))
+    , m_has_own_points(
+          parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
+    , m_traits(parameters::choose_parameter<Geom_traits>(
+          parameters::get_parameter(np, internal_np::geom_traits)))
     , m_slots(mesh, "Spectral_policies")
   {
     Real_timer timer;
@@ -97,7 +98,8 @@ public:
     m_sum_of_squares = basis.sum_of_squares;
     m_has_rough_basis = basis.rough;
     m_filtered = basis.filtered;
-    m_core.set_basis(std::move(basis), local_operator(options), options, std::is_same<FT, float>::value);
+    m_core.set_basis(std::move(basis), local_operator(options), options,
+                     std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
   }
 
@@ -107,8 +109,8 @@ public:
   /// \name Called by the policies
   /// @{
 
-  /// Before the first run: `collapse()` collapses edges of the mesh, returns their log and the slots of the vertices
-  /// that are left. F, Z, P and the quadrics of the shape follow.
+  /// Before the first run: `collapse()` collapses edges of the mesh, returns their log and the
+  /// slots of the vertices that are left. F, Z, P and the quadrics of the shape follow.
   template <class Collapse>
   void collapse_by_others(const Collapse& collapse)
   {
@@ -126,8 +128,9 @@ public:
   /// exception that leaves the loop ends the run as well.
   std::shared_ptr<void> on_started(Triangle_mesh& mesh)
   {
-    require(&mesh == m_mesh, "Spectral_policies: edge_collapse() was called with another mesh than the one "
-                             "that the policies were made for; make policies for that mesh.");
+    require(&mesh == m_mesh,
+            "Spectral_policies: edge_collapse() was called with another mesh than the one "
+            "that the policies were made for; make policies for that mesh.");
     Real_timer timer;
     timer.start();
     m_run.reset();
@@ -180,8 +183,8 @@ public:
     m_selection_open = false;
   }
 
-  /// Remembers which slots are merged, and with which weight: afterwards some mesh types have freed the
-  /// removed vertex, and the point of the kept one has changed.
+  /// Remembers which slots are merged, and with which weight: afterwards some mesh types have freed
+  /// the removed vertex, and the point of the kept one has changed.
   template <class Profile, class OptionalPoint>
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
@@ -208,19 +211,22 @@ public:
     m_selecting = false;
     m_answer = Answer();
     m_postponed = Postponed();
-    m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
+    m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)),
+                  ring_of(kept_vertex));
   }
 
-  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was selected, this is the best of the
-  /// mesh as it is: a collapse two rings away, after which CGAL does not ask again, may have moved it.
+  /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was
+  /// selected, this is the best of the mesh as it is: a collapse two rings away, after which CGAL
+  /// does not ask again, may have moved it.
   template <class Profile>
   auto placement(const Profile& profile)
   {
     using Optional_point = Spectral_optional<Point>;
     check_ready(profile);
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    if(is_postponed(u,
-                    v)) // CGAL asks for the cost next, and for the placement again when it selects the edge
+    if(is_postponed(
+           u,
+           v)) // CGAL asks for the cost next, and for the placement again when it selects the edge
       return Optional_point(Point(profile.p0()));
     const Spectral_sample& c = answer(u, v);
     m_placement_found = c.collapsible();
@@ -234,9 +240,9 @@ public:
     return Optional_point(Point(FT(c.point.x()), FT(c.point.y()), FT(c.point.z())));
   }
 
-  /// cost(e) = sum over H of E_w after - E_w before, at the point given, and with `Spectral_options::shape` what is said there.
-  /// The largest finite
-  /// number where there is none: an absent cost would be sorted first by CGAL's queue.
+  /// cost(e) = sum over H of E_w after - E_w before, at the point given, and with
+  /// `Spectral_options::shape` what is said there. The largest finite number where there is none:
+  /// an absent cost would be sorted first by CGAL's queue.
   template <class Profile, class OptionalPoint>
   auto cost(const Profile& profile, const OptionalPoint& placement)
   {
@@ -258,9 +264,9 @@ public:
     return Optional_cost(FT(value));
   }
 
-  /// The relative error after the collapse of the selected candidate, to rounding; that of now if it cannot be collapsed.
-  /// `get_placement` is the one that `edge_collapse()` has been given: the cost in CGAL's queue may be of before some
-  /// collapses nearby.
+  /// The relative error after the collapse of the selected candidate, to rounding; that of now if
+  /// it cannot be collapsed. `get_placement` is the one that `edge_collapse()` has been given: the
+  /// cost in CGAL's queue may be of before some collapses nearby.
   template <class Profile, class GetPlacement>
   double relative_error_after(const Profile& profile, const GetPlacement& get_placement)
   {
@@ -271,13 +277,14 @@ public:
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
-    if(m_core.fields().moves_kept_vertex(u, v, point) || !std::isfinite(m_core.cost_at(u, v, point)))
+    if(m_core.fields().moves_kept_vertex(u, v, point) ||
+       !std::isfinite(m_core.cost_at(u, v, point)))
       return relative_error();
     return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
 
-  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or merge two of them, and none of a
-  /// wrapper that would put a face through another.
+  /// Whether a filter lets a placement through: not one that would move a vertex to be kept, or
+  /// merge two of them, and none of a wrapper that would put a face through another.
   template <class Profile, class OptionalPoint>
   bool lets_through(const Profile& profile, const OptionalPoint& placement)
   {
@@ -298,7 +305,10 @@ public:
   /// @{
 
   /// P, rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const { return log().forest().restriction(current_slots()); }
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    return log().forest().restriction(current_slots());
+  }
 
   /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
   std::vector<std::size_t> vertex_map() const { return log().forest().vertex_map(current_slots()); }
@@ -306,8 +316,8 @@ public:
   /// The merges so far and where each left its vertex.
   const Collapse_log& log() const { return m_core.log(); }
 
-  /// The slots of `vertices(mesh)`, in that order. Throws `std::logic_error` where the merges on record are not all that has
-  /// happened to the mesh.
+  /// The slots of `vertices(mesh)`, in that order. Throws `std::logic_error` where the merges on
+  /// record are not all that has happened to the mesh.
   std::vector<Eigen::Index> current_slots() const
   {
     std::vector<Eigen::Index> slots = m_slots.current();
@@ -341,7 +351,8 @@ public:
   bool has_rough_basis() const { return m_has_rough_basis; }
   /// The signals of filtered noise at the scale of the input; null with others.
   const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
-  /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered noise.
+  /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered
+  /// noise.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
   /// Candidates that were given up so far, over all runs.
   Spectral_refusals refusals() const
@@ -358,7 +369,8 @@ public:
   double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
   double error() const { return (std::max)(0., m_core.total()); }
-  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2; 0 where the signals are constant to rounding.
+  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2; 0 where the signals are
+  /// constant to rounding.
   double sum_of_squares() const { return m_sum_of_squares; }
   /// sqrt(E / sum_k lambda_k^2); 0 for constant signals, which P carries over exactly.
   double relative_error() const { return relative_error(error()); }
@@ -384,7 +396,8 @@ public:
   }
 
 private:
-  // The last way to collapse an edge that was asked for, of u < v. It holds until the mesh changes or an edge is selected.
+  // The last way to collapse an edge that was asked for, of u < v. It holds until the mesh changes
+  // or an edge is selected.
   struct Answer
   {
     Slot u = 0, v = 0;
@@ -438,17 +451,20 @@ private:
     return *m_answer.sample;
   }
 
-  // Called for each cost before the first collapse of a run, where cancelling leaves the mesh as it is.
+  // Called for each cost before the first collapse of a run, where cancelling leaves the mesh as it
+  // is.
   void report_first_cost()
   {
-    const std::size_t between_reports = (std::min)(std::size_t(1024), m_expected_first_costs / 100 + 1);
+    const std::size_t between_reports =
+        (std::min)(std::size_t(1024), m_expected_first_costs / 100 + 1);
     if(m_number_of_first_costs++ % between_reports == 0 &&
        !report(Spectral_phase::first_costs,
                (std::min)(1., double(m_number_of_first_costs) / double(m_expected_first_costs))))
       throw Spectral_geometry::Cancelled();
   }
 
-  // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that point, or its projection.
+  // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that
+  // point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
     const Answer& a = m_answer;
@@ -457,7 +473,8 @@ private:
     return m_core.projected_weight(kept, removed, point);
   }
 
-  // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts with.
+  // Starting at the smallest slot makes sums independent of the halfedge that a mesh type starts
+  // with.
   Spectral_ring ring_of(const vertex_descriptor v) const
   {
     Spectral_ring ring;
@@ -507,8 +524,9 @@ private:
     if(m_positions_checked && !m_run.expired())
       return;
     if(m_run.expired())
-      throw std::logic_error("Spectral_policies: a cost or placement was asked for outside of a run; pass "
-                             "spectral.visitor() to edge_collapse() with .visitor().");
+      throw std::logic_error(
+          "Spectral_policies: a cost or placement was asked for outside of a run; pass "
+          "spectral.visitor() to edge_collapse() with .visitor().");
     for(const vertex_descriptor v : {profile.v0(), profile.v1()})
       if(to_vector(get(profile.vertex_point_map(), v)) != m_core.fields().points[slot(v)])
         throw std::logic_error(
@@ -534,8 +552,8 @@ private:
   Postponed m_postponed;
   std::optional<Merge> m_announced; // the collapse under way
   bool m_positions_checked = false;
-  bool m_selecting = false;              // a placement asked for now is that of the selected candidate
-  bool m_selection_open = false;         // selected, and nothing has become of it yet
+  bool m_selecting = false;      // a placement asked for now is that of the selected candidate
+  bool m_selection_open = false; // selected, and nothing has become of it yet
   std::optional<bool> m_placement_found; // whether there was one for it; none: not asked yet
   Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;

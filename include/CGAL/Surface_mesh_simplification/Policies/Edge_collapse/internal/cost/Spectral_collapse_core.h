@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
@@ -29,36 +29,43 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * The spectral state without the mesh: signals, R = B Z - L F, mass, E, positions, connectivity and the log of merges, all in
- * slots. It is told what the mesh does and never looks at it.
+ * The spectral state without the mesh: signals, R = B Z - L F, mass, E, positions, connectivity and
+ * the log of merges, all in slots. It is told what the mesh does and never looks at it.
  *
- * Order of calls: set_basis() once; where collapses come that others choose, set_input() and follow() for each of them;
- * set_geometry() at the start of each run; then, in any order, evaluate(), select() or cost_at(), which change nothing but
- * counts, and commit(), which follows one collapse.
+ * Order of calls: set_basis() once; where collapses come that others choose, set_input() and
+ * follow() for each of them; set_geometry() at the start of each run; then, in any order,
+ * evaluate(), select() or cost_at(), which change nothing but counts, and commit(), which follows
+ * one collapse.
  */
 class Spectral_collapse_core
 {
 public:
-  /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as `float`. Signals and
-  /// coefficients of the options are not read.
+  /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as
+  /// `float`. Signals and coefficients of the options are not read.
   void set_basis(Spectral_basis basis, const Spectral_geometry::Local_operator& op,
                  const Spectral_options& options, const bool single_precision);
 
   /// See `Spectral_fields`.
-  void set_largest_degree_of_others(const std::size_t degree) { m_fields.largest_degree_of_others = degree; }
+  void set_largest_degree_of_others(const std::size_t degree)
+  {
+    m_fields.largest_degree_of_others = degree;
+  }
 
-  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its border. set_geometry() does it
-  /// in the first run, unless the mesh is another one then.
+  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its
+  /// border. set_geometry() does it in the first run, unless the mesh is another one then.
   void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
-  /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The geometry is set afterwards.
+  /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The
+  /// geometry is set afterwards.
   void follow(const Spectral_slot removed, const Spectral_slot kept, const double weight,
               const Eigen::Vector3d& point);
 
-  /// Takes positions and rings of the mesh as it is and computes R, M, E. Slots that are gone have an empty ring.
+  /// Takes positions and rings of the mesh as it is and computes R, M, E. Slots that are gone have
+  /// an empty ring.
   void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
-  /// The vertices that survive with their position and their row of P: one flag for each slot, or nothing.
+  /// The vertices that survive with their position and their row of P: one flag for each slot, or
+  /// nothing.
   void set_kept(std::vector<char> kept) { m_fields.kept = std::move(kept); }
 
   /// Those of set_basis(), without their signals and coefficients.
@@ -70,64 +77,74 @@ public:
   /// E, the sum of E_w over the current vertices (Eq. 2).
   double total() const { return m_total.value(); }
 
-  /// The cost of the edge between two slots, u < v, that CGAL's queue may keep for now: a collapse beside the edge has changed
-  /// it, but it was far above the cost of recent collapses. None where it must be evaluated.
+  /// The cost of the edge between two slots, u < v, that CGAL's queue may keep for now: a collapse
+  /// beside the edge has changed it, but it was far above the cost of recent collapses. None where
+  /// it must be evaluated.
   std::optional<double> postponed_cost(const Spectral_slot u, const Spectral_slot v) const;
 
-  /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of evaluate(): with a placement of
-  /// the user's.
+  /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of
+  /// evaluate(): with a placement of the user's.
   void set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost);
 
-  /// No cost is postponed from now on: somebody else chooses what is collapsed, and what that costs is not known.
+  /// No cost is postponed from now on: somebody else chooses what is collapsed, and what that costs
+  /// is not known.
   void postpone_no_more() { m_recent_cost = std::numeric_limits<double>::infinity(); }
 
-  /// The best way to collapse the edge between two slots, u < v, for CGAL's queue. An edge at a hub is costed as if that hub
-  /// stayed.
+  /// The best way to collapse the edge between two slots, u < v, for CGAL's queue. An edge at a hub
+  /// is costed as if that hub stayed.
   Spectral_sample evaluate(const Spectral_slot u, const Spectral_slot v);
 
-  /// The best way for an edge, u < v, whose turn has come. Where its placement would cross another sheet: the cheapest of the
-  /// ends and the middle that does not.
+  /// The best way for an edge, u < v, whose turn has come. Where its placement would cross another
+  /// sheet: the cheapest of the ends and the middle that does not.
   Spectral_sample select(const Spectral_slot u, const Spectral_slot v);
 
-  /// Whether a collapse of (u,v) to a point would put a face through another, where that is guarded.
+  /// Whether a collapse of (u,v) to a point would put a face through another, where that is
+  /// guarded.
   bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
 
   /// How often an edge was given up because of that.
   std::size_t number_of_crossings() const { return m_number_of_crossings; }
 
-  /// The cost of collapsing to a point that somebody else chose; the weights follow from its projection.
+  /// The cost of collapsing to a point that somebody else chose; the weights follow from its
+  /// projection.
   double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
 
-  /// The change of E that commit() would make, to rounding whatever triangles arise; f = (1 - weight) f_u + weight f_v.
+  /// The change of E that commit() would make, to rounding whatever triangles arise; f = (1 -
+  /// weight) f_u + weight f_v.
   double change_at(const Spectral_slot u, const Spectral_slot v, const double weight,
                    const Eigen::Vector3d& point);
 
   /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
-  double projected_weight(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const;
+  double projected_weight(const Spectral_slot u, const Spectral_slot v,
+                          const Eigen::Vector3d& point) const;
 
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
   void commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
               const Eigen::Vector3d& point, Spectral_ring ring);
 
-  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts, what is kept.
+  /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts,
+  /// what is kept.
   void release();
 
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
 
 private:
   static constexpr double recent_cost_decay = 0.998;
-  // Long before the turn of an edge comes that cost so many times more than recent collapses, others near it will have had it
-  // evaluated again; edges of the link change more than those that lead away from it. With these factors 16 evaluations for
-  // each collapse instead of 38, which saves a quarter of the loop; |C|_L was 1.004 times as large (14 runs).
+  // Long before the turn of an edge comes that cost so many times more than recent collapses,
+  // others near it will have had it evaluated again; edges of the link change more than those that
+  // lead away from it. With these factors 16 evaluations for each collapse instead of 38, which
+  // saves a quarter of the loop; |C|_L was 1.004 times as large (14 runs).
   static constexpr double outer_postponing_factor = 2, inner_postponing_factor = 8;
-  // An edge whose placement would put a face through another may cost so many times more at another point than at that placement,
-  // or than the collapses of late. Otherwise one vertex swallows what lies around it, at a thousand times the cost of others.
-  // With 4, 8, 16, 32 and 64 |C|_L of 19 runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
+  // An edge whose placement would put a face through another may cost so many times more at another
+  // point than at that placement, or than the collapses of late. Otherwise one vertex swallows what
+  // lies around it, at a thousand times the cost of others. With 4, 8, 16, 32 and 64 |C|_L of 19
+  // runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
 
-  // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the rounding of the largest
-  // E that it has seen, and a needle makes an E that dwarfs the rest for a while.
+  // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the
+  // rounding of the largest E that it has seen, and a needle makes an E that dwarfs the rest for a
+  // while.
   class Sum
   {
   public:
@@ -151,8 +168,8 @@ private:
   // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
   void update_row(const Spectral_slot w);
 
-  // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current geometry: nothing
-  // accumulates, so E cannot drift.
+  // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current
+  // geometry: nothing accumulates, so E cannot drift.
   void refresh_around(const Spectral_slot kept);
 
   Spectral_fields m_fields;
@@ -177,4 +194,4 @@ private:
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core_impl.h>
 #endif
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_H

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
@@ -37,8 +37,8 @@ Spectral_collapse_core::set_basis(Spectral_basis basis, const Spectral_geometry:
   m_shape.set_weights(options, basis.sum_of_squares);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points,
-                                                                     Spectral_rings rings)
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings)
 {
   const bool is_later = !m_fields.points.empty();
   m_fields.points = std::move(points);
@@ -70,10 +70,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow(const Spectral
         (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points,
-                                                                        Spectral_rings rings)
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings)
 {
-  set_input(std::move(points), std::move(rings)); // of a later run it keeps the positions and the rings alone
+  set_input(std::move(points),
+            std::move(rings)); // of a later run it keeps the positions and the rings alone
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
@@ -94,9 +95,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() cons
 {
   double sum = 0;
   for(std::size_t w = 0; w < m_fields.points.size(); ++w)
-    m_fields.rings.for_triangles(Spectral_slot(w), [&](const Spectral_slot a, const Spectral_slot b) {
-      sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
-    });
+    m_fields.rings.for_triangles(
+        Spectral_slot(w), [&](const Spectral_slot a, const Spectral_slot b) {
+          sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
+        });
   return sum / 3; // each triangle from its three corners
 }
 
@@ -106,13 +108,15 @@ Spectral_collapse_core::postponed_cost(const Spectral_slot u, const Spectral_slo
   if(u == m_last_kept || v == m_last_kept || m_last_kept == null_spectral_slot)
     return {};
   const double cost = m_fields.rings[u][m_fields.rings.find(u, v)].cost;
-  const bool inner = m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
+  const bool inner =
+      m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
   const double factor = inner ? inner_postponing_factor : outer_postponing_factor;
-  return std::isfinite(cost) && cost > factor * m_recent_cost ? std::optional<double>(cost) : std::nullopt;
+  return std::isfinite(cost) && cost > factor * m_recent_cost ? std::optional<double>(cost)
+                                                              : std::nullopt;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::evaluate(const Spectral_slot u,
-                                                                               const Spectral_slot v)
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample
+Spectral_collapse_core::evaluate(const Spectral_slot u, const Spectral_slot v)
 {
   ++m_number_of_evaluations;
   Spectral_sample result; // of infinite cost
@@ -125,8 +129,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::evaluate(c
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_queued_cost(const Spectral_slot u,
+                                                                           const Spectral_slot v,
+                                                                           const double cost)
 {
   m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
 }
@@ -151,14 +156,16 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(con
   return apart;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE bool
-Spectral_collapse_core::crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+CGAL_SPECTRAL_GEOMETRY_INLINE bool Spectral_collapse_core::crosses(const Spectral_slot u,
+                                                                   const Spectral_slot v,
+                                                                   const Eigen::Vector3d& point)
 {
   return m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double
-Spectral_collapse_core::cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point)
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::cost_at(const Spectral_slot u,
+                                                                     const Spectral_slot v,
+                                                                     const Eigen::Vector3d& point)
 {
   if(!m_kernel.prepare(m_fields, u, v))
     return std::numeric_limits<double>::infinity();
@@ -184,9 +191,11 @@ Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_s
   return search(u, v).projected_weight(point);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
-                               const Eigen::Vector3d& point, Spectral_ring ring)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::commit(const Spectral_slot removed,
+                                                                  const Spectral_slot kept,
+                                                                  const double weight,
+                                                                  const Eigen::Vector3d& point,
+                                                                  Spectral_ring ring)
 {
   follow(removed, kept, weight, point);
   m_total.add(-m_fields.E[removed]);
@@ -224,10 +233,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   double area = 0, to_self = 0;
   m_row.clear();
   for(std::size_t i = 0; i < ring.size(); ++i) {
-    const Spectral_triangle &after = ring[i].triangle, &before = ring[Spectral_rings::prev(ring, i)].triangle;
+    const Spectral_triangle &after = ring[i].triangle,
+                            &before = ring[Spectral_rings::prev(ring, i)].triangle;
     const double cot = (after.cot_second + before.cot_first) / 2;
-    m_row.push_back({ring[i].vertex, cot,
-                     (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()});
+    m_row.push_back(
+        {ring[i].vertex, cot,
+         (after.area + before.area) * m_fields.area_scale * m_fields.off_diagonal_share()});
     to_self -= cot;
     area += m_fields.area_of_center(after) * m_fields.area_scale;
   }
@@ -235,8 +246,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   double square = 0;
   Spectral_geometry::internal::on_vector_units([&] {
     const Spectral_row_entry *const first = m_row.data(), *const end = first + m_row.size();
-    square = spectral_residual_row(m_fields.signals, first, m_fields.theta == 0 ? end - 1 : first, end,
-                                   nullptr, m_fields.signals[w]);
+    square = spectral_residual_row(m_fields.signals, first, m_fields.theta == 0 ? end - 1 : first,
+                                   end, nullptr, m_fields.signals[w]);
   });
   m_fields.mass[w] = area / 3;
   m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
@@ -257,4 +268,4 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const 
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_CORE_IMPL_H

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
@@ -22,8 +22,8 @@ namespace CGAL::Surface_mesh_simplification::internal {
 
 /// A way to collapse an edge (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.
 ///
-/// The weight belongs to a slot, never to an end of a halfedge: the direction in which CGAL presents the same edge can
-/// change after a collapse nearby.
+/// The weight belongs to a slot, never to an end of a halfedge: the direction in which CGAL
+/// presents the same edge can change after a collapse nearby.
 struct Spectral_sample
 {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
@@ -37,25 +37,27 @@ struct Spectral_sample
  * The local cost of collapsing one edge: cost = sum over H of E_w after - sum over H of E_w before,
  * where H is the merged vertex and its link (section 3.3 of the paper).
  *
- *        a0 ---- s ---- b2         The rings of u and v run counterclockwise; s and t see both ends, the a_i see u alone, the
- *       / \    / \    / \          b_i see v alone.
- *     a1 --- u --- v --- b1        goes:      (u v s) and (v u t), the triangles of the edge
- *       \ /    \ /    \ /          changes:   (u; a0 a1), (v; b1 b2), ... become (x; ., .), the outer triangles
- *        .  --- t ---- .           H = {x} + link, whose E_w a collapse changes
+ *        a0 ---- s ---- b2         The rings of u and v run counterclockwise; s and t see both
+ * ends, the a_i see u alone, the / \    / \    / \          b_i see v alone. a1 --- u --- v --- b1
+ * goes:      (u v s) and (v u t), the triangles of the edge \ /    \ /    \ /          changes: (u;
+ * a0 a1), (v; b1 b2), ... become (x; ., .), the outer triangles .  --- t ---- .           H = {x} +
+ * link, whose E_w a collapse changes
  *
- * The row of x is summed anew. For a vertex w of the link, R_w after is R_w plus what its triangles around u and v give after
- * less what they gave before: a combination of a few rows of F and Z, however many neighbours w has. An end that stays where it
- * is, with its values, keeps its triangles: its own row changes as those of the link do, and of its neighbours only those
- * change that the other end shares.
+ * The row of x is summed anew. For a vertex w of the link, R_w after is R_w plus what its triangles
+ * around u and v give after less what they gave before: a combination of a few rows of F and Z,
+ * however many neighbours w has. An end that stays where it is, with its values, keeps its
+ * triangles: its own row changes as those of the link do, and of its neighbours only those change
+ * that the other end shares.
  *
  * The object holds scratch memory; it allocates only when a ring is larger than any before.
  */
 class Spectral_collapse_kernel
 {
 public:
-  /// Sets the edge and says whether it may be collapsed: CGAL's link condition, and its refusal of inner edges between border
-  /// vertices. Both depend only on the rings of u and v, and whenever those change CGAL costs the edge again. Unless it may,
-  /// nothing may be evaluated. In time linear in the smaller ring and those of its vertices, but for the border of the larger.
+  /// Sets the edge and says whether it may be collapsed: CGAL's link condition, and its refusal of
+  /// inner edges between border vertices. Both depend only on the rings of u and v, and whenever
+  /// those change CGAL costs the edge again. Unless it may, nothing may be evaluated. In time
+  /// linear in the smaller ring and those of its vertices, but for the border of the larger.
   bool prepare(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v)
   {
     m_fields = &fields;
@@ -69,9 +71,11 @@ public:
     m_end[1] = v;
     m_other_in[small_u ? 0 : 1] = o_in_c;
     m_other_in[small_u ? 1 : 0] = ring[o_in_c].back;
-    const std::size_t before = Spectral_rings::prev(ring, o_in_c), after = Spectral_rings::next(ring, o_in_c);
+    const std::size_t before = Spectral_rings::prev(ring, o_in_c),
+                      after = Spectral_rings::next(ring, o_in_c);
     for(std::size_t j = 0; j < ring.size(); ++j) {
-      const bool shares_face = (j == after && ring[o_in_c].face) || (j == before && ring[before].face);
+      const bool shares_face =
+          (j == after && ring[o_in_c].face) || (j == before && ring[before].face);
       if(j != o_in_c && !shares_face && rings.are_adjacent(o, ring[j].vertex))
         return false;
     }
@@ -87,7 +91,8 @@ public:
       else
         evaluate_body<true>(sample);
     });
-    sample.cost = m_invalid || !std::isfinite(m_change) ? std::numeric_limits<double>::infinity() : m_change;
+    sample.cost =
+        m_invalid || !std::isfinite(m_change) ? std::numeric_limits<double>::infinity() : m_change;
   }
 
   /// The change of E that a collapse makes, whatever triangles arise. Needs no prepare().
@@ -151,7 +156,8 @@ private:
   }
 
   // The triangle (x; a, b).
-  CGAL_SPECTRAL_INLINE Spectral_triangle triangle(const Spectral_sample& x, const Slot a, const Slot b) const
+  CGAL_SPECTRAL_INLINE Spectral_triangle triangle(const Spectral_sample& x, const Slot a,
+                                                  const Slot b) const
   {
     const Spectral_fields& fields = *m_fields;
     if(fields.coefficients.empty())
@@ -163,9 +169,10 @@ private:
     return spectral_triangle(x.point, fields.points[a], fields.points[b], &mean);
   }
 
-  // `spectral_triangle()` without its search for the longest edge; a triangle whose area doubles cannot tell has none.
-  CGAL_SPECTRAL_INLINE static Spectral_triangle triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a,
-                                                         const Eigen::Vector3d& b)
+  // `spectral_triangle()` without its search for the longest edge; a triangle whose area doubles
+  // cannot tell has none.
+  CGAL_SPECTRAL_INLINE static Spectral_triangle
+  triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   {
     const double xa[3] = {a[0] - x[0], a[1] - x[1], a[2] - x[2]};
     const double xb[3] = {b[0] - x[0], b[1] - x[1], b[2] - x[2]};
@@ -184,7 +191,8 @@ private:
                               Spectral_triangle::degenerate_cotangent * m_fields->conductivity);
   }
 
-  // E_x. The row of an end that stays is what it was and what the triangles around the other end change.
+  // E_x. The row of an end that stays is what it was and what the triangles around the other end
+  // change.
   template <bool Full>
   CGAL_SPECTRAL_INLINE void add_merged_vertex()
   {
@@ -203,14 +211,13 @@ private:
           cot += t.cot_second;
           both_areas += t.area;
           area += m_fields->area_of_center(t);
-        } else if(m_staying >= 0 &&
-                  around[i]
-                      .face) { // a triangle of the edge; the end that stays is its first or second corner
+        } else if(m_staying >= 0 && around[i].face) { // a triangle of the edge; the end that stays
+                                                      // is its first or second corner
           const Spectral_triangle& t = around[i].triangle;
           const bool is_first = i == m_other_in[end];
           const double at_third = (is_first ? t.cot_second : t.cot_first) / 2;
-          m_row[m_size++] = {around[is_first ? Spectral_rings::next(around, i) : i].vertex, -t.cot_center / 2,
-                             -t.area * m_off_diagonal};
+          m_row[m_size++] = {around[is_first ? Spectral_rings::next(around, i) : i].vertex,
+                             -t.cot_center / 2, -t.area * m_off_diagonal};
           lost += at_third;
           lost_area += t.area * m_off_diagonal;
           to_self += t.cot_center / 2 + at_third;
@@ -270,15 +277,16 @@ private:
     add_term<Full>(w, change.area, m_fields->vanishes_at(w));
   }
 
-  // In the row of a vertex of the link, beside the entries for others: what its triangles with x bring, and what those with
-  // u and v took away.
+  // In the row of a vertex of the link, beside the entries for others: what its triangles with x
+  // bring, and what those with u and v took away.
   struct Change
   {
     double to_x = 0, area_at_x = 0, area = 0;
     double lost[2] = {}, lost_area[2] = {};
   };
 
-  // What the triangles at the i-th neighbour of an end bring and take away. Those of the edge are in both rings.
+  // What the triangles at the i-th neighbour of an end bring and take away. Those of the edge are
+  // in both rings.
   template <bool Full>
   CGAL_SPECTRAL_INLINE void add_corner(const int end, const std::size_t i, const bool with_edge,
                                        Change& change)
@@ -286,7 +294,8 @@ private:
     const Spectral_ring& around = ring(end);
     const std::size_t o = m_other_in[end], before = Spectral_rings::prev(around, i),
                       after = Spectral_rings::next(around, i);
-    for(const bool is_first : {true, false}) { // of the triangle that follows it, second of the one before
+    for(const bool is_first :
+        {true, false}) { // of the triangle that follows it, second of the one before
       const std::size_t j = is_first ? i : before, neighbor = is_first ? after : before;
       const Spectral_triangle& old = around[j].triangle;
       if(!around[j].face || (neighbor == o && !with_edge))
@@ -315,15 +324,16 @@ private:
     m_row[1] = {m_end[1], m_weight * of_f, m_weight * of_z};
   }
 
-  // E of the row that has been gathered: all of it, or what is new in that of w. Where functions vanish there is none.
+  // E of the row that has been gathered: all of it, or what is new in that of w. Where functions
+  // vanish there is none.
   template <bool Full>
   CGAL_SPECTRAL_INLINE void add_term(const Slot w, const double area, const bool vanishes)
   {
     const bool is_new = w == null_spectral_slot;
     const Entry *const row = m_row.data(), *const end = row + m_size;
-    const double square =
-        spectral_residual_row(m_fields->signals, row, Full ? row : end - 1, end,
-                              is_new ? nullptr : m_fields->signals[w], static_cast<Spectral_block*>(nullptr));
+    const double square = spectral_residual_row(m_fields->signals, row, Full ? row : end - 1, end,
+                                                is_new ? nullptr : m_fields->signals[w],
+                                                static_cast<Spectral_block*>(nullptr));
     const double mass = (is_new ? 0. : m_fields->mass[w]) + area / 3;
     m_invalid = m_invalid || !(mass > 0);
     if(mass > 0 && !vanishes)
@@ -333,7 +343,7 @@ private:
   const Spectral_fields* m_fields = nullptr;
   Slot m_end[2] = {null_spectral_slot, null_spectral_slot}; // u and v
   std::size_t m_other_in[2] = {0, 0}; // the place of v in the ring of u, of u in that of v
-  int m_staying = -1;                 // the end that stays with its values, 0 or 1 for u or v, or none
+  int m_staying = -1; // the end that stays with its values, 0 or 1 for u or v, or none
   double m_weight = 0, m_off_diagonal = 0, m_change = 0;
   bool m_invalid = false;                    // a triangle or a vertex would lose its area
   std::vector<Spectral_triangle> m_outer[2]; // those that survive, (x; a, b)
@@ -343,4 +353,4 @@ private:
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_COLLAPSE_KERNEL_H

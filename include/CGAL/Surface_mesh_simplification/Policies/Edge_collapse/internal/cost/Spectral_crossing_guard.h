@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
@@ -19,14 +19,14 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * Tells whether a collapse would put a triangle through another one that it was not through before: ears, mouths and hooves are
- * thin sheets, and their sides are approximated apart from each other.
+ * Tells whether a collapse would put a triangle through another one that it was not through before:
+ * ears, mouths and hooves are thin sheets, and their sides are approximated apart from each other.
  *
- * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs to each. Before set_geometry()
- * there is none, and nothing crosses.
+ * Every triangle belongs to the smallest of its slots; a tree of boxes has a leaf for what belongs
+ * to each. Before set_geometry() there is none, and nothing crosses.
  *
- * `Fans`, the connectivity: `for_triangles(w, f)` calls f(a, b) for each triangle (w, a, b), `for_neighbours(w, f)` f(a) for each
- * neighbour of w.
+ * `Fans`, the connectivity: `for_triangles(w, f)` calls f(a, b) for each triangle (w, a, b),
+ * `for_neighbours(w, f)` f(a) for each neighbour of w.
  */
 class Spectral_crossing_guard
 {
@@ -43,9 +43,10 @@ public:
     m_refusals = points.size() / 20;
   }
 
-  /// Whether the triangles of u and v that are left would cross others once both are at x, which none of those around u and v
-  /// crosses now. Sheets that lie in each other all over, as in scans, are not to hold a run up: after so many refusals
-  /// beside triangles that cross already there are no more of these.
+  /// Whether the triangles of u and v that are left would cross others once both are at x, which
+  /// none of those around u and v crosses now. Sheets that lie in each other all over, as in scans,
+  /// are not to hold a run up: after so many refusals beside triangles that cross already there are
+  /// no more of these.
   template <class Fans>
   bool crosses(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
                const Eigen::Vector3d& x)
@@ -69,14 +70,15 @@ public:
 
   /// Follows a collapse, once fans and points have.
   template <class Fans>
-  void commit(const Points& points, const Fans& fans, const Spectral_slot removed, const Spectral_slot kept)
+  void commit(const Points& points, const Fans& fans, const Spectral_slot removed,
+              const Spectral_slot kept)
   {
     if(m_tree.is_empty())
       return;
     m_tree.update(removed, Box());
     m_tree.update(kept, box_of_owned(points, fans, kept));
-    fans.for_neighbours(kept,
-                        [&](const Spectral_slot w) { m_tree.update(w, box_of_owned(points, fans, w)); });
+    fans.for_neighbours(
+        kept, [&](const Spectral_slot w) { m_tree.update(w, box_of_owned(points, fans, w)); });
   }
 
 private:
@@ -85,7 +87,8 @@ private:
 
   static bool triangles_intersect(const Corners& s, const Corners& t)
   {
-    return box_of(s).intersects(box_of(t)) && Spectral_geometry::internal::triangles_intersect(s, t);
+    return box_of(s).intersects(box_of(t)) &&
+           Spectral_geometry::internal::triangles_intersect(s, t);
   }
 
   // Whether two triangles of those around u and v intersect, as they are.
@@ -99,8 +102,9 @@ private:
            fan_intersects(m_old.data() + m_old_of_u, m_old.size() - m_old_of_u);
   }
 
-  // Whether two of the triangles around a vertex, the first corner of each, intersect. Beyond the vertex they do only where
-  // their directions from it meet: where there are many, a tree of the boxes of those finds the pairs.
+  // Whether two of the triangles around a vertex, the first corner of each, intersect. Beyond the
+  // vertex they do only where their directions from it meet: where there are many, a tree of the
+  // boxes of those finds the pairs.
   static bool fan_intersects(const Corners* fan, const std::size_t size)
   {
     if(size <= largest_fan_of_pairs) {
@@ -116,8 +120,9 @@ private:
     Spectral_geometry::internal::Box_tree tree;
     tree.build(boxes);
     for(std::size_t i = 0; i < size; ++i)
-      if(tree.any(boxes[i],
-                  [&](const std::size_t j) { return i < j && triangles_intersect(fan[i], fan[j]); }))
+      if(tree.any(boxes[i], [&](const std::size_t j) {
+           return i < j && triangles_intersect(fan[i], fan[j]);
+         }))
         return true;
     return false;
   }
@@ -157,7 +162,8 @@ private:
     return box;
   }
 
-  // The triangles of both ends: all as they are, and those that are left as they would be, with their boxes.
+  // The triangles of both ends: all as they are, and those that are left as they would be, with
+  // their boxes.
   template <class Fans>
   void collect(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
                const Eigen::Vector3d& x)
@@ -183,11 +189,12 @@ private:
     }
   }
 
-  // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v, and that none of `known` meets. One
-  // walk through the tree for all.
+  // Whether one of the triangles, whose boxes are m_boxes, meets one that is not around u or v, and
+  // that none of `known` meets. One walk through the tree for all.
   template <class Fans>
-  bool meet_others(const Points& points, const Fans& fans, const Spectral_slot u, const Spectral_slot v,
-                   const std::vector<Corners>& triangles, const std::vector<Corners>& known) const
+  bool meet_others(const Points& points, const Fans& fans, const Spectral_slot u,
+                   const Spectral_slot v, const std::vector<Corners>& triangles,
+                   const std::vector<Corners>& known) const
   {
     Box all;
     for(const Box& box : m_boxes)
@@ -195,17 +202,18 @@ private:
     return !all.isEmpty() && m_tree.any(all, [&](const std::size_t owner) {
       bool result = false;
       if(owner != u && owner != v)
-        for_each_owned(fans, Spectral_slot(owner), [&](const Spectral_slot a, const Spectral_slot b) {
-          if(result || a == u || a == v || b == u || b == v)
-            return;
-          const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
-          const Box box = box_of(other);
-          for(std::size_t i = 0; i < triangles.size() && !result && box.intersects(all); ++i)
-            result = m_boxes[i].intersects(box) &&
-                     Spectral_geometry::internal::triangles_intersect(triangles[i], other);
-          for(std::size_t i = 0; i < known.size() && result; ++i)
-            result = !triangles_intersect(known[i], other);
-        });
+        for_each_owned(
+            fans, Spectral_slot(owner), [&](const Spectral_slot a, const Spectral_slot b) {
+              if(result || a == u || a == v || b == u || b == v)
+                return;
+              const Corners other{{{owner, points[owner]}, {a, points[a]}, {b, points[b]}}};
+              const Box box = box_of(other);
+              for(std::size_t i = 0; i < triangles.size() && !result && box.intersects(all); ++i)
+                result = m_boxes[i].intersects(box) &&
+                         Spectral_geometry::internal::triangles_intersect(triangles[i], other);
+              for(std::size_t i = 0; i < known.size() && result; ++i)
+                result = !triangles_intersect(known[i], other);
+            });
       return result;
     });
   }
@@ -220,4 +228,4 @@ private:
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H

@@ -40,27 +40,29 @@ struct Spectral_fields
       kept; ///< one flag for each slot that survives with its position and its row of P, or nothing
   double area_scale = 1;         ///< 1 / area of the input, weighted by the density
   bool single_precision = false; ///< whether the mesh stores its points as `float`
-  /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed, until its turn comes, for whatever else
-  /// may become of it changes all of its triangles.
+  /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed,
+  /// until its turn comes, for whatever else may become of it changes all of its triangles.
   std::size_t largest_degree_of_others = 256;
 
   bool is_hub(const Spectral_slot s) const { return rings[s].size() > largest_degree_of_others; }
 
   bool is_kept(const Spectral_slot s) const { return !kept.empty() && kept[s] != 0; }
 
-  /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or put one with its values on a border
-  /// where functions vanish.
-  bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point) const
+  /// Whether a collapse to `point` would move a vertex that is to be kept, merge two of them, or
+  /// put one with its values on a border where functions vanish.
+  bool moves_kept_vertex(const Spectral_slot u, const Spectral_slot v,
+                         const Eigen::Vector3d& point) const
   {
     const auto would_move = [&](const Spectral_slot kept, const Spectral_slot other) {
-      return is_kept(kept) &&
-             (is_kept(other) || point != points[kept] || (vanishes_at(other) && !vanishes_at(kept)));
+      return is_kept(kept) && (is_kept(other) || point != points[kept] ||
+                               (vanishes_at(other) && !vanishes_at(kept)));
     };
     return would_move(u, v) || would_move(v, u);
   }
 
   /// The triangle (c; a, b), weighted by the coefficients.
-  Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a, const Spectral_slot b) const
+  Spectral_triangle triangle(const Spectral_slot c, const Spectral_slot a,
+                             const Spectral_slot b) const
   {
     if(coefficients.empty())
       return spectral_triangle(points[c], points[a], points[b]);
@@ -74,20 +76,21 @@ struct Spectral_fields
   {
     Spectral_ring& ring = rings[c];
     for(std::size_t i = 0; i < ring.size(); ++i)
-      ring[i].triangle = ring[i].face
-                             ? triangle(c, ring[i].vertex, ring[Spectral_rings::next(ring, i)].vertex)
-                             : Spectral_triangle();
+      ring[i].triangle =
+          ring[i].face ? triangle(c, ring[i].vertex, ring[Spectral_rings::next(ring, i)].vertex)
+                       : Spectral_triangle();
   }
 
   bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }
 
-  /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is divided equally.
+  /// Three times what the triangle gives to the lumped mass of its centre: its area, where that is
+  /// divided equally.
   double area_of_center(const Spectral_triangle& t) const
   {
-    return voronoi
-               ? 3 * t.area *
-                     Spectral_geometry::internal::mixed_voronoi_share(t.cot_center, t.cot_first, t.cot_second)
-               : t.area;
+    return voronoi ? 3 * t.area *
+                         Spectral_geometry::internal::mixed_voronoi_share(t.cot_center, t.cot_first,
+                                                                          t.cot_second)
+                   : t.area;
   }
 
   // Shares of a triangle's area: row sums of B stay A / 3 per corner.

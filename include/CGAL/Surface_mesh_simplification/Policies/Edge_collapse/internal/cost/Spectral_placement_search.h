@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
@@ -21,14 +21,16 @@
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
- * The placement of a candidate (u,v) (section 3.4, appendix A): which points are tried, and the weight that goes with each. Looks at
- * the state and changes nothing; the kernel that evaluates has been prepared for the edge.
+ * The placement of a candidate (u,v) (section 3.4, appendix A): which points are tried, and the
+ * weight that goes with each. Looks at the state and changes nothing; the kernel that evaluates has
+ * been prepared for the edge.
  */
 class Spectral_placement_search
 {
 public:
   Spectral_placement_search(const Spectral_fields& fields, const Spectral_options& options,
-                            const Spectral_shape_term& shape, const Spectral_slot u, const Spectral_slot v)
+                            const Spectral_shape_term& shape, const Spectral_slot u,
+                            const Spectral_slot v)
     : m_fields(fields)
     , m_options(options)
     , m_shape(shape)
@@ -41,20 +43,20 @@ public:
   {
     kernel.evaluate(sample);
     if(sample.collapsible())
-      sample.cost =
-          (std::min)(sample.cost, m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v])) +
-          m_shape.cost(m_fields.points, m_u, m_v, sample.point);
+      sample.cost = (std::min)(sample.cost,
+                               m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v])) +
+                    m_shape.cost(m_fields.points, m_u, m_v, sample.point);
   }
 
-  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2 on
-  /// an edge without length; all of it on an end that is to be kept.
+  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2
+  /// on an edge without length; all of it on an end that is to be kept.
   double projected_weight(const Eigen::Vector3d& point) const
   {
     return rounded(projected_edge_weight(m_fields.points[m_u], m_fields.points[m_v], point));
   }
 
-  /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or what is found from
-  /// there.
+  /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or
+  /// what is found from there.
   Spectral_sample best(Spectral_collapse_kernel& kernel) const
   {
     const Fixed_ends fixed = fixed_ends();
@@ -88,7 +90,8 @@ public:
     return best;
   }
 
-  /// The end of more neighbours stays where it is, which nearly always costs least at a hub. Infinite cost elsewhere.
+  /// The end of more neighbours stays where it is, which nearly always costs least at a hub.
+  /// Infinite cost elsewhere.
   Spectral_sample at_large_end(Spectral_collapse_kernel& kernel) const
   {
     if((!m_fields.is_hub(m_u) && !m_fields.is_hub(m_v)) ||
@@ -101,8 +104,8 @@ public:
     return evaluated(kernel, sample_at(more_at_u ? 0. : 1.));
   }
 
-  /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)` is true, unless it costs more than
-  /// `bound`.
+  /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)`
+  /// is true, unless it costs more than `bound`.
   template <class Allowed>
   Spectral_sample best_on_edge(Spectral_collapse_kernel& kernel, const double bound,
                                const Allowed& allowed) const
@@ -179,14 +182,15 @@ private:
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for(const Spectral_slot c : {m_u, m_v})
       m_fields.rings.for_triangles(c, [&](const Spectral_slot a, const Spectral_slot b) {
-        normal += (m_fields.points[a] - m_fields.points[c]).cross(m_fields.points[b] - m_fields.points[c]);
+        normal += (m_fields.points[a] - m_fields.points[c])
+                      .cross(m_fields.points[b] - m_fields.points[c]);
       });
     return normal;
   }
 
-  // The point of least shape term, no farther from the middle of the edge than its length. The ends and the middle are tried
-  // as well: without them |C|_L was 1.08 times as large after relocation (twelve meshes), also where only the edge that is
-  // selected was tried with all four.
+  // The point of least shape term, no farther from the middle of the edge than its length. The ends
+  // and the middle are tried as well: without them |C|_L was 1.08 times as large after relocation
+  // (twelve meshes), also where only the edge that is selected was tried with all four.
   Eigen::Vector3d minimiser_of_shape() const
   {
     const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
@@ -197,8 +201,9 @@ private:
     return distance > radius ? Eigen::Vector3d(middle + radius / distance * (x - middle)) : x;
   }
 
-  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless one of the samples
-  // or `best`, the one on the edge, is cheaper. `on_edge` are the three samples of strategy (ii).
+  // Appendix A, strategy (iii): the minimiser of a quadric through samples around the edge, unless
+  // one of the samples or `best`, the one on the edge, is cheaper. `on_edge` are the three samples
+  // of strategy (ii).
   Spectral_sample best_free_sample(const Spectral_sample* on_edge, Spectral_sample best,
                                    Spectral_collapse_kernel& kernel) const
   {
@@ -253,4 +258,4 @@ private:
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_PLACEMENT_SEARCH_H

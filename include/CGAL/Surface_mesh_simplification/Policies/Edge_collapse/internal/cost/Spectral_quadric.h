@@ -30,22 +30,27 @@ public:
     return *this;
   }
 
-  friend Spectral_quadric operator+(Spectral_quadric a, const Spectral_quadric& b) { return a += b; }
+  friend Spectral_quadric operator+(Spectral_quadric a, const Spectral_quadric& b)
+  {
+    return a += b;
+  }
 
-  /// Where it is least; not finite where A is singular. Cholesky's A = U^T U, written out: Eigen's for this size takes a twentieth of
-  /// the time in which the smallest program compiles.
+  /// Where it is least; not finite where A is singular. Cholesky's A = U^T U, written out: Eigen's
+  /// for this size takes a twentieth of the time in which the smallest program compiles.
   Eigen::Vector3d minimiser() const
   {
     const double u00 = std::sqrt(A(0, 0)), u01 = A(0, 1) / u00, u02 = A(0, 2) / u00;
     const double u11 = std::sqrt(A(1, 1) - u01 * u01), u12 = (A(1, 2) - u01 * u02) / u11;
     const double u22 = std::sqrt(A(2, 2) - (u02 * u02 + u12 * u12));
-    const double y0 = -b[0] / u00, y1 = (-b[1] - u01 * y0) / u11, y2 = (-b[2] - (u02 * y0 + u12 * y1)) / u22;
+    const double y0 = -b[0] / u00, y1 = (-b[1] - u01 * y0) / u11,
+                 y2 = (-b[2] - (u02 * y0 + u12 * y1)) / u22;
     const double x2 = y2 / u22, x1 = (y1 - u12 * x2) / u11;
     return Eigen::Vector3d((y0 - (u01 * x1 + u02 * x2)) / u00, x1, x2);
   }
 
-  /// The plane of a face with a corner p, from which edges lead along a and b, and the planes at right angles to it through those of
-  /// them that are border edges. Nothing for a face without area.
+  /// The plane of a face with a corner p, from which edges lead along a and b, and the planes at
+  /// right angles to it through those of them that are border edges. Nothing for a face without
+  /// area.
   void add_corner(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const bool a_is_border,
                   const Eigen::Vector3d& b, const bool b_is_border)
   {
@@ -62,19 +67,22 @@ public:
   }
 
 private:
-  // sigma^2: of the direction of a normal, 0.15 radians. Between 0.1 and 0.25 the norms hardly depend on it; 0.5 shrinks tips.
+  // sigma^2: of the direction of a normal, 0.15 radians. Between 0.1 and 0.25 the norms hardly
+  // depend on it; 0.5 shrinks tips.
   static constexpr double variance = 0.0225;
   // Of a border edge beside a face of as much area; 100 is as good, 1 lets the border wear off.
   static constexpr double border_weight = 10;
 
-  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal, const Eigen::Vector3d& p)
+  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal,
+                  const Eigen::Vector3d& p)
   {
     add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm());
   }
 
-  // Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane through p whose unit normal n
-  // has that variance in each coordinate (Trettner and Kobbelt, *Fast and Robust QEF Minimization using Probabilistic
-  // Quadrics*, Computer Graphics Forum 39(2), 2020, Eq. 14). A variance of p adds a constant there, which no change contains.
+  // Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane
+  // through p whose unit normal n has that variance in each coordinate (Trettner and Kobbelt, *Fast
+  // and Robust QEF Minimization using Probabilistic Quadrics*, Computer Graphics Forum 39(2), 2020,
+  // Eq. 14). A variance of p adds a constant there, which no change contains.
   void add_plane(const Eigen::Vector3d& normal, const Eigen::Vector3d& p, const double weight)
   {
     Eigen::Matrix3d plane = weight * normal * normal.transpose();

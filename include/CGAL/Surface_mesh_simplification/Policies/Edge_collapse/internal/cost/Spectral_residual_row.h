@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_signals.h>
@@ -48,15 +48,18 @@ inline Eigen::Map<Eigen::Array4d> spectral_quad(double* p)
 }
 #endif
 
-/// Computes R_w = start + sum_j (B_wj z_j - L_wj f_j), writes it to `result` unless that is null, and returns |R_w|^2.
-/// A lumped mass has an entry for the centre alone: entries before `first_of_z` have no z.
+/// Computes R_w = start + sum_j (B_wj z_j - L_wj f_j), writes it to `result` unless that is null,
+/// and returns |R_w|^2. A lumped mass has an entry for the centre alone: entries before
+/// `first_of_z` have no z.
 ///
-/// Four registers are written out: Clang makes pairs of a loop over 16 doubles, and takes three times as long.
+/// Four registers are written out: Clang makes pairs of a loop over 16 doubles, and takes three
+/// times as long.
 CGAL_SPECTRAL_INLINE double spectral_residual_row(const Spectral_signals& signals,
                                                   const Spectral_row_entry* const row,
                                                   const Spectral_row_entry* const first_of_z,
                                                   const Spectral_row_entry* const end,
-                                                  const Spectral_block* const start, Spectral_block* result)
+                                                  const Spectral_block* const start,
+                                                  Spectral_block* result)
 {
   static_assert(spectral_width == 16, "four registers of four");
   Spectral_quad squares = {0, 0, 0, 0};
@@ -90,4 +93,4 @@ CGAL_SPECTRAL_INLINE double spectral_residual_row(const Spectral_signals& signal
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_RESIDUAL_ROW_H

@@ -41,9 +41,10 @@ struct Spectral_triangle
   static constexpr double degenerate_cotangent = 1e10;
 };
 
-/// That of `Spectral_geometry::internal::Triangle_element`, with one division and one square root. The rule for what is degenerate is that of
-/// the assembly, so that E is 0 on the input.
-/// With `mean`, the coefficients of an operator, cotangents are those of its conductivity and the area is weighted by its density.
+/// That of `Spectral_geometry::internal::Triangle_element`, with one division and one square root.
+/// The rule for what is degenerate is that of the assembly, so that E is 0 on the input. With
+/// `mean`, the coefficients of an operator, cotangents are those of its conductivity and the area
+/// is weighted by its density.
 inline Spectral_triangle
 spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                   const Spectral_geometry::internal::Point_coefficients* mean = nullptr)
@@ -70,7 +71,8 @@ struct Spectral_ring_entry
   Spectral_slot vertex = null_spectral_slot;
   std::uint32_t back = 0; ///< index of c in the ring of `vertex`
   bool face = false;
-  /// the latest cost of collapsing the edge from a smaller slot to `vertex`; negative infinity: not known
+  /// the latest cost of collapsing the edge from a smaller slot to `vertex`; negative infinity: not
+  /// known
   double cost = unknown_cost;
   Spectral_triangle triangle;
 
@@ -84,8 +86,8 @@ using Spectral_ring = std::vector<Spectral_ring_entry>;
  * corners.
  *
  * The policies see every mesh type through this mirror: the walk over halfedges is done once, for
- * the kept vertex of a collapse, and everything else is arithmetic on contiguous arrays, which may run
- * on several threads whatever the mesh is.
+ * the kept vertex of a collapse, and everything else is arithmetic on contiguous arrays, which may
+ * run on several threads whatever the mesh is.
  */
 class Spectral_rings
 {
@@ -145,16 +147,17 @@ public:
       function(e.vertex);
   }
 
-  /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it, as the mesh has it.
-  /// Its triangles follow from `Spectral_fields::update_triangles()`, those around it from follow().
+  /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it,
+  /// as the mesh has it. Its triangles follow from `Spectral_fields::update_triangles()`, those
+  /// around it from follow().
   void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
   {
     Spectral_ring().swap(m_rings[removed]);
     m_rings[kept] = std::move(ring);
   }
 
-  /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place of `removed` in the ring
-  /// of w, and takes the two triangles that they share.
+  /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place
+  /// of `removed` in the ring of w, and takes the two triangles that they share.
   void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
   {
     Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
@@ -167,14 +170,15 @@ public:
       link(around[i].vertex, k);
   }
 
-  /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is looked for in the smaller of two
-  /// rings. May run side by side for several c.
+  /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is
+  /// looked for in the smaller of two rings. May run side by side for several c.
   void find_back(const Spectral_slot c)
   {
     const Spectral_ring& ring = m_rings[c];
     for(std::size_t i = 0; i < ring.size(); ++i) {
       const Spectral_slot w = ring[i].vertex;
-      if(m_rings[w].size() < ring.size() || (m_rings[w].size() == ring.size() && c < w)) // else left to w
+      if(m_rings[w].size() < ring.size() ||
+         (m_rings[w].size() == ring.size() && c < w)) // else left to w
         link(c, i);
     }
   }
@@ -198,10 +202,12 @@ private:
     return j;
   }
 
-  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were consecutive, the triangle between them vanished
-  // and the later of the two entries takes the place of both: an entry carries the face that follows it.
-  // Returns the index from which on entries have moved.
-  std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed, const Spectral_slot kept)
+  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were
+  // consecutive, the triangle between them vanished and the later of the two entries takes the
+  // place of both: an entry carries the face that follows it. Returns the index from which on
+  // entries have moved.
+  std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed,
+                              const Spectral_slot kept)
   {
     Spectral_ring& ring = m_rings[c];
     const std::size_t i = find(c, removed);

@@ -25,8 +25,8 @@ struct alignas(64) Spectral_block
 };
 
 /*!
- * The signals F and Z = B^-1 L F of all vertices, and the residual R of the current mesh. A vertex has one block for
- * every 16 signals; the last block is padded with zeros, which cost nothing.
+ * The signals F and Z = B^-1 L F of all vertices, and the residual R of the current mesh. A vertex
+ * has one block for every 16 signals; the last block is padded with zeros, which cost nothing.
  */
 class Spectral_signals
 {
@@ -45,7 +45,10 @@ public:
   int number_of_blocks() const { return int(m_blocks); }
 
   /// The blocks of a vertex.
-  const Spectral_block* operator[](const std::size_t w) const { return &m_values[w * std::size_t(m_blocks)]; }
+  const Spectral_block* operator[](const std::size_t w) const
+  {
+    return &m_values[w * std::size_t(m_blocks)];
+  }
   Spectral_block* operator[](const std::size_t w) { return &m_values[w * std::size_t(m_blocks)]; }
 
   /// Sets the columns from `first` on, a multiple of 16, of F and Z.
@@ -74,7 +77,8 @@ public:
 
 private:
   Eigen::Index m_blocks = 1, m_columns = 0;
-  std::vector<Spectral_block, boost::alignment::aligned_allocator<Spectral_block, alignof(Spectral_block)>>
+  std::vector<Spectral_block,
+              boost::alignment::aligned_allocator<Spectral_block, alignof(Spectral_block)>>
       m_values;
 };
 

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses.h>
@@ -31,14 +31,16 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// What to take from positions (the rows of V, at least one): a point of the mesh along each axis on which it lies at least eight
-/// times as far from the origin as it is long, where nothing would be left of what quadrics tell apart; 0 on the others. So no
-/// point changes by being moved there and back: such differences of doubles are exact.
+/// What to take from positions (the rows of V, at least one): a point of the mesh along each axis
+/// on which it lies at least eight times as far from the origin as it is long, where nothing would
+/// be left of what quadrics tell apart; 0 on the others. So no point changes by being moved there
+/// and back: such differences of doubles are exact.
 inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
 {
   Eigen::Vector3d offset = V.row(0);
   for(int axis = 0; axis < 3; ++axis)
-    if(!(V.col(axis).cwiseAbs().minCoeff() >= 8 * (V.col(axis).maxCoeff() - V.col(axis).minCoeff())))
+    if(!(V.col(axis).cwiseAbs().minCoeff() >=
+         8 * (V.col(axis).maxCoeff() - V.col(axis).minCoeff())))
       offset[axis] = 0;
   return offset;
 }
@@ -126,7 +128,8 @@ private:
   std::size_t m_first = 0, m_size = 0;
 };
 
-/// The run of `quadric_collapses()`. Halfedge c leads from the vertex of corner c to that of the next corner of its face.
+/// The run of `quadric_collapses()`. Halfedge c leads from the vertex of corner c to that of the
+/// next corner of its face.
 class Quadric_collapser
 {
 public:
@@ -182,7 +185,8 @@ public:
       handle(entry);
       if(m_log.number_of_vertices_left() <= next_report) {
         progress(m_log.number_of_vertices_left());
-        next_report = m_log.number_of_vertices_left() - (std::min)(m_log.number_of_vertices_left(), step);
+        next_report =
+            m_log.number_of_vertices_left() - (std::min)(m_log.number_of_vertices_left(), step);
       }
     }
   }
@@ -223,7 +227,8 @@ public:
   }
 
 private:
-  // Of a halfedge: not in the queue; refused; in the queue, with the number of collapses before its cost was computed.
+  // Of a halfedge: not in the queue; refused; in the queue, with the number of collapses before its
+  // cost was computed.
   static constexpr int none = -2, refused = -1;
 
   using Entry = Halfedge_queue::Entry;
@@ -321,8 +326,9 @@ private:
       push(c, cost);
       return;
     }
-    if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) || !keeps_shape(u, v, x) ||
-       !keeps_shape(v, u, x) || m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
+    if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) ||
+       !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
+       m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
       m_state[at(c)] = refused;
       m_refused.push_back(c);
       return;
@@ -424,8 +430,9 @@ private:
 
   void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
   {
-    double alpha =
-        m_mesh.fixed[at(kept)] ? 0. : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    double alpha = m_mesh.fixed[at(kept)]
+                       ? 0.
+                       : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
     if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
       alpha = is_border_vertex(kept) ? 0. : 1.;
     m_log.merge(gone, kept, alpha, x + m_origin);
@@ -510,12 +517,12 @@ private:
   Halfedge_queue m_queue;
 };
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mesh,
-                                                             const bool keep_free_of_self_intersections,
-                                                             const std::size_t target,
-                                                             const std::function<void(std::size_t)>& progress)
+CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
+quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_self_intersections,
+                  const std::size_t target, const std::function<void(std::size_t)>& progress)
 {
-  // To look for intersections at each collapse takes five times as long as the collapses: only where some are left in the end.
+  // To look for intersections at each collapse takes five times as long as the collapses: only
+  // where some are left in the end.
   std::size_t least = std::size_t(mesh.V.rows());
   const auto report = [&](const std::size_t left) {
     least = (std::min)(least, left);
@@ -532,4 +539,4 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log quadric_collapses(Triangle_arrays mes
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_QUADRIC_COLLAPSES_IMPL_H

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
@@ -39,8 +39,8 @@ inline bool has_post_process(const Spectral_edge_collapse_options& options)
   return options.relocate || options.fit_operators;
 }
 
-/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`, in this
-/// order. The log, and what is replayed from it, stay as they are: they end before.
+/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`,
+/// in this order. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -75,16 +75,18 @@ public:
       m_result.warnings.push_back(
           "The collapses kept the error bound, but with what followed them the relative error is " +
           std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
-    // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the eigenpairs.
+    // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
+    // eigenpairs.
     if(relocation.resampled)
-      m_result.restriction = first.done
-                                 ? SpMat(relocation.restriction * first.log.forest().restriction(first.slots))
-                                 : relocation.restriction;
+      m_result.restriction =
+          first.done ? SpMat(relocation.restriction * first.log.forest().restriction(first.slots))
+                     : relocation.restriction;
     relocation.restriction.resize(0, 0);
   }
 
 private:
-  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails is a warning: the mesh is made.
+  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails
+  // is a warning: the mesh is made.
   void fit(const SpMat& P)
   {
     using namespace Spectral_geometry;
@@ -95,7 +97,8 @@ private:
     try {
       if(!allows(consequence, false))
         return;
-      const Laplace_operator fine = operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
+      const Laplace_operator fine =
+          operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
       std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
       if(!pairs) {
         Eigenpairs_options solver = m_options.eigenpairs_options;
@@ -103,7 +106,8 @@ private:
         solver.progress = [&](const double fraction) { return progress(fraction / 2); };
         const Eigen::Index K =
             m_result.eigenpairs ? m_result.eigenpairs->size() : m_options.number_of_eigenvectors;
-        pairs = std::make_shared<Eigenpairs>(eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
+        pairs = std::make_shared<Eigenpairs>(
+            eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
       }
       Operator_fit_options options = m_options.operator_fit;
       options.threads = (std::max)(options.threads, m_options.threads);
@@ -122,7 +126,10 @@ private:
     return [this, phase](const double fraction) { return m_state.report(phase, fraction); };
   }
 
-  Spectral_geometry::Mesh_matrices coarse() const { return Spectral_geometry::mesh_matrices(m_mesh, m_np); }
+  Spectral_geometry::Mesh_matrices coarse() const
+  {
+    return Spectral_geometry::mesh_matrices(m_mesh, m_np);
+  }
 
   // With the coefficients that the collapses have merged.
   Spectral_geometry::Local_operator local_operator() const
@@ -137,8 +144,8 @@ private:
     return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
   }
 
-  // Whether the mesh that is left has an operator, and each face an area if need be; warns where it has not. The collapses
-  // are done: to throw would lose them.
+  // Whether the mesh that is left has an operator, and each face an area if need be; warns where it
+  // has not. The collapses are done: to throw would lose them.
   bool allows(const char* consequence, const bool needs_areas)
   {
     using namespace Spectral_geometry;
@@ -162,8 +169,8 @@ private:
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.modes =
-        m_state.filtered_signals() != nullptr ? m_options.number_of_eigenvectors : given_signals().cols();
+    relocation.modes = m_state.filtered_signals() != nullptr ? m_options.number_of_eigenvectors
+                                                             : given_signals().cols();
     relocation.progress = reporting(Spectral_phase::relocation);
     relocation.threads = (std::max)(relocation.threads, m_options.threads);
     std::vector<bool> stays;
@@ -171,14 +178,15 @@ private:
       for(const Eigen::Index slot : m_state.current_slots())
         stays.push_back(m_state.core().fields().is_kept(Spectral_slot(slot)));
     try {
-      m_result.relocation =
-          relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(), relocation, stays, m_np);
+      m_result.relocation = relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(),
+                                          relocation, stays, m_np);
     } catch(const Spectral_geometry::Cancelled&) {
       set_cancelled(m_result, ", which are as the collapses left them");
       return;
     }
     SpMat& own = m_result.relocation.restriction;
-    if(m_result.relocation.resampled && !stays.empty()) // where the input has several points in one place
+    if(m_result.relocation.resampled &&
+       !stays.empty()) // where the input has several points in one place
       keep_rows(own, stays);
     // A vertex of the border whose closest point is an inner one goes on having 0.
     if(m_result.relocation.resampled &&
@@ -192,8 +200,10 @@ private:
   void keep_rows(SpMat& own, const Flags& kept) const
   {
     SpMat carried = m_P;
-    carried.prune([&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
-    own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
+    carried.prune(
+        [&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
+    own.prune(
+        [&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
     own += carried;
   }
 
@@ -219,7 +229,8 @@ private:
     return {std::move(F), std::move(Z)};
   }
 
-  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures of eigenvectors: with 64 of 100
+  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures of
+  // eigenvectors: with 64 of 100
   // |C|_L was 1.08 times as large.
   Signals signals_for_relocation() const
   {
@@ -253,16 +264,18 @@ private:
     return area * area * weights().dot(m_result.eigenpairs->values.cwiseAbs2());
   }
 
-  // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors are longer by the root of
-  // the area, a user's signals are as they were given, and Z is multiplied by the area. The result is scaled, not the
-  // signals, which are large, nor the positions: far from the origin that would cost digits.
+  // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors
+  // are longer by the root of the area, a user's signals are as they were given, and Z is
+  // multiplied by the area. The result is scaled, not the signals, which are large, nor the
+  // positions: far from the origin that would cost digits.
   void set_error(const SpMat& P)
   {
     const double area = m_state.area();
     const auto [PF, PZ] = restricted_signals(P);
     m_result.E = area * (m_options.signals.size() != 0 ? 1. : area) *
                  Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
-    m_result.relative_error = m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares()) : 0.;
+    m_result.relative_error =
+        m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares()) : 0.;
   }
 
   TriangleMesh& m_mesh;
@@ -275,4 +288,4 @@ private:
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_POST_PROCESS_H

@@ -2,8 +2,8 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
-#define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
+#ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
+#define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Collapse_log.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
@@ -35,14 +35,15 @@ struct Pre_simplification
 };
 
 /// Throws for what would otherwise be found out after the mesh has changed.
-inline void check_pre_simplification(const Spectral_edge_collapse_options& options, const std::size_t n,
-                                     const std::size_t target)
+inline void check_pre_simplification(const Spectral_edge_collapse_options& options,
+                                     const std::size_t n, const std::size_t target)
 {
   require(options.pre_simplify >= target, "Spectral_edge_collapse_options: pre_simplify is ",
           options.pre_simplify, ", less than the target of ", target,
           " vertices; use a number between the target and the size of the mesh.");
   require(options.signals.size() == 0 && !options.eigenpairs,
-          "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that are given "
+          "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that "
+          "are given "
           "belong to the mesh before it; use one of the two.");
   require(options.number_of_eigenvectors < Eigen::Index(options.pre_simplify),
           "Spectral_edge_collapse_options: pre_simplify is ", options.pre_simplify, ", but ",
@@ -54,8 +55,8 @@ inline void check_pre_simplification(const Spectral_edge_collapse_options& optio
                                                         options.number_of_eigenvectors);
 }
 
-/// `collapse_by_quadrics()` of n vertices to `target` as the options have it. Until the mesh changes it can be cancelled, and nothing has
-/// happened then.
+/// `collapse_by_quadrics()` of n vertices to `target` as the options have it. Until the mesh
+/// changes it can be cancelled, and nothing has happened then.
 template <class TriangleMesh, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
 collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
@@ -75,19 +76,22 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t 
 /// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
 template <class TriangleMesh, class NamedParameters>
 Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
-                                const Spectral_edge_collapse_options& options, const NamedParameters& np)
+                                const Spectral_edge_collapse_options& options,
+                                const NamedParameters& np)
 {
   Pre_simplification result;
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
   require(parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
               parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
-          "Spectral_edge_collapse_options: pre_simplify calls no filter and no visitor, but one is given; "
+          "Spectral_edge_collapse_options: pre_simplify calls no filter and no visitor, but one is "
+          "given; "
           "leave one of the two out, or simplify by edge_collapse() with a cheap cost and a "
           "Restriction_visitor first.");
   check_pre_simplification(options, n, target);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
-  std::tie(result.log, result.slots) = collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
+  std::tie(result.log, result.slots) =
+      collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
   for(std::size_t i = 0; i < result.slots.size(); ++i)
     if(!kept.empty() && kept[std::size_t(result.slots[i])])
       result.kept_vertices.push_back(i);
@@ -97,4 +101,4 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
+#endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_SPECTRAL_PRE_SIMPLIFICATION_H
