@@ -2,8 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// Simplifies a mesh from the command line and says how well its spectrum was kept; --help shows the
-// options.
+// Simplifies a mesh and says how well its spectrum was kept, as the arguments of the program say.
 
 #include "io/Progress_bar.h"
 #include "io/index_reader.h"
@@ -753,15 +752,4 @@ int run(Arguments a)
   if(status == 130)
     complain("interrupted, what had been done is written.");
   return status;
-}
-
-int main(int argc, char* argv[])
-{
-  return run_program("spectral_simplify", [&] {
-    const Arguments arguments = parse_arguments(argc, argv);
-    if(arguments.help.empty())
-      return run(arguments);
-    std::cout << arguments.help;
-    return 0;
-  });
 }

@@ -5,7 +5,6 @@
 #ifndef SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 #define SPECTRAL_EXAMPLES_SPECTRAL_SIMPLIFY_ARGUMENTS_H
 
-#include "io/command_line.h"
 #include "io/kept_vertices.h"
 #include "io/mesh_io.h"
 #include "io/operator_reader.h"
@@ -68,170 +67,6 @@ struct Arguments
 };
 
 namespace arguments_internal {
-
-inline Command_line described(Arguments& a)
-{
-  Command_line line("spectral_simplify INPUT OUTPUT --vertices N [options]",
-                    "Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of its "
-                    "Laplace-Beltrami\n"
-                    "operator as well as it can (Lescoat et al., Spectral Mesh Simplification, "
-                    "2020). INPUT and OUTPUT\n"
-                    "end in .off, .obj, .ply or .stl. Exit status: 0 all is written; 1 nothing is; "
-                    "3 OUTPUT is, but the\n"
-                    "evaluation failed; 130 interrupted.");
-  line.argument(a.input);
-  line.argument(a.output);
-
-  line.group("Size");
-  line.option("vertices", a.vertices_word, "N|P%",
-              "how many vertices OUTPUT has, such as 600 or 3%");
-  line.option("faces", a.faces_word, "N|P%",
-              "in its place, how many faces it has at most; two or three fewer where its border "
-              "loses an edge");
-  line.option("levels", a.levels_word, "N1,N2,...",
-              "write these sizes as well: OUTPUT-N1, OUTPUT-N2, ..., with a matrix of "
-              "--restriction and a map "
-              "of --map for each");
-  line.option("max-error", a.max_error, "E",
-              "stop before the relative error sqrt(E / sum lambda^2) exceeds this, such as 0.1; "
-              "alone, at 3 K "
-              "vertices at the latest");
-
-  line.group("Quality");
-  line.option("eigenvectors", a.eigenvectors, "K",
-              "how many to keep, the constant one included; best N >= 3 K");
-  line.choice("preset", a.preset, {"best", "fast", "paper"},
-              "best keeps the spectrum best; fast is for N below a two-hundredth of INPUT; paper: "
-              "P follows the "
-              "collapses, and the mass is diagonal");
-
-  line.group("Input");
-  line.flag("repair", a.repair,
-            "make INPUT an oriented manifold of triangles and say what was changed");
-  line.option("keep", a.keep, "LIST",
-              "vertices that stay where they are, words separated by commas: border; sharp:ANGLE, "
-              "those of edges "
-              "where the normals of both faces are ANGLE degrees apart, and corners of the border; "
-              "seams, those of a "
-              "texture; "
-              "FILE, one index per line, from 0");
-
-  line.group("Outputs");
-  line.option("restriction", a.restriction, "P.mtx",
-              "the matrix, OUTPUT's vertices x INPUT's, that carries functions to OUTPUT");
-  line.option("prolongation", a.prolongation, "Q.mtx",
-              "the matrix that carries them back, by the closest points");
-  line.option("map", a.map, "FILE",
-              "for each vertex of INPUT the one of OUTPUT it went to, from 0; -1: left out");
-  line.option("json", a.json, "FILE", "the figures of the table, and more");
-  line.option("report", a.report, "FILE.html",
-              "a page with both meshes, the figures, the functional map and the eigenvalues");
-
-  line.group("Run");
-  line.threads(a.threads);
-  line.flag("no-evaluation", a.no_evaluation, "do not compute how well the spectrum was kept");
-  line.flag("quiet", a.quiet, "no table, no progress bar, no warnings");
-
-  line.advanced_group("Each part of a preset (advanced)");
-  line.choice(
-      "mass", a.mass, {"lumped", "averaged", "voronoi"},
-      "the mass matrix: lumped (paper), the mean of lumped and consistent (best), which keeps the "
-      "eigenvalues of coarse meshes much closer, or lumped by mixed Voronoi areas");
-  line.choice("placement", a.placement, words_of(placement_words),
-              "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
-  line.option("shape", a.shape, "G",
-              "weight of the shape beside the spectrum, which keeps thin limbs (best: 3, paper: "
-              "0); 1 to 10 "
-              "are alike");
-  line.choice("self-intersections", a.self_intersections, {"allow", "refuse"},
-              "collapses that put a face through another (best: refuse, paper: allow)");
-  line.choice("relocate", a.relocate, words_of(relocation_words, {"none"}),
-              "afterwards move the vertices so that the spectrum is kept still better (best: "
-              "sampled, paper: "
-              "none), by the functions at the closest points of INPUT, by what the restriction "
-              "carries, or by "
-              "both. With sampled the restriction is that of the closest points, and no longer "
-              "follows --map");
-  line.option(
-      "quadrics-above", a.quadrics_above, "R",
-      "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "
-      "much faster, and as good (best and fast: 15, paper: inf, never)");
-  line.option(
-      "pre-simplify", a.pre_simplify, "N0",
-      "first reduce a larger INPUT to this number by quadrics alone (fast: 30 N, at least 10000; "
-      "others: 0, never)");
-
-  line.advanced_group("What is kept (advanced)");
-  line.option("operator", a.operator_word, "OPERATOR",
-              "whose spectrum is kept and judged: cotangent; weighted:W.npy, -div(c grad f) = "
-              "lambda rho f, a "
-              "NumPy array with a row for each vertex of INPUT: c, or rho and c, or rho and a "
-              "tensor xx, xy, "
-              "xz, yy, yz, zz; anisotropic:A, a surface that conducts 1 / (1 + A |k|) in the "
-              "direction of a "
-              "principal curvature k, which is 1 on a sphere of the same area. --eigenpairs writes "
-              "coarse_coefficients.npy as well");
-  line.choice(
-      "boundary", a.boundary, words_of(boundary_words),
-      "what functions do on the border of INPUT: their derivative across it is zero, or they are");
-  line.flag("intrinsic-delaunay", a.intrinsic_delaunay,
-            "for an INPUT of needles: take eigenvectors, and judge, on the intrinsic Delaunay "
-            "triangulations "
-            "of INPUT and OUTPUT");
-  line.option("signals", a.signals, "F.npy",
-              "preserve these functions instead of eigenvectors: a NumPy array of float64 or "
-              "float32, one row "
-              "for each vertex of INPUT");
-  line.flag("binary", a.binary, "a restriction of ones and zeros: it picks vertices of INPUT");
-  line.flag("preserve-border", a.preserve_border, "no edge is drawn away from the border");
-  line.option(
-      "labels", a.labels_word, "NAMES",
-      "attributes of INPUT whose floating numbers are labels, separated by commas: the one of most "
-      "weight is taken");
-  line.flag(
-      "no-attributes", a.no_attributes,
-      "leave behind what INPUT has at its vertices and faces. Otherwise OUTPUT has it as well, "
-      "as far as its format holds it (.ply all, .obj colours, normals, texture coordinates, "
-      "materials "
-      "and groups, .off "
-      "colours and normals, .stl colours of faces): numbers by the restriction, integers that are "
-      "no "
-      "colours as labels, of "
-      "which the one of most weight is taken; what faces have by the area that each face of OUTPUT "
-      "takes over");
-
-  line.advanced_group("Dirty meshes (advanced)");
-  line.option(
-      "repaired", a.repaired, "FILE",
-      "write the mesh that --repair makes: polygons are triangulated, vertices of equal position "
-      "merged, cracks closed, degenerate faces removed, sheets that share an edge or a vertex "
-      "separated, borders "
-      "stitched. What leaves the surface as it is needs no option: isolated vertices are left out, "
-      "copies of faces removed, edges without length closed, faces turned round to agree with "
-      "their "
-      "neighbours. Matrices and maps number INPUT's vertices all the same");
-  line.strict(a.strict);
-
-  line.advanced_group("Operators and interrupts (advanced)");
-  line.option("eigenpairs", a.eigenpairs, "DIR",
-              "write {fine,coarse}_{eigenvalues,eigenvectors}.npy, {fine,coarse}_{L,mass}.mtx and "
-              "C.npy, all "
-              "at the scale of the meshes as they are");
-  line.option(
-      "fit-operators", a.fit_operators, "DIR",
-      "choose the entries of a Laplacian and a mass on OUTPUT's vertices so that they have INPUT's "
-      "spectrum as nearly as they can, and write L.mtx, mass.mtx, eigenvalues.npy and "
-      "eigenvectors.npy: for functional maps and spectral distances");
-  line.choice("fit-mass", a.fit_mass, {"diagonal", "edges"},
-              "where the fitted mass has entries (lumped mass: diagonal, averaged: edges)");
-  line.option("fit-rings", a.fit_rings, "1|2",
-              "where the fitted Laplacian has entries: the edges of OUTPUT, or two rings (2)");
-  line.choice(
-      "on-interrupt", a.on_interrupt, {"discard", "write"},
-      "what Ctrl-C does once vertices have been removed: write nothing, or what there is, without "
-      "evaluation; a second Ctrl-C ends the program at once");
-  return line;
-}
 
 inline std::string shown(const double number)
 {
@@ -310,14 +145,9 @@ inline void check(const Arguments& a)
 
 } // namespace arguments_internal
 
-// Throws with one sentence for what cannot be meant.
-inline Arguments parse_arguments(int argc, char* argv[])
+// The arguments with what their words mean. Throws with one sentence for what cannot be meant.
+inline Arguments understood(Arguments a)
 {
-  Arguments a;
-  a.command = command_line("spectral_simplify", argc, argv);
-  a.help = arguments_internal::described(a).read(argc, argv);
-  if(!a.help.empty())
-    return a;
   if(!a.vertices_word.empty())
     a.vertices = parsed_vertex_target("--vertices", a.vertices_word);
   if(!a.faces_word.empty())
@@ -333,6 +163,9 @@ inline Arguments parse_arguments(int argc, char* argv[])
   a.operator_ = parsed_operator(a.operator_word);
   return a;
 }
+
+// Reads, simplifies, writes and judges; returns the exit status. It is in spectral_simplify.cpp.
+int run(Arguments a);
 
 // Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of
 // which `kept` stay; throws when one of these or K does not suit it. `for_faces`: the number of

@@ -10,7 +10,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <string>
+
+// Where there is no terminal but somebody who wants to know, such as a page.
+inline std::function<void(const std::string& phase, double fraction)> progress_listener;
 
 // One line on the terminal with the phase, how far it is and how long it will take. Prints nothing
 // where standard error is no terminal.
@@ -27,6 +31,8 @@ public:
   // `phase` is a name, "first_costs", or words.
   void show(const std::string& phase, double fraction)
   {
+    if(progress_listener)
+      progress_listener(phase, fraction);
     if(!m_enabled)
       return;
     const auto now = Clock::now();

@@ -8,7 +8,6 @@
 #include "../compare/mode_alignment.h"
 #include "mesh_picture.h"
 #include "png_image.h"
-#include "shape_view_script.h"
 #include "svg_plot.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -19,6 +18,8 @@
 #include <Eigen/Core>
 
 #include <nlohmann/json.hpp>
+
+#include <shape_view_script.h> // made of shape_view.js
 
 #include <algorithm>
 #include <array>

@@ -2,15 +2,10 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#ifndef SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_SCRIPT_H
-#define SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_SCRIPT_H
-
 // The viewer of the page: WebGL 1 and nothing else. It puts a canvas in the place of each picture
 // whose mesh is in the element shape-data, see shape_view.h for what that holds; where it cannot,
 // the pictures stay.
-inline const char* shape_view_script()
-{
-  return R"js((() => {
+(() => {
 'use strict';
 const element = name => document.getElementById('shape-' + name);
 const data = JSON.parse(element('data').textContent);
@@ -294,7 +289,3 @@ element('reset').addEventListener('click', () => {
 window.addEventListener('resize', redraw);
 panels.forEach(draw => draw());
 })();
-)js";
-}
-
-#endif // SPECTRAL_EXAMPLES_REPORT_SHAPE_VIEW_SCRIPT_H
