@@ -7,6 +7,9 @@
 # `N passed, N failed`, its exit status 0 only if nothing failed. Settings, all optional: BUILD_DIR, JOBS
 # (2), CXX (Clang for a new folder; CXX=g++ asks for GCC), CMAKE_ARGS (handed to cmake, such as
 # -DCGAL_DIR=...), SPECTRAL_NO_INSTALL=1.
+#
+# With --browser it runs the tests of the page of examples/browser alone, in headless Chromium, which the others
+# leave out.
 
 set -u
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
@@ -21,6 +24,21 @@ stop()
 }
 
 . "$root/cmake/debian_packages.sh"
+case "${1:-}" in
+  "") ;;
+  --browser)
+    install_packages chromium chromium-driver python3-selenium python3-numpy python3-scipy ||
+      stop "The tests were not run: packages are missing."
+    BUILD_DIR=$build sh "$root/examples/browser/build.sh" || stop "The tests were not run: the build failed."
+    cmake --build "$build" -j "$jobs" --target spectral_simplify make_demo_shape ||
+      stop "The tests were not run: the build failed."
+    browser=${BROWSER_BUILD_DIR:-$root/build-browser}
+    # Debian's Python, which has the packages.
+    exec /usr/bin/python3 "$root/test/browser_test.py" "$browser/spectral_simplify.html" \
+      "$build/examples/spectral_simplify" "$build/examples/make_demo_shape" "$browser/test"
+    ;;
+  *) stop "'$1' is unknown: test/run-all.sh runs every test, test/run-all.sh --browser those of the page." ;;
+esac
 install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
   libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev \
   pybind11-dev python3-dev python3-numpy python3-scipy python3-venv python3-setuptools python3-wheel python3-pybind11 python3-pandas \

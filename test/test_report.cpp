@@ -266,10 +266,10 @@ TEST_CASE("The page holds both meshes and the functions on them")
   const std::string html = html_report(small_comparison(), meshes.view());
   CHECK(count(html, "INPUT, 642 vertices</figcaption>") == 1);
   CHECK(count(html, "OUTPUT, 162 vertices</figcaption>") == 1);
-  CHECK(count(html, "<option>") == 5);
-  CHECK(count(html, "\"gradient\":") == 5);
-  check_mesh(html, "fine", meshes.fine, 5);
-  check_mesh(html, "coarse", meshes.coarse, 5);
+  CHECK(count(html, "<option>") == 6);
+  CHECK(count(html, "\"gradient\":") == 6);
+  check_mesh(html, "fine", meshes.fine, 6);
+  check_mesh(html, "coarse", meshes.coarse, 6);
   CHECK(count(html, "<script") == 2);
   CHECK(count(html, "</script>") == 2);
   CHECK(count(html, "http") == count(html, "xmlns='http://www.w3.org/2000/svg'"));
@@ -284,8 +284,8 @@ TEST_CASE("Coarse functions have the signs and the scale of the fine ones")
   const std::string html = meshes.view();
   const auto fine = array_on_page(html, "fine", "values", 1),
              coarse = array_on_page(html, "coarse", "values", 1);
-  REQUIRE(fine.size() == 5 * 642);
-  REQUIRE(coarse.size() == 5 * 162);
+  REQUIRE(fine.size() == 6 * 642);
+  REQUIRE(coarse.size() == 6 * 162);
   for(std::size_t f = 0; f < 5; ++f) {
     double off = 0, all = 0, largest = 0;
     for(std::size_t v = 0; v < 162; ++v) {
@@ -301,12 +301,29 @@ TEST_CASE("Coarse functions have the signs and the scale of the fine ones")
   }
 }
 
+TEST_CASE("The distance between the surfaces is zero where they meet")
+{
+  Two_meshes meshes;
+  CHECK(count(meshes.view(), "<option>Distance between the surfaces, % of the diagonal</option>") ==
+        1);
+  meshes.coarse.V /= 1.5; // in the same unit: its vertices are the first of the fine ones
+  const auto d = shape_view_internal::distance_between(meshes.fine, meshes.coarse);
+  CHECK(d.coarse.maxCoeff() < 1e-9);
+  CHECK(d.fine.head(162).maxCoeff() < 1e-9);
+  CHECK(d.fine.tail(480).mean() > 0.1);
+  meshes.coarse.V.rowwise() += Eigen::RowVector3d(1000, 0, 0);
+  const auto far = shape_view_internal::distance_between(meshes.fine, meshes.coarse);
+  const double diagonal =
+      (meshes.fine.V.colwise().maxCoeff() - meshes.fine.V.colwise().minCoeff()).norm();
+  CHECK(far.coarse.mean() == Approx(100 * 1000 / diagonal).epsilon(0.01));
+}
+
 TEST_CASE("Few modes leave few functions, and one of them is enough")
 {
   CHECK(count(Two_meshes(3).view(), "<option>Eigenfunction") == 2);
   const std::string html = Two_meshes(1).view();
   CHECK(count(html, "<option>Eigenfunction 1</option>") == 1);
-  CHECK(count(html, "<option>") == 1);
+  CHECK(count(html, "<option>") == 2); // with the distance
 }
 
 TEST_CASE("A mesh that is too large stays a picture")

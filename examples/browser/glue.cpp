@@ -18,7 +18,7 @@ using emscripten::val;
 
 namespace {
 
-// A field of the page; as the program has it where it is left out.
+// A name or a word; as the program has it where the page leaves it out.
 void take(const val& fields, const char* name, std::string& value)
 {
   if(fields.hasOwnProperty(name))
@@ -54,9 +54,9 @@ int simplify(const val& fields, const val& progress)
     take(fields, "restriction", a.restriction);
     take(fields, "json", a.json);
     take(fields, "report", a.report);
-    if(fields.hasOwnProperty("eigenvectors"))
-      a.eigenvectors = fields["eigenvectors"].as<long>();
-    a.repair = fields.hasOwnProperty("repair") && fields["repair"].as<bool>();
+    a.eigenvectors = fields["eigenvectors"].as<long>();
+    a.repair = fields["repair"].as<bool>();
+    a.no_evaluation = fields["noEvaluation"].as<bool>();
     return run(understood(a));
   });
   progress_listener = nullptr;

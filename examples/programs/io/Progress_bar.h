@@ -13,7 +13,7 @@
 #include <functional>
 #include <string>
 
-// Where there is no terminal but somebody who wants to know, such as a page.
+// Who wants to know how far a run is, and has no terminal, such as a page.
 inline std::function<void(const std::string& phase, double fraction)> progress_listener;
 
 // One line on the terminal with the phase, how far it is and how long it will take. Prints nothing
@@ -22,7 +22,7 @@ class Progress_bar
 {
 public:
   explicit Progress_bar(bool wanted)
-    : m_enabled(wanted && isatty(STDERR_FILENO))
+    : m_enabled(wanted && !progress_listener && isatty(STDERR_FILENO))
   {}
   Progress_bar(const Progress_bar&) = delete;
   Progress_bar& operator=(const Progress_bar&) = delete;

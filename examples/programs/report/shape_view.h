@@ -10,6 +10,7 @@
 #include "png_image.h"
 #include "svg_plot.h"
 
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
@@ -96,6 +97,20 @@ shown_functions(const CGAL::Spectral_geometry::Eigenpairs& fine,
                       signature(fine, e.fine_area), signature(coarse, e.coarse_area)});
   }
   return result;
+}
+
+// How far each mesh's vertices are from the other surface.
+inline Shown_function distance_between(const CGAL::Spectral_geometry::Mesh_matrices& fine,
+                                       const CGAL::Spectral_geometry::Mesh_matrices& coarse)
+{
+  namespace SG = CGAL::Spectral_geometry;
+  const double diagonal = (fine.V.colwise().maxCoeff() - fine.V.colwise().minCoeff()).norm();
+  const auto distances = [&](const SG::Mesh_matrices& from, const SG::Mesh_matrices& to) {
+    const Eigen::MatrixXd feet = SG::closest_point_interpolation(from.V, to) * to.V;
+    return Eigen::VectorXd(100 / diagonal * (from.V - feet).rowwise().norm());
+  };
+  return {"Distance between the surfaces, % of the diagonal", false, distances(fine, coarse),
+          distances(coarse, fine)};
 }
 
 inline std::string grouped(std::size_t n) // 25126: 25,126
@@ -219,8 +234,10 @@ inline std::string shape_view(const Viewed_mesh& fine, const Viewed_mesh& coarse
   const auto fits = [most_vertices](const Viewed_mesh& m) {
     return static_cast<std::size_t>(m.mesh.V.rows()) <= most_vertices;
   };
-  const std::vector<Shown_function> functions =
+  std::vector<Shown_function> functions =
       shown_functions(fine.pairs, coarse.pairs, evaluation, fits(fine) ? 5 : 1);
+  if(fits(fine))
+    functions.push_back(distance_between(fine.mesh, coarse.mesh));
   std::vector<Eigen::VectorXd> of_fine, of_coarse;
   nlohmann::ordered_json data;
   for(const Shown_function& f : functions) {
