@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Lays everything out as a submission to CGAL: the package Spectral_geometry, additions to the package Surface_mesh_simplification, and the
-# lines that both need in Installation and Documentation. The command-line programs stay behind: CGAL has no place for them.
+# lines that both need in Installation and Documentation. The toolbox and the command-line programs stay behind, with their examples and tests.
 #   cmake -DOUTPUT=FOLDER [-DCGAL_INCLUDE_DIR=FOLDER] [-DEIGEN3_INCLUDE_DIR=FOLDER] [-DCXX=COMPILER] [-DCHECK=ON] -P doc/cgal_layout.cmake
 # FOLDER may be a clone of CGAL's repository: its files are extended then, all of them or none, and `git diff` there is the submission.
 # What the packages depend on is taken from the #include lines, by way of COMPILER -M, and from the $URL$ line of each header of CGAL,
@@ -230,6 +230,9 @@ set(examples_Surface_mesh_simplification "")
 foreach(example IN LISTS examples)
   get_filename_component(name "${example}" NAME)
   file(READ "${example}" text)
+  if(text MATCHES "CGAL/Spectral_toolbox/")
+    continue()
+  endif()
   # CGAL's test suite runs the examples without arguments.
   string(REGEX REPLACE "if\\(argc != 4 \\|\\| !CGAL::IO::read_polygon_mesh\\(argv\\[1\\], ([a-z]+)\\)\\) {\n[^\n]*\n"
          "const std::string filename = (argc > 1) ? argv[1] : CGAL::data_file_path(\"meshes/elephant.off\");
@@ -254,7 +257,7 @@ file(COPY "${texts}/Spectral_geometry/examples/" DESTINATION "${output}/Spectral
 
 # --- tests --------------------------------------------------------------------------------------------------------------------------
 
-# The headers of test/ that a test includes, and whether one of them needs a package.
+# The headers of test/ that a test includes, and whether one of them needs a package; `toolbox` where one of them needs that.
 function(helpers_of result needs_simplification file)
   file(READ "${root}/test/${file}" text)
   set(needs OFF)
@@ -263,6 +266,9 @@ function(helpers_of result needs_simplification file)
   endif()
   string(REGEX MATCHALL "#include \"[a-z_]+\\.h\"" included "${text}")
   set(helpers "")
+  if(text MATCHES "CGAL/Spectral_toolbox/")
+    set(helpers toolbox)
+  endif()
   foreach(line IN LISTS included)
     string(REGEX REPLACE ".*\"(.*)\"" "\\1" name "${line}")
     helpers_of(more more_needs ${name})
@@ -291,6 +297,9 @@ foreach(test IN LISTS tests)
     continue()
   endif()
   helpers_of(helpers needs_simplification "${test}")
+  if(toolbox IN_LIST helpers)
+    continue()
+  endif()
   if(needs_simplification)
     set(package Surface_mesh_simplification)
     string(REPLACE "test_" "test_spectral_" name "${test}")
@@ -419,6 +428,8 @@ function(manual_sections result figures prefix)
   string(REGEX REPLACE " `spectral_simplify` has them as `--preset`, and each option\noverrides the preset\\." "" all "${all}")
   string(REPLACE ", see\n*Large meshes*" "" all "${all}")
   string(REPLACE ", see *Performance* below" "" all "${all}")
+  # And the toolbox.
+  string(REGEX REPLACE " Or fit operators with a diagonal mass [^%]*%\\." "" all "${all}")
   string(REGEX REPLACE "\nThe changes of each version are in CHANGES.md[^.]*\\.\n" "" all "${all}")
   set(${result} "${all}" PARENT_SCOPE)
   set(${figures} ${shown} PARENT_SCOPE)

@@ -131,7 +131,7 @@ def run_all(build, folder):
         run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--operators", "mesh", "--proxy", "spectral,garland_heckbert",
             "--ground-truth", truth, "--report", f"{report}.html")
     run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--operators", "mesh", "--vertices", "1000", "--report", "distances.html")
-    # The same with fitted operators, which the programs have as their default.
+    # Runs again with fitted operators, which the programs have as their default.
     run(build, folder, "fitted_distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000")
     for name, Y, truth in PAIRS:
         run(build, folder, f"fitted_{report_name(name)}.out", "shape_matching", "stand.off", Y, "--ground-truth", truth, "--output", "map.txt")
@@ -400,7 +400,7 @@ def main():
     output = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fig")
     strip(images(folder, "bend_other.html")[:2], os.path.join(output, "matching.png"))
     curves(folder, "bend_other.html", os.path.join(output, "matching_errors.svg"))
-    # Of the biharmonic distance: fine, coarse, brought back by prolongation.
+    # Pictures of the biharmonic distance: fine, coarse, brought back by prolongation.
     strip(images(folder, "distances.html")[4:7], os.path.join(output, "distances.png"))
     for fitted in ("", "fitted_"):
         for name, _, _ in PAIRS:

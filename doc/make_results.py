@@ -198,7 +198,7 @@ def main():
     replace(os.path.join(here, "results.md"), "summary", summary(results))
 
 
-# Of the code that a number comes from, "-dirty" where it was changed afterwards. This folder, whose scripts run it and write, and README.md are apart.
+# The commit that a number comes from, "-dirty" where it was changed afterwards. This folder, whose scripts run it and write, and README.md are apart.
 def commit():
     here = os.path.dirname(os.path.abspath(__file__))
     name, changes = (subprocess.run(["git", "-C", here, *words], capture_output=True, text=True, check=True).stdout.strip()

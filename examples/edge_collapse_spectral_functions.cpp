@@ -9,7 +9,6 @@
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
@@ -54,17 +53,6 @@ try {
   std::cout << "|C|_L " << evaluation.norm_L << ", |C|_D " << evaluation.norm_D
             << ", eigenvalues off by " << 100 * evaluation.errors.mean << " % in the mean\n";
   //! [evaluate]
-
-  //! [fit]
-  const SG::Eigenpairs more =
-      SG::eigenpairs(fine_operator, K + K / 5); // the modes beyond K gain, too
-  const SG::Operator_fit_result fit =
-      SG::fit_operators(coarse_operator, result.restriction, fine_operator, more);
-  const SG::Eigenpairs fitted_pairs = SG::eigenpairs(fit.op, K);
-  const SG::Spectral_evaluation fitted =
-      SG::evaluate_spectrum(fine_operator, fine_pairs, fit.op, fitted_pairs, result.restriction, K);
-  std::cout << "with fitted operators |C|_L " << fitted.norm_L << '\n';
-  //! [fit]
 
   //! [transfer]
   const SG::Mesh_matrices fine_matrices = SG::mesh_matrices(fine),

@@ -281,7 +281,7 @@ runs "triangle strips" strips.ply strips.off --vertices 100% --eigenvectors 2 --
 grep -q '^8 4 0' strips.off || fail "the strips give $(sed -n 2p strips.off)"
 sed '$s/ 7$//' strips.ply >cut-strips.ply # the last index is missing
 
-# The same two triangles in every spelling that programs write; a reader of CGAL refuses, misreads or crashes on some of them.
+# Reads two triangles in every spelling that programs write; a reader of CGAL refuses, misreads or crashes on some of them.
 spelt()
 {
   cat >"$1"

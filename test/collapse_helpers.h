@@ -187,7 +187,7 @@ inline std::string fault_of_result(const Mesh& mesh, const Eigen::SparseMatrix<d
   return fault_of_restriction(P, map);
 }
 
-// The same vertices, faces and coordinates in the same order, garbage included.
+// Whether vertices, faces and coordinates are the same in the same order, garbage included.
 inline bool identical(const Mesh& a, const Mesh& b)
 {
   if(a.num_vertices() != b.num_vertices() || a.num_halfedges() != b.num_halfedges() ||

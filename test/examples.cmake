@@ -11,7 +11,7 @@ if(TARGET make_demo_shape)
   add_test(NAME "make-demo-shape" COMMAND make_demo_shape "${shape}" --vertices 2000)
   set_tests_properties("make-demo-shape" PROPERTIES LABELS examples FIXTURES_SETUP shape)
   foreach(example IN ITEMS edge_collapse_spectral edge_collapse_spectral_attributes edge_collapse_spectral_constrained
-                           edge_collapse_spectral_functions)
+                           edge_collapse_spectral_functions fitted_operators)
     add_test(NAME "${example}" COMMAND ${example} "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/${example}.ply" 400)
     set_tests_properties("${example}" PROPERTIES LABELS examples FIXTURES_REQUIRED shape)
   endforeach()
@@ -19,6 +19,7 @@ if(TARGET make_demo_shape)
   set_tests_properties("edge_collapse_spectral_attributes" PROPERTIES PASS_REGULAR_EXPRESSION
                        "normals are [0-9]\\.[0-9]+ degrees .*red is [0-9]\\.[0-9]+ of 255 .* (9[0-9].*|100) % of the labels.*P differ by (0|[0-9.]+e-1[0-9]) at most")
   set_tests_properties("edge_collapse_spectral_constrained" PROPERTIES PASS_REGULAR_EXPRESSION "-> 400 vertices")
+  set_tests_properties("fitted_operators" PROPERTIES PASS_REGULAR_EXPRESSION "own operators, [0-9.]+ with the fitted ones")
   set_tests_properties("edge_collapse_spectral_functions" PROPERTIES PASS_REGULAR_EXPRESSION "back, is off by [01]\\.[0-9]+ %")
 endif()
 

@@ -5,7 +5,7 @@
 #ifndef SPECTRAL_TEST_FITTED_OPERATOR_HELPERS_H
 #define SPECTRAL_TEST_FITTED_OPERATOR_HELPERS_H
 
-#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
 
 #include <Eigen/Eigenvalues>
 

@@ -6,7 +6,7 @@
 #define SPECTRAL_TEST_SPECTRA_EIGENPAIRS_H
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 
 #include <Eigen/Core>
 #ifdef SPECTRAL_TEST_WITH_CHOLMOD

@@ -4,8 +4,8 @@
 
 // The tree of boxes, and the pairs of faces that it finds.
 
-#include <CGAL/Spectral_geometry/internal/search/Box_tree.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Block_lanczos.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -512,7 +512,7 @@ Eigen::VectorXd dense_values(const Laplace_operator& op)
       .eigenvalues();
 }
 
-// Of the parts, each by itself: of the whole the dense solver would take minutes.
+// Solves for the parts, each by itself: the whole would take the dense solver minutes.
 Eigen::VectorXd dense_values_of_parts(const shapes::Matrices& part, const shapes::Matrices& mesh,
                                       double theta)
 {

@@ -8,8 +8,7 @@
 #include "core_helpers.h"
 
 #include <CGAL/Real_timer.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 
 #include <algorithm>
@@ -194,19 +193,6 @@ TEST_CASE("Triangles around a vertex that cross are found, few or many")
   }
   CHECK(crossing > 0);
   CHECK(apart > 0);
-}
-
-TEST_CASE("The memory estimate knows the shape term and the tree of boxes")
-{
-  SMS::Spectral_edge_collapse_options options = SMS::Spectral_edge_collapse_options::paper();
-  const double plain = SMS::estimated_memory(100000, 200, options);
-  options.eigenpairs = std::make_shared<SG::Eigenpairs>(); // the loop alone
-  const double loop = SMS::estimated_memory(100000, 200, options);
-  CHECK(loop <= plain);
-  options.shape = 3;
-  CHECK(SMS::estimated_memory(100000, 200, options) == Catch::Approx(loop + 100000 * 104.));
-  options.keep_free_of_self_intersections = true;
-  CHECK(SMS::estimated_memory(100000, 200, options) > loop + 100000 * 200.);
 }
 
 } // namespace test_high_degree

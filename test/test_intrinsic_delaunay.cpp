@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
+#include <CGAL/Spectral_toolbox/intrinsic_delaunay.h>
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -85,7 +85,7 @@ shapes::Matrices stretched_grid()
   return mesh;
 }
 
-// The same vertices in CGAL's triangulation of the plane, which has exact predicates.
+// These vertices in CGAL's triangulation of the plane, which has exact predicates.
 shapes::Matrices planar_delaunay(const shapes::Matrices& mesh)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -523,7 +523,7 @@ TEST_CASE("A face without area whose corner lies between the others is flipped a
   CHECK((intrinsic(mesh).mass - intrinsic(split).mass).norm() < 1e-14);
   CHECK(SG::number_of_zero_eigenvalues(intrinsic(mesh)) == 1);
 
-  // Of two equal vertices neither is between others: faces at an edge without length stay.
+  // Neither of two equal vertices is between others: faces at an edge without length stay.
   mesh = shapes::matrices({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}},
                           {{0, 1, 2}, {4, 2, 3}, {0, 2, 4}});
   CHECK(intrinsic(mesh).mass.sum() == Approx(1.));

@@ -2,7 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The same shape in another place, at another scale, in another order is simplified alike; what a
+// A shape in another place, at another scale, in another order is simplified alike; what a
 // mesh consists of stays.
 
 #include "catch.h"
@@ -52,7 +52,7 @@ double share_of_common_vertices(const Eigen::MatrixXd& V, const Eigen::MatrixXd&
   return double(common) / double(V.rows());
 }
 
-// The same shape, differently given, and how its points are brought back. To the last bit costs
+// Takes a shape, differently given, and how its points are brought back. To the last bit costs
 // differ, and there are exact ties (an ear or a vertex of valence three can be collapsed along any
 // of its edges), after which the order of collapses may go another way. So the first collapses must
 // be the same, and E near at the end.

@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"

@@ -9,9 +9,8 @@
 #include "core_helpers.h"
 #include "relocation_helpers.h"
 
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
@@ -348,8 +347,6 @@ TEST_CASE("With the Dirichlet condition functions vanish on the border, of the i
                     ContainsSubstring("only 1521 vertices are off the border"));
   CHECK(SG::eigenpairs(coarse_op, coarse_op.L.rows() - coarse_op.vanishing).values.tail(1)(0) <
         1e6);
-  CHECK_THROWS_WITH(SG::fit_operators(coarse_op, result.restriction, op, pairs),
-                    ContainsSubstring("Dirichlet"));
 
   options.pre_simplify = 800; // the first stage keeps the border apart as well
   Mesh twice = make_mesh(input);
@@ -368,10 +365,6 @@ TEST_CASE("With the Dirichlet condition functions vanish on the border, of the i
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
                     ContainsSubstring("only 1521 vertices are off the border"));
   options.number_of_eigenvectors = 11;
-  options.fit_operators = true;
-  CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
-                    ContainsSubstring("Dirichlet"));
-  options.fit_operators = false;
   options.signals = Eigen::MatrixXd::Ones(input.V.rows(), 2);
   CHECK_THROWS_WITH(SMS::spectral_edge_collapse(another, 150, options),
                     ContainsSubstring("do not vanish at vertex 0 "));
@@ -439,12 +432,10 @@ TEST_CASE("A run with an operator reports its E and carries its coefficients, wh
   const SG::Mass mass = kind == Kind_of_operator::voronoi ? SG::Mass::voronoi : SG::Mass::averaged;
   const SG::Local_operator local = operator_on(input.V, kind, mass);
   SMS::Spectral_edge_collapse_options options = options_of(local, mass, 20);
-  options.fit_operators = true;
   options.pre_simplify = pre_simplify ? 1000 : 0;
   Mesh mesh = make_mesh(input);
   const SMS::Spectral_edge_collapse_result result = SMS::spectral_edge_collapse(mesh, 150, options);
   CHECK(result.output_vertices == 150);
-  REQUIRE(result.fitted);
   const SG::Merge_forest forest = result.log.forest(); // relocation brings another P
   const SG::Operator_coefficients expected =
       local.restricted(forest.restriction(forest.kept_slots())).coefficients;
@@ -484,22 +475,19 @@ TEST_CASE("A run does not depend on the unit of the coefficients")
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   const SG::Local_operator local =
       operator_on(input.V, Kind_of_operator::anisotropic, SG::Mass::averaged);
-  std::vector<double> errors, fitted;
+  std::vector<double> errors;
   for(const double unit : {1., 1e-8, 1e8}) {
     SMS::Spectral_edge_collapse_options options = options_of(local, SG::Mass::averaged, 15);
     options.coefficients.rightCols<6>() *= unit;
     options.coefficients.col(0) *= std::sqrt(unit);
-    options.fit_operators = true;
     Mesh mesh = make_mesh(input);
     const auto result = SMS::spectral_edge_collapse(mesh, 100, options);
     errors.push_back(result.relative_error);
-    fitted.push_back(SG::eigenpairs(result.fitted->op, 15).values(14) / std::sqrt(unit));
   }
   // The unit moves eigenvectors by rounding, which a greedy order amplifies; a bound in a wrong
   // unit is off by orders of magnitude.
-  for(const std::vector<double>& x : {errors, fitted})
-    for(const int i : {1, 2})
-      CHECK(relative_difference(x[i], x[0]) < 5e-2);
+  for(const std::size_t i : {1, 2})
+    CHECK(relative_difference(errors[i], errors[0]) < 5e-2);
 }
 
 TEST_CASE("Energies of relocation with an operator are those of its matrices, gradients those of "

@@ -4,7 +4,7 @@
 
 // What is found in meshes that are broken in one way each.
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

@@ -124,7 +124,7 @@ TEST_CASE(
   CHECK_THAT(result.warnings[0],
              ContainsSubstring("3 K = 30") && ContainsSubstring("the first 8 eigenvectors"));
 
-  // The same as to pass these eight alone, and not the same as with all of them.
+  // It is the same as to pass these eight alone, and not the same as with all of them.
   SG::Eigenpairs first = *result.eigenpairs;
   first.values.conservativeResize(8);
   first.vectors.conservativeResize(Eigen::NoChange, 8);

@@ -10,8 +10,8 @@
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include "catch.h"
@@ -383,7 +383,7 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   });
   CHECK(count_vertices(mesh) == 300);
 
-  // Of each vertex that is left, the planes of all that went into it.
+  // Each vertex that is left has the planes of all that went into it.
   SMS::internal::Spectral_rings rings;
   rings.resize(std::size_t(input.V.rows()));
   std::vector<Eigen::Vector3d> points;

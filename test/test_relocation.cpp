@@ -14,9 +14,9 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <Eigen/Dense>
 

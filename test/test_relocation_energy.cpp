@@ -11,7 +11,7 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
 #include <Eigen/Dense>
 

@@ -5,10 +5,10 @@
 #include "catch.h"
 #include "shapes.h"
 
-#include <CGAL/Spectral_geometry/functional_map_estimation.h>
-#include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
-#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include <CGAL/Simple_cartesian.h>

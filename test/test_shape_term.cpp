@@ -11,8 +11,8 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -322,7 +322,7 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
           paper.norm_L, shaped.norm_L, best.norm_L, paper.crossings);
   CHECK(shaped.furthest < 0.75 * paper.furthest);
   CHECK(best.furthest < 1.001 * shaped.furthest);
-  // Of the paper's metric they say little: rounding decides how the limb is lost, at all of these
+  // They say little of the paper's metric: rounding decides how the limb is lost, at all of these
   // sizes alike.
   for(const std::size_t vertices : {82, 86, 90, 94, 98})
     CHECK(found(policies, vertices).low < 0.16);

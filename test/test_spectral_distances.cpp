@@ -2,7 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include "catch.h"
 #include "shapes.h"

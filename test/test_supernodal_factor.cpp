@@ -5,7 +5,7 @@
 // The sparse factorisation beside Eigen's.
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/linear_algebra/Supernodal_factor.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
 
 #include "catch.h"
 #include "shapes.h"

@@ -2,7 +2,7 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-// The same metric on every mesh type, kernel and point map.
+// One metric on every mesh type, kernel and point map.
 
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 

@@ -5,10 +5,12 @@
 #ifndef SPECTRAL_TEST_TOPOLOGY_H
 #define SPECTRAL_TEST_TOPOLOGY_H
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <CGAL/boost/graph/helpers.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
 
@@ -30,8 +32,9 @@ template <class Mesh>
 Topology topology(const Mesh& mesh)
 {
   Topology result;
-  const auto d = CGAL::Spectral_geometry::diagnose_mesh(mesh);
-  result.components = d.components.size();
+  const CGAL::Spectral_geometry::Mesh_matrices m = CGAL::Spectral_geometry::mesh_matrices(mesh);
+  const auto component = CGAL::Spectral_geometry::internal::connected_components(m.V.rows(), m.T);
+  result.components = std::size_t(*std::max_element(component.begin(), component.end()) + 1);
   long number_of_halfedges = 0;
   std::set<typename boost::graph_traits<Mesh>::halfedge_descriptor> seen;
   for(const auto h : halfedges(mesh)) {
@@ -42,7 +45,7 @@ Topology topology(const Mesh& mesh)
     for(auto i = next(h, mesh); i != h; i = next(i, mesh))
       seen.insert(i);
   }
-  result.euler = long(d.number_of_vertices) - number_of_halfedges / 2 + long(d.number_of_faces);
+  result.euler = long(m.V.rows()) - number_of_halfedges / 2 + long(m.T.rows());
   return result;
 }
 

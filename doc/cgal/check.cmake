@@ -87,3 +87,14 @@ foreach(snippet IN LISTS snippets ITEMS "\\snippet Surface_mesh_simplification/e
     message(FATAL_ERROR "There is no part ${part} in ${snippet}.")
   endif()
 endforeach()
+
+# Nothing speaks of the toolbox.
+file(GLOB_RECURSE written "${output}/Spectral_geometry/*" "${output}/Surface_mesh_simplification/*")
+foreach(file IN LISTS written)
+  if(file MATCHES "\\.(h|cpp|txt|in)$")
+    file(READ "${file}" text)
+    if(text MATCHES "(Spectral_toolbox|fit_operators|squared_(biharmonic|diffusion|commute)|diagnose_mesh|intrinsic_delaunay)")
+      message(FATAL_ERROR "${file} speaks of '${CMAKE_MATCH_1}', which stays behind.")
+    endif()
+  endif()
+endforeach()

@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_OPTION_WORDS_H
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+#include <CGAL/Spectral_toolbox/intrinsic_delaunay.h>
 
 #include <cmath>
 #include <cstddef>
@@ -43,8 +44,7 @@ inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_phase> phase_w
     {CGAL::Surface_mesh_simplification::Spectral_phase::eigenpairs, "eigenpairs"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::first_costs, "first_costs"},
     {CGAL::Surface_mesh_simplification::Spectral_phase::collapses, "collapses"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::relocation, "relocation"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::operator_fit, "operator_fit"}};
+    {CGAL::Surface_mesh_simplification::Spectral_phase::relocation, "relocation"}};
 
 template <class Value, std::size_t n>
 const char* word_of(const Word<Value> (&words)[n], const Value value)
@@ -112,6 +112,14 @@ inline bool quadrics_above_is_passed_over(
          !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options);
 }
 
+// What an intrinsic triangulation asks for, in the mass of the run.
+inline auto intrinsic_operator(const CGAL::Spectral_geometry::Mass mass)
+{
+  return [mass](const Eigen::MatrixXd& V, const Eigen::MatrixXi& T) {
+    return CGAL::Spectral_geometry::intrinsic_delaunay_laplacian(V, T, mass);
+  };
+}
+
 // The preset and what overrides it.
 inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
 options_of(const Option_words& words)
@@ -128,7 +136,6 @@ options_of(const Option_words& words)
     options.mass = words.mass == "averaged"  ? SG::Mass::averaged
                    : words.mass == "voronoi" ? SG::Mass::voronoi
                                              : SG::Mass::lumped;
-  options.operator_fit = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
   if(words.shape)
     options.shape = *words.shape;
   if(words.quadrics_above)

@@ -25,8 +25,8 @@
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 #include <CGAL/version_macros.h>
 
 #include <algorithm>
@@ -233,7 +233,7 @@ private:
            " and can simplify this mesh.";
   }
 
-  // Of the row that follows with fitted operators; that of the simplifier if there is none.
+  // Names the row that follows with fitted operators, or the simplifier's if there is none.
   static std::string fitted_name(const Simplifier& s)
   {
     return s.fits_operators ? s.name + ", fitted operators" : s.name;
@@ -310,7 +310,7 @@ private:
     }
   }
 
-  // The same mesh with fitted operators. Its seconds are those of the mesh and of the fits in all
+  // Judges the mesh with fitted operators. Its seconds are those of the mesh and of the fits in all
   // masses.
   void judge_fitted(const Coarse_mesh& coarse, Simplified& row)
   {

@@ -21,9 +21,9 @@
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/fit_operators_of_run.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <cmath>
 #include <cstdio>
@@ -32,7 +32,6 @@
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -153,16 +152,11 @@ Pair simplify(const Distance_arguments& a)
   words.preset = a.preset;
   words.mass = a.mass;
   SMS::Spectral_edge_collapse_options options = options_of(words);
-  options.fit_operators = a.operators == "fitted";
   options.threads = usable_threads(a.threads, a.quiet);
   options.cancel = &interrupted;
-  const auto shape = [&](const std::optional<SG::Operator_fit_result>& fitted) {
-    SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
-    SG::Laplace_operator own = SG::laplace_operator(matrices.V, matrices.T, options.mass);
-    return Unit_shape(std::move(matrices), fitted ? fitted->op : std::move(own), a.eigenvectors,
-                      options.threads);
-  };
-  Unit_shape fine = shape({});
+  const SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
+  Unit_shape fine(matrices, SG::laplace_operator(matrices.V, matrices.T, options.mass),
+                  a.eigenvectors, options.threads);
   SG::Eigenpairs pairs = fine.pairs; // at the scale of the mesh
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
@@ -171,16 +165,21 @@ Pair simplify(const Distance_arguments& a)
   stop_if_interrupted();
   if(!result.explanation.empty())
     throw std::runtime_error(result.explanation);
-  if(options.fit_operators && !result.fitted)
-    throw std::runtime_error(result.warnings.back());
+  CGAL::Real_timer timer;
+  timer.start();
+  SG::Mesh_matrices left = SG::mesh_matrices(mesh);
+  SG::Laplace_operator op = a.operators == "fitted"
+                                ? SMS::fit_operators_of_run(matrices, left, options, result).op
+                                : SG::laplace_operator(left.V, left.T, options.mass);
+  const double seconds_fit = a.operators == "fitted" ? timer.time() : 0;
   Pair pair{std::move(fine),
-            shape(result.fitted),
+            Unit_shape(std::move(left), std::move(op), a.eigenvectors, options.threads),
             result.restriction,
             {},
             result.vertex_map,
             {},
-            result.seconds_total - result.seconds_operator_fit,
-            result.seconds_operator_fit,
+            result.seconds_total,
+            seconds_fit,
             options.mass};
   pair.Q = SG::closest_point_prolongation(pair.fine.matrices, pair.coarse.matrices, pair.P);
   pair.C = SG::functional_map(pair.coarse.pairs.vectors, pair.coarse.op.B, pair.P,

@@ -31,7 +31,8 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_memory_estimate.h>
+#include <CGAL/Spectral_toolbox/Spectral_memory_estimate.h>
+#include <CGAL/Spectral_toolbox/fit_operators_of_run.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ bool has_coefficients(const Arguments& a)
   return a.operator_.kind != "cotangent";
 }
 
-// Those of --fit-operators.
+// The files of --fit-operators.
 constexpr const char* fitted_files[] = {"L.mtx", "mass.mtx", "eigenvalues.npy", "eigenvectors.npy"};
 
 // The name of a level: "coarse-600.ply" beside "coarse.ply".
@@ -210,7 +211,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
   options.boundary = value_of(boundary_words, a.boundary);
-  options.intrinsic_delaunay = a.intrinsic_delaunay;
+  if(a.intrinsic_delaunay)
+    options.operator_of_eigenpairs = intrinsic_operator(options.mass);
   options.threads = a.threads;
   if(a.pre_simplify)
     options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
@@ -230,11 +232,6 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   std::string said;
   if(a.quadrics_above && quadrics_above_is_passed_over(options, said))
     throw std::runtime_error("--quadrics-above" + said);
-  options.fit_operators = !a.fit_operators.empty();
-  if(!a.fit_mass.empty())
-    options.operator_fit = SG::Operator_fit_options::for_mass(a.fit_mass == "edges" ? 1. : 0.);
-  if(a.fit_rings)
-    options.operator_fit.rings = *a.fit_rings;
   options.kept_vertices = std::move(kept);
   if(!a.signals.empty())
     options.signals =
@@ -250,7 +247,8 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
   const std::size_t n = num_vertices(mesh);
   const Eigen::Index K =
       options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
-  const double needed = SMS::estimated_memory(n, K, options), available = available_memory();
+  const double needed = SMS::estimated_memory(n, K, options, !a.fit_operators.empty()),
+               available = available_memory();
   if(available > 0 && needed > available)
     throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " +
                              std::to_string(K) + " eigenvectors takes about " +
@@ -303,19 +301,35 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes,
                                meshes.coarse_pairs, result.restriction, K);
 }
 
-// Judges fitted operators by the norms of the mesh's own.
-Fitted_operators judge_fit(const SG::Operator_fit_result& fit, const Both_meshes& meshes,
-                           const Eigen::SparseMatrix<double>& P, Progress_bar& bar)
+// Fits operators, and judges them by the norms of the mesh's own.
+Fitted_operators fit_and_judge(const Arguments& a, const SMS::Spectral_edge_collapse_options& run,
+                               const SMS::Spectral_edge_collapse_result& run_result,
+                               const Both_meshes& meshes, Progress_bar& bar)
 {
+  Fitted_operators result;
+  CGAL::Real_timer timer;
+  timer.start();
+  result.options = SG::Operator_fit_options::for_mass(a.fit_mass.empty() ? SG::mass_blend(run.mass)
+                                                      : a.fit_mass == "edges" ? 1.
+                                                                              : 0.);
+  if(a.fit_rings)
+    result.options.rings = *a.fit_rings;
+  SG::Operator_fit_options fit = result.options;
+  fit.progress = [&bar](double fraction) {
+    bar.show("operator_fit", fraction);
+    return !interrupted;
+  };
+  result.fit = SMS::fit_operators_of_run(meshes.fine, meshes.coarse, run, run_result, fit);
+  result.seconds = timer.time();
   SG::Eigenpairs_options options;
   options.progress = [&bar](double fraction) {
     bar.show("evaluation", fraction);
     return !interrupted;
   };
-  Fitted_operators result;
-  result.pairs = SG::eigenpairs(fit.op, meshes.coarse_pairs.size(), options);
-  result.evaluation = SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, fit.op,
-                                            result.pairs, P, meshes.fine_pairs->size());
+  result.pairs = SG::eigenpairs(result.fit.op, meshes.coarse_pairs.size(), options);
+  result.evaluation =
+      SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, result.fit.op, result.pairs,
+                            run_result.restriction, meshes.fine_pairs->size());
   return result;
 }
 
@@ -402,8 +416,8 @@ void write_evaluation(const Output_files& files, const Arguments& a, const Mesh&
     write_eigenpairs(files, a.eigenpairs, meshes, numbering, report.result);
   if(report.fitted) {
     const auto path = [&a](const std::string& name) { return a.fit_operators + "/" + name; };
-    write_matrix_market(files.temporary(path("L.mtx")), report.result.fitted->op.L, path("L.mtx"));
-    write_matrix_market(files.temporary(path("mass.mtx")), report.result.fitted->op.B,
+    write_matrix_market(files.temporary(path("L.mtx")), report.fitted->fit.op.L, path("L.mtx"));
+    write_matrix_market(files.temporary(path("mass.mtx")), report.fitted->fit.op.B,
                         path("mass.mtx"));
     const Eigen::Index K = meshes.fine_pairs->size();
     const Eigen::VectorXd values = report.fitted->pairs.values.head(K);
@@ -524,9 +538,17 @@ void evaluate(Simplification_report& report, const Arguments& a, Both_meshes& me
 }
 
 // What the fit minimises is neither norm: a warning says where the mesh's own operators are better.
-void add_fit(Simplification_report& report, const Both_meshes& meshes, Progress_bar& bar)
+void add_fit(Simplification_report& report, const Arguments& a, const Both_meshes& meshes,
+             Progress_bar& bar)
 {
-  report.fitted = judge_fit(*report.result.fitted, meshes, report.result.restriction, bar);
+  try {
+    report.fitted = fit_and_judge(a, report.options, report.result, meshes, bar);
+  } catch(const SG::Cancelled&) {
+    throw;
+  } catch(const std::runtime_error& error) {
+    report.result.warnings.push_back("The operators were not fitted: " + std::string(error.what()));
+    return;
+  }
   const SG::Spectral_evaluation &own = *report.evaluation, &e = report.fitted->evaluation;
   const auto larger = [](const double fitted, const double own_figure) {
     return fitted > 1.1 * own_figure;
@@ -539,7 +561,7 @@ void add_fit(Simplification_report& report, const Both_meshes& meshes, Progress_
   if(!worse.empty())
     report.result.warnings.push_back(
         "The fitted operators have a " + worse + " more than a tenth larger than the mesh's own" +
-        (report.options.operator_fit.rings == 1 ? ": --fit-rings 2 may do better." : "."));
+        (report.fitted->options.rings == 1 ? ": --fit-rings 2 may do better." : "."));
 }
 
 void say(const Arguments& a, const Simplification_report& report)
@@ -594,8 +616,8 @@ int evaluate_and_write(Output_files& files, const Arguments& a, const Input_mesh
   try {
     if(!a.no_evaluation && !interrupted) {
       evaluate(report, a, meshes, bar);
-      if(report.result.fitted)
-        add_fit(report, meshes, bar);
+      if(!a.fit_operators.empty())
+        add_fit(report, a, meshes, bar);
       write_evaluation(files, a, mesh, meshes, input.numbering, report);
       written.push_back(a.report);
       for(const std::string name : eigenpairs_files)

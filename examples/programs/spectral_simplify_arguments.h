@@ -12,7 +12,7 @@
 #include "io/vertex_target.h"
 #include "option_words.h"
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <algorithm>
 #include <cmath>

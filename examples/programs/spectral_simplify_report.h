@@ -13,7 +13,7 @@
 #include "report/run_json.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
@@ -28,9 +28,12 @@
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
 
-// How operators that were fitted to the fine spectrum are judged.
+// Operators that were fitted to the fine spectrum, and how they are judged.
 struct Fitted_operators
 {
+  CGAL::Spectral_geometry::Operator_fit_options options;
+  CGAL::Spectral_geometry::Operator_fit_result fit;
+  double seconds = 0;
   CGAL::Spectral_geometry::Eigenpairs pairs; // 1.1 K
   CGAL::Spectral_geometry::Spectral_evaluation evaluation;
 };
@@ -100,7 +103,7 @@ inline void print_table(const Simplification_report& r)
                 r.options.coefficients.rows() == 0 ? "area" : "mass", e.area_ratio);
   }
   if(r.fitted) {
-    const auto& options = r.options.operator_fit;
+    const auto& options = r.fitted->options;
     std::printf("  fitted operators, %d ring%s, mass: %s\n", options.rings,
                 options.rings == 1 ? "" : "s", mass_pattern_name(options));
     print_norm("|C|_L", r.fitted->evaluation.norm_L, 0);
@@ -125,13 +128,13 @@ inline void print_table(const Simplification_report& r)
   std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
   if(r.options.relocate)
     std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
-  if(r.options.fit_operators)
-    std::printf("  operator fit              %8.2f s\n", r.result.seconds_operator_fit);
   std::printf("  writing                   %8.2f s\n", r.seconds_writing);
   std::printf("  total                     %8.2f s\n",
               r.seconds_reading + r.result.seconds_total + r.seconds_writing);
   if(r.evaluation)
     std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
+  if(r.fitted)
+    std::printf("  operator fit, likewise    %8.2f s\n", r.fitted->seconds);
 }
 
 // All of them null where nothing was evaluated.
@@ -175,16 +178,16 @@ inline nlohmann::json to_json(const Simplification_report& r)
       r.evaluation ? nlohmann::json(r.seconds_evaluation) : nlohmann::json();
   if(r.fitted) {
     json["fitted"] = evaluation_json(&r.fitted->evaluation);
-    const auto& fit = *r.result.fitted;
-    json["fitted"].update({{"mass_pattern", mass_pattern_name(r.options.operator_fit)},
-                           {"rings", r.options.operator_fit.rings},
+    const auto& fit = r.fitted->fit;
+    json["fitted"].update({{"mass_pattern", mass_pattern_name(r.fitted->options)},
+                           {"rings", r.fitted->options.rings},
                            {"unknowns", fit.unknowns},
                            {"at_bound", fit.at_bound},
                            {"iterations", fit.iterations},
                            {"converged", fit.converged},
                            {"objective_before", fit.objective_before},
                            {"objective_after", fit.objective_after},
-                           {"seconds", r.result.seconds_operator_fit}});
+                           {"seconds", r.fitted->seconds}});
   } else
     json["fitted"] = nullptr;
   return json;

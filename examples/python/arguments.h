@@ -171,7 +171,7 @@ public:
     return value_of(boundary_words, word("boundary", words_of(boundary_words)));
   }
 
-  // Of functions that have neither coefficients nor a boundary condition.
+  // Refuses coefficients and a boundary condition beside it.
   bool intrinsic_delaunay() const
   {
     const bool wanted = flag("intrinsic_delaunay");
@@ -181,7 +181,7 @@ public:
     return wanted;
   }
 
-  // Of an operator on the n vertices of V or Vc; none where the argument is None.
+  // Reads those of an operator on the n vertices of V or Vc; none where the argument is None.
   SG::Operator_coefficients coefficients(const Index n, const char* name = "coefficients",
                                          const char* of = "V") const
   {
@@ -295,7 +295,7 @@ public:
     return result;
   }
 
-  // Of any format of SciPy's; rows < 0: any number of them.
+  // Takes any format of SciPy's; rows < 0: any number of them.
   Eigen::SparseMatrix<double> sparse(const char* name, const Index rows, const Index columns,
                                      const char* what = "coarse x fine vertices") const
   {

@@ -22,6 +22,7 @@
 #endif
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_toolbox/fit_operators_of_run.h>
 
 #include <pybind11/eval.h>
 #include <pybind11/stl.h>
@@ -30,6 +31,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -150,9 +152,6 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
            "another one: pass "
            "relocate='none' or relocate='carried'.");
   options.preserve_border = a.flag("preserve_border");
-  options.fit_operators = a.flag("fit_operators");
-  if(options.fit_operators && a.has("signals"))
-    refuse("fit_operators fits to eigenvectors, but signals are given: leave one of them out.");
   options.threads = a.threads();
   if(a.has("max_error"))
     options.maximum_error = a.number("max_error", 0, false);
@@ -197,6 +196,37 @@ void set_signals(const Arguments& a, const Index n, const Index target,
                            : std::make_shared<SG::Eigenpairs>(first_pairs(*given.pairs, k));
 }
 
+using Result = SMS::Spectral_edge_collapse_result;
+
+struct Run
+{
+  Result result;
+  SG::Mesh_matrices coarse;
+  std::shared_ptr<const SG::Laplace_operator> op;
+  std::optional<Fitted_pairs> fitted;
+};
+
+// Where no operators can be fitted, the mesh is made all the same: a warning says why.
+void fit(Run& run, const SG::Mesh_matrices& fine,
+         const SMS::Spectral_edge_collapse_options& options, Watch& watch)
+{
+  SG::Operator_fit_options how = SG::Operator_fit_options::for_mass(SG::mass_blend(options.mass));
+  how.progress = [&](const double fraction) { return watch("operator_fit", fraction); };
+  const auto warn = [&run](const std::exception& error) {
+    run.result.warnings.push_back("The operators were not fitted: " + std::string(error.what()));
+  };
+  try {
+    run.fitted = fitted_pairs(SMS::fit_operators_of_run(fine, run.coarse, options, run.result, how),
+                              how, (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
+  } catch(const SG::Cancelled&) {
+    throw;
+  } catch(const std::invalid_argument& error) {
+    warn(error);
+  } catch(const std::runtime_error& error) {
+    warn(error);
+  }
+}
+
 py::dict simplify(const Arguments& a)
 {
   auto fine = std::make_shared<const SG::Mesh_matrices>(a.mesh("V", "F"));
@@ -207,7 +237,14 @@ py::dict simplify(const Arguments& a)
   set_signals(a, vertices, n, options);
   options.coefficients = a.coefficients(vertices);
   options.boundary = a.boundary();
-  options.intrinsic_delaunay = a.intrinsic_delaunay();
+  if(a.intrinsic_delaunay())
+    options.operator_of_eigenpairs = intrinsic_operator(options.mass);
+  const bool fits_operators = a.flag("fit_operators");
+  if(fits_operators && a.has("signals"))
+    refuse("fit_operators fits to eigenvectors, but signals are given: leave one of them out.");
+  if(fits_operators && options.boundary == SG::Boundary_condition::dirichlet)
+    refuse("fit_operators fits Laplacians whose rows sum to zero, which those of the Dirichlet "
+           "condition do not: leave one of them out.");
   if(a.has("keep"))
     options.kept_vertices = a.indices("keep", std::size_t(vertices), "V");
   for(const std::size_t v : feature_vertices(surface_mesh(*fine), kept_features(a)))
@@ -223,13 +260,6 @@ py::dict simplify(const Arguments& a)
   options.progress = [&](const SMS::Spectral_progress& progress) {
     return watch(word_of(phase_words, progress.phase), progress.fraction);
   };
-  struct Run
-  {
-    SMS::Spectral_edge_collapse_result result;
-    SG::Mesh_matrices coarse;
-    std::shared_ptr<const SG::Laplace_operator> op;
-    std::optional<Fitted_pairs> fitted;
-  };
   Run run = watch.run([&] {
     Run run;
     Mesh mesh = surface_mesh(*fine);
@@ -237,9 +267,8 @@ py::dict simplify(const Arguments& a)
     run.coarse = SG::mesh_matrices(mesh);
     if(run.result.eigenpairs && run.result.eigenpairs->vectors.rows() == vertices)
       run.op = std::make_shared<SG::Laplace_operator>(operator_of(*fine, options, "V, F"));
-    if(run.result.fitted)
-      run.fitted = fitted_pairs(std::move(*run.result.fitted), options.operator_fit,
-                                (std::min)(options.number_of_eigenvectors, run.coarse.V.rows()));
+    if(fits_operators && run.result.stop_reason != Result::Stop_reason::cancelled)
+      fit(run, *fine, options, watch);
     return run;
   });
   const auto k = std::size_t(options.number_of_eigenvectors);

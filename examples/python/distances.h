@@ -9,7 +9,7 @@
 #include "spectra.h"
 #include "watch.h"
 
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <pybind11/stl.h>
 

@@ -115,7 +115,7 @@ class Whole_sdist(sdist):
             source.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, source / name)
         for folder in "include", "cmake", "examples":
-            # Of what is made here nothing, and no copy of a copy.
+            # Nothing that is made here, and no copy of a copy.
             shutil.copytree(
                 ROOT / folder,
                 source / folder,

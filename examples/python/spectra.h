@@ -10,14 +10,14 @@
 #include "meshes.h"
 #include "watch.h"
 
-#include <CGAL/Spectral_geometry/curvature_coefficients.h>
+#include <CGAL/Spectral_toolbox/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_toolbox/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation.h>
-#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <Eigen/Geometry>
@@ -48,7 +48,8 @@ inline SMS::Spectral_options operator_options(const Arguments& a, const Index n)
   options.mass = a.mass();
   options.coefficients = a.coefficients(n);
   options.boundary = a.boundary();
-  options.intrinsic_delaunay = a.intrinsic_delaunay();
+  if(a.intrinsic_delaunay())
+    options.operator_of_eigenpairs = intrinsic_operator(options.mass);
   return options;
 }
 
@@ -151,8 +152,9 @@ inline Pairs eigenpairs(const Arguments& a)
     of.mass = a.mass();
   of.coefficients = a.coefficients(mesh.V.rows());
   of.boundary = a.boundary();
-  of.intrinsic_delaunay = a.intrinsic_delaunay();
-  if(of.intrinsic_delaunay && mass == "consistent")
+  if(a.intrinsic_delaunay())
+    of.operator_of_eigenpairs = intrinsic_operator(of.mass);
+  if(of.operator_of_eigenpairs && mass == "consistent")
     refuse("intrinsic_delaunay has no consistent mass: pass another mass, or leave it out.");
   Watch watch(a);
   SG::Eigenpairs_options options = solver_options(a, watch);

@@ -359,12 +359,6 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
     fault = fault_of_constraints(mesh, flags, before, flags_before, call, result);
   if(fault.empty())
     fault = fault_of_log(before, flags_of_replay, mesh, call, result);
-  if(fault.empty() && result.fitted) {
-    const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-    fault = fault_of_fit(
-        *result.fitted,
-        SG::laplace_operator(coarse.V, coarse.T, {call.options.mass, result.coefficients}));
-  }
   return fault.empty() && !is_large(call.fine) && bytes.one_in(4)
              ? fault_of_fitting(SG::mesh_matrices(mesh), call, result, bytes)
              : fault;
@@ -432,7 +426,7 @@ bool stands_for_nothing(const Policies& policies)
   }
 }
 
-// The same policies in another place; empty unless what has been left there is still good for
+// Brings the policies to another place; empty unless what has been left there is still good for
 // something.
 std::string fault_of_moves(std::unique_ptr<Policies>& policies, const Handling& handling)
 {
@@ -463,7 +457,7 @@ std::string fault_of_replay(const Mesh& before, const Policies& policies,
   moved.collapse_to(N);
   if(!CGAL::is_valid_polygon_mesh(*copy) || count_vertices(*copy) != N)
     return "a level of detail is not valid";
-  // Of rows in another order.
+  // Rows may come in another order.
   const Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(P.cols(), 1, 2);
   Eigen::VectorXd a = P * numbers, b = moved.restriction() * numbers;
   std::sort(a.begin(), a.end());

@@ -7,8 +7,8 @@
 
 #include "../collapse_helpers.h"
 
-#include <CGAL/Spectral_geometry/fitted_operators.h>
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
@@ -259,9 +259,9 @@ struct Handling
   bool does(const unsigned step) const { return (steps & step) != 0; }
 
   enum class Place { none, behind, in_front, alone };
-  // Of the policies: moved, copied while the original goes, others made for the same mesh. Of the
-  // mesh: copied and put back, garbage collected, both before each run. At the end: the policies go
-  // before their handles, the mesh before all.
+  // What happens to the policies: moved, copied while the original goes, others made for the same
+  // mesh. To the mesh: copied and put back, garbage collected, both before each run. At the end:
+  // the policies go before their handles, the mesh before all.
   enum Step : unsigned {
     move = 1,
     copy = 2,
@@ -347,7 +347,7 @@ inline void add_operator(One_call& call, Bytes& bytes)
     o.mass = SG::Mass::voronoi;
   if(bytes.one_in(2))
     o.coefficients = coefficients_from(bytes, call.fine.V.rows());
-  if(bytes.one_in(3) && o.signals.size() == 0 && !o.fit_operators)
+  if(bytes.one_in(3) && o.signals.size() == 0)
     o.boundary = SG::Boundary_condition::dirichlet;
 }
 
@@ -372,10 +372,6 @@ inline void add_one_call_options(One_call& call, Bytes& bytes)
         (std::min)(o.number_of_eigenvectors, Eigen::Index(o.pre_simplify) - 1);
     if(o.weights.size() != 0)
       o.weights.conservativeResize(o.number_of_eigenvectors);
-  }
-  if(o.signals.size() == 0 && !is_large(call.fine) && bytes.one_in(4)) {
-    o.fit_operators = true;
-    o.operator_fit = fit_options_from(bytes);
   }
   o.kept_vertices = some_vertices(bytes, call.fine);
   call.filter = filter_from(bytes);

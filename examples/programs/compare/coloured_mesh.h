@@ -10,7 +10,7 @@
 #include "../report/png_image.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include "mode_alignment.h"
 
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <algorithm>
 #include <cmath>

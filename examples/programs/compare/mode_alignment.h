@@ -5,7 +5,7 @@
 #ifndef SPECTRAL_EXAMPLES_COMPARE_MODE_ALIGNMENT_H
 #define SPECTRAL_EXAMPLES_COMPARE_MODE_ALIGNMENT_H
 
-#include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
 #include <CGAL/number_type_config.h>
 
 #include <Eigen/Core>

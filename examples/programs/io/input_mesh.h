@@ -9,7 +9,7 @@
 #include "mesh_repair.h"
 #include "vertex_numbering.h"
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <stdexcept>
 #include <string>

@@ -55,7 +55,7 @@ inline double left_in_group(const std::filesystem::path& mount, const std::strin
   }
 }
 
-// Of version 2 "0::/path", of version 1 "4:memory:/path".
+// A line is "0::/path" in version 2, "4:memory:/path" in version 1.
 inline double left_in_groups(const std::filesystem::path& root)
 {
   double left = std::numeric_limits<double>::infinity();

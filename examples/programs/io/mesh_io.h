@@ -7,7 +7,7 @@
 
 #include "polygon_soup.h"
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <CGAL/Surface_mesh.h>
 

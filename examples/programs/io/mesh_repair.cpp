@@ -14,7 +14,7 @@
 #include "orientation.h"
 #include "silence.h"
 
-#include <CGAL/Spectral_geometry/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
@@ -437,7 +437,7 @@ std::vector<std::vector<std::size_t>> triangles_of(const Exact_soup& soup,
   std::vector<Exact_mesh::Vertex_index> corners;
   for(const std::size_t v : polygon)
     corners.push_back(mesh.add_vertex(soup.points[v]));
-  // Of corners on a line CGAL's function makes faces whose halfedges never come round.
+  // CGAL's function makes of corners on a line faces whose halfedges never come round.
   if(PMP::triangulate_face(mesh.add_face(corners), mesh) &&
      mesh.number_of_faces() == polygon.size() - 2 && CGAL::is_triangle_mesh(mesh)) {
     for(const auto f : mesh.faces()) {

@@ -6,7 +6,7 @@
 
 #include "npy_reader.h"
 
-#include <CGAL/Spectral_geometry/curvature_coefficients.h>
+#include <CGAL/Spectral_toolbox/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <cstddef>

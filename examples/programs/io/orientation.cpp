@@ -4,7 +4,7 @@
 
 #include "orientation.h"
 
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <Eigen/Geometry>
 

@@ -83,7 +83,7 @@ public:
     return *m_at != '\0';
   }
 
-  // The same for this line or a later one.
+  // Looks in this line or a later one.
   bool more_or_next() { return more() || next(); }
 
   // The first character of the next word.

@@ -134,7 +134,7 @@ public:
   // Whether there is a vertex whose corners differ.
   bool has_seams() const { return m_seams > 0; }
 
-  // Those of all corners as a texture, or the reason why there is none.
+  // Adds those of all corners as a texture, or the reason why there is none.
   void add_to(Polygon_soup& soup) const
   {
     if(m_columns.front().empty())

@@ -24,7 +24,7 @@ public:
   // Edges in the same place count once.
   std::size_t number_of_edges() const { return m_number_of_edges; }
 
-  // Of the vertices in the order of `vertices(mesh)`, those at seams.
+  // The vertices at seams, in the order of `vertices(mesh)`.
   const std::vector<std::size_t>& vertices() const { return m_vertices; }
 
   // The coordinates at the corners of what the mesh was simplified to, with these vertices kept;

@@ -76,7 +76,7 @@ public:
     return P * m_spread;
   }
 
-  // The same for rows; those of vertices that are not in the mesh are zero.
+  // Numbers rows so; those of vertices that are not in the mesh are zero.
   template <class Matrix>
   Matrix rows_of_file(const Matrix& Q) const
   {

@@ -7,8 +7,8 @@
 #include "matcher.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_geometry/functional_map_estimation.h>
-#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #include <algorithm>
 #include <cmath>
@@ -246,7 +246,7 @@ private:
     find(m_X.modes, m_X.modes * to_Y.transpose(), m_Y.modes * to_X.transpose(), m_Y.modes);
   }
 
-  // The same with the other shape's modes taken at the images, less what there and back rotates.
+  // Takes the other shape's modes at the images, less what there and back rotates.
   void by_images()
   {
     const Eigen::MatrixXd loop_X = SG::nearest_orthogonal_map(

@@ -13,8 +13,8 @@
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/hierarchical_functional_maps.h>
-#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Spectral_toolbox/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #include <cmath>
 #include <cstddef>

@@ -47,7 +47,7 @@ Match match_over_proxies(const Shape& X, const Proxy& coarse_X, const Shape& Y,
                          const Proxy& coarse_Y, const Landmarks& landmarks,
                          const Matching_options& options, const Keep_going& keep_going);
 
-// The same without proxies, from one start and without the filter: several starts and the
+// Matches without proxies, from one start and without the filter: several starts and the
 // assignment are beyond meshes of full size.
 Match match_directly(const Shape& X, const Shape& Y, const Landmarks& landmarks,
                      const Matching_options& options, const Keep_going& keep_going);

@@ -10,7 +10,7 @@
 #include "../simplification.h"
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
 

@@ -7,7 +7,7 @@
 
 #include "../io/mesh_io.h"
 
-#include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 
 #include <Eigen/SparseCore>
@@ -78,7 +78,7 @@ Proxy make_proxy(const Mesh& mesh, const Shape& fine, Proxy_kind kind, std::size
                  const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
                  Proxy_operators operators, const Keep_going& keep_going);
 
-// The same of a coarse mesh, whoever made it. A coarse vertex stands for the nearest corner of the
+// Makes one of a coarse mesh, whoever made it. A coarse vertex stands for the nearest corner of the
 // fine triangle that is closest to it. Throws std::runtime_error, with the end of a sentence, where
 // it does not lie on the fine mesh.
 Proxy make_foreign_proxy(const Mesh& coarse, const Shape& fine, Eigen::Index modes,

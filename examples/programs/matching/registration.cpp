@@ -8,7 +8,7 @@
 #include "matcher.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_geometry/vertex_maps.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -193,7 +193,7 @@ Registration::Registration(const Shape& X, const Shape& Y, double largest_weight
   , m_largest_weight(largest_weight)
   , m_threads(threads)
 {
-  // The same bands for both, of times from that of half an edge of the coarser mesh to that of two
+  // Both have these bands, of times from that of half an edge of the coarser mesh to that of two
   // thirds of the last mode's wavelength, sqrt(pi / modes): what is larger the modes know.
   const double vertices = static_cast<double>((std::min)(X.matrices.V.rows(), Y.matrices.V.rows()));
   const double modes =

@@ -65,7 +65,7 @@ private:
     Eigen::VectorXd areas;             // of the control mesh, which sum to 1
   };
 
-  // Of a mesh in the unit of that shape.
+  // Takes a mesh in the unit of that shape.
   static Points points(const Shape& shape, const CGAL::Spectral_geometry::Mesh_matrices& mesh);
   static Surface surface(const Shape& shape, double shortest_time, Eigen::Index bands);
   // Signal over noise of each band under the images, r^2 / (1 - r^2) with the correlation r, cut at

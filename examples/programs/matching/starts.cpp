@@ -5,7 +5,7 @@
 #include "starts.h"
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_geometry/spectral_distances.h>
+#include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "matcher.h"
 
-#include <CGAL/Spectral_geometry/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
 
 #include <Eigen/Core>
 
@@ -25,7 +25,7 @@ Eigen::MatrixXd map_of_descriptors(const CGAL::Spectral_geometry::Spectral_shape
                                    const Landmarks& landmarks, const Matching_options& options,
                                    const Keep_going& keep_going);
 
-// The same from many starts, for coarse meshes: the one whose map of 50 modes is the least strange,
+// Tries many starts, for coarse meshes: the one whose map of 50 modes is the least strange,
 // of descriptors in several settings and, without landmarks, of maps of the very first modes that
 // were grown mode by mode.
 Eigen::MatrixXd map_of_many_starts(const CGAL::Spectral_geometry::Spectral_shape& X,

@@ -90,7 +90,7 @@ struct Simplified
     return seconds + (seconds_eigenpairs > 0 ? seconds_eigenpairs : 0.);
   }
 
-  // The same for all sizes: names a curve.
+  // Names a curve: all sizes have one name.
   std::string name() const
   {
     std::string text = simplifier;

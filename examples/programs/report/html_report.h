@@ -264,25 +264,27 @@ inline std::string facts(const Comparison& c)
 inline const char* explanation()
 {
   return R"(<ul>
-<li><b>C</b> = Φ<sub>c</sub>ᵀ M<sub>c</sub> P Φ (c: coarse) maps the coefficients of a function on the fine mesh
-to those of its restriction. |C|<sub>L</sub> = |CΛ − Λ<sub>c</sub>C| / |C| (unit: that of the eigenvalues) and
-|C|<sub>D</sub> = |CᵀC − I| (no unit), Frobenius norms, not squared; both are 0 if and only if the eigenpairs are
-kept exactly. Meshes are scaled to unit area each; <i>input scale</i> is without that.</li>
-<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none, that of the
-closest points of the fine surface. <i>closest P</i> is the latter for all.</li>
-<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations: compare within one. <i>metric</i> is the mass
-that the simplifier itself works with, the heading names the one that it is judged in.</li>
-<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged at the cut, not
-lost.</li>
-<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on equilateral triangles that
-only sample the surface. A mesh that fits the spectrum on purpose can be below.</li>
-<li><b>Distances</b> (squared, but for the wave kernel's) and signatures:
-Σ M<sub>c</sub> |coarse − P fine| / Σ M<sub>c</sub> |P fine|, mean over the sources, times or energies; times and
-energies are those of the fine mesh.</li>
-<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed once for all
-sizes. Remeshing is timed at the edge length that was found, without the search.</li>
-<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral. <b>Self-intersections</b> counts
-pairs of triangles. Bold: the smallest of its column and size.</li>
+<li><b>C</b> = Φ<sub>c</sub>ᵀ M<sub>c</sub> P Φ (c: coarse) maps the coefficients of a function on
+the fine mesh to those of its restriction. |C|<sub>L</sub> = |CΛ − Λ<sub>c</sub>C| / |C| (unit: that
+of the eigenvalues) and |C|<sub>D</sub> = |CᵀC − I| (no unit), Frobenius norms, not squared; both
+are 0 if and only if the eigenpairs are kept exactly. Meshes are scaled to unit area each; <i>input
+scale</i> is without that.</li>
+<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none,
+that of the closest points of the fine surface. <i>closest P</i> is the latter for all.</li>
+<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations: compare within one.
+<i>metric</i> is the mass that the simplifier itself works with, the heading names the one that it
+is judged in.</li>
+<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged
+at the cut, not lost.</li>
+<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on equilateral
+triangles that only sample the surface. A mesh that fits the spectrum on purpose can be below.</li>
+<li><b>Distances</b> (squared, but for the wave kernel's) and signatures: Σ M<sub>c</sub> |coarse −
+P fine| / Σ M<sub>c</sub> |P fine|, mean over the sources, times or energies; times and energies are
+those of the fine mesh.</li>
+<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed
+once for all sizes. Remeshing is timed at the edge length that was found, without the search.</li>
+<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral.
+<b>Self-intersections</b> counts pairs of triangles. Bold: the smallest of its column and size.</li>
 </ul>
 )";
 }

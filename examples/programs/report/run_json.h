@@ -55,7 +55,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"eigenvectors", options.number_of_eigenvectors},
           {"mass", mass_name(options.mass)},
           {"boundary", word_of(boundary_words, options.boundary)},
-          {"intrinsic_delaunay", options.intrinsic_delaunay},
+          {"intrinsic_delaunay", bool(options.operator_of_eigenpairs)},
           {"placement", word_of(placement_words, options.placement)},
           {"shape", options.shape},
           {"quadrics_above", number_json(options.quadrics_above)},
@@ -80,7 +80,6 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"seconds_eigenpairs", result.seconds_eigenpairs},
           {"seconds_collapse", result.seconds_collapse},
           {"seconds_relocation", result.seconds_relocation},
-          {"seconds_operator_fit", result.seconds_operator_fit},
           {"seconds_total", result.seconds_total}};
 }
 

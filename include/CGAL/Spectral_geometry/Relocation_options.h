@@ -60,8 +60,8 @@ struct Relocation_options
   double size_tolerance = 0.03;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
-  /// The same where a vertex of the fine mesh would be further from the coarse one than any was at
-  /// the start: tips stay.
+  /// Refuses steps after which a vertex of the fine mesh would be further from the coarse one than
+  /// any was at the start: tips stay.
   bool keep_hausdorff_distance = true;
   /// Boundary vertices slide along the boundary of the fine mesh; or stay where they are.
   bool fix_boundary = false;

@@ -94,7 +94,7 @@ rows_off_their_part(const Mesh_matrices& coarse, const Mesh_matrices& fine,
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_interpolation_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_CLOSEST_POINT_INTERPOLATION_H

@@ -13,20 +13,13 @@ macro nobody needs this file.
 `<CGAL/Surface_mesh_simplification/compile_spectral.h>` has this and the collapse loop.
 */
 
-#include <CGAL/Spectral_geometry/internal/maps/closest_point_interpolation_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/curvature_coefficients_impl.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/filtered_signals_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/fitted_operators_impl.h>
-#include <CGAL/Spectral_geometry/internal/maps/functional_map_estimation_impl.h>
-#include <CGAL/Spectral_geometry/internal/maps/functional_map_impl.h>
-#include <CGAL/Spectral_geometry/internal/maps/hierarchical_functional_maps_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/intrinsic_delaunay_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/mesh_diagnosis_impl.h>
-#include <CGAL/Spectral_geometry/internal/operators/operator_coefficients_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_interpolation_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/filtered_signals_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/functional_map_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/operator_coefficients_impl.h>
 #include <CGAL/Spectral_geometry/internal/relocation/relocation_impl.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect_impl.h>
-#include <CGAL/Spectral_geometry/internal/maps/vertex_maps_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect_impl.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

@@ -120,7 +120,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass,
 /// coefficients are none, or one row for each of n vertices, positive (definite) and finite.
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
 
-/// Those of the operator at a triangle, and its area weighted by the density.
+/// Returns the cotangents of the operator at a triangle, and its area weighted by the density.
 CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(
     const Eigen::MatrixXd& V, const int (&corners)[3], const Operator_coefficients& coefficients);
 
@@ -259,7 +259,7 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::l
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/operators/cotangent_laplacian_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/cotangent_laplacian_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COTANGENT_LAPLACIAN_H

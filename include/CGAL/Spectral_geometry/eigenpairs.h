@@ -77,7 +77,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/eigenpairs/eigenpairs_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/eigenpairs_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H

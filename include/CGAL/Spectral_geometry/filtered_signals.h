@@ -94,7 +94,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Filtered_signals filtered_signals(
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/eigenpairs/filtered_signals_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/filtered_signals_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_FILTERED_SIGNALS_H

@@ -280,7 +280,7 @@ prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pa
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/maps/functional_map_impl.h>
+#include <CGAL/Spectral_geometry/internal/numerics/functional_map_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_FUNCTIONAL_MAP_H

@@ -40,7 +40,7 @@ inline const char* mass_name(Mass mass)
 /// vertices of a mesh, n x 7: in each row the density \f$\rho\f$ and the conductivity D, a
 /// symmetric 3 x 3 matrix, as xx, xy, xz, yy, yz, zz.
 ///
-/// Of D an operator sees what it does within the surface. Empty: \f$\rho = 1\f$, D the identity,
+/// An operator sees of D what it does within the surface. Empty: \f$\rho = 1\f$, D the identity,
 /// the Laplace-Beltrami operator. Collapses merge them as they merge signals: with their
 /// restriction P the coarse mesh has `P * coefficients`.
 using Operator_coefficients = Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>;
@@ -89,7 +89,7 @@ struct Local_operator
     , boundary(boundary)
   {}
 
-  /// The same operator on a mesh that the restriction P leads to.
+  /// Returns this operator on a mesh that the restriction P leads to.
   template <class Matrix>
   Local_operator restricted(const Matrix& P) const
   {

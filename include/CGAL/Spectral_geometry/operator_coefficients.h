@@ -48,7 +48,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/operators/operator_coefficients_impl.h>
+#include <CGAL/Spectral_geometry/internal/surface/operator_coefficients_impl.h>
 #endif
 
 #endif // CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H

@@ -5,9 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 #define CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 
-#include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/parallel/vector_units.h>
+#include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Core>
@@ -328,7 +328,7 @@ private:
     }
   }
 
-  // Of R in Y: Y and the first term, and where there are derivatives to be taken X.
+  // Makes Y and the first term of the R in Y, and X where derivatives are to be taken.
   CGAL_SPECTRAL_INLINE void smooth(const bool derive, Work& work) const
   {
     Panel &Y = work.Y, &X = work.X;

@@ -9,7 +9,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <algorithm>
@@ -57,8 +56,6 @@ struct Spectral_edge_collapse_options : Spectral_options
     static_cast<Spectral_options&>(options) = Spectral_options::paper();
     options.relocate = false;
     options.quadrics_above = std::numeric_limits<double>::infinity();
-    options.operator_fit = Spectral_geometry::Operator_fit_options::for_mass(
-        Spectral_geometry::mass_blend(options.mass));
     return options;
   }
 
@@ -78,7 +75,7 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
   /// quadrics of `shape` alone, as with `pre_simplify`, but F, Z and P follow: eigenpairs,
-  /// relocation, fitted operators and the error are about the input. Few collapses decide what the
+  /// relocation and the error are about the input. Few collapses decide what the
   /// result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of
   /// 80 N took half the time. From 1; infinite: never. It is passed over, for every collapse to be
   /// that of the metric, where it could not be what was asked for: without `shape`, with another
@@ -95,17 +92,6 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// How they are moved; its progress callback is replaced by that of the run.
   Spectral_geometry::Relocation_options relocation;
-
-  /// Chooses, after all else, a Laplacian and a mass of the mesh that is left, so that they have
-  /// the spectrum of the input, or of the mesh that `pre_simplify` has left:
-  /// `Spectral_geometry::fit_operators()`, whose result is in
-  /// `Spectral_edge_collapse_result::fitted`. The mesh stays as it is. They are fitted to a fifth
-  /// more eigenpairs than K, which takes another solve, or to `eigenpairs` where these are given.
-  /// Not with `signals` or the Dirichlet condition.
-  bool fit_operators = false;
-
-  /// How they are chosen; its progress callback is replaced by that of the run.
-  Spectral_geometry::Operator_fit_options operator_fit;
 };
 
 /// @}
@@ -133,23 +119,6 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
           "only estimates the error; set source to eigenpairs.");
   require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
           options.maximum_error, ", use a number from 0.");
-  if(options.fit_operators) {
-    Spectral_geometry::internal::check_operator_fit_options(options.operator_fit);
-    require(options.signals.size() == 0,
-            "Spectral_edge_collapse_options: fit_operators fits to "
-            "eigenvectors, but signals are given; leave one of them out.");
-    const Eigen::Index K = options.number_of_eigenvectors + options.number_of_eigenvectors / 5;
-    const Eigen::Index vectors = options.eigenpairs_options.maximum_vectors;
-    require(
-        options.eigenpairs || vectors == 0 || vectors >= K + 32,
-        "Spectral_edge_collapse_options: fit_operators takes a fifth more eigenpairs, for which "
-        "eigenpairs_options.maximum_vectors must be 0 or at least ",
-        K + 32, ", but is ", vectors, ".");
-    require(options.boundary != Spectral_geometry::Boundary_condition::dirichlet,
-            "Spectral_edge_collapse_options: fit_operators fits Laplacians whose rows sum to zero, "
-            "which "
-            "those of the Dirichlet condition do not; leave one of them out.");
-  }
   if(!options.relocate)
     return;
   Spectral_geometry::internal::check_relocation_options(options.relocation);

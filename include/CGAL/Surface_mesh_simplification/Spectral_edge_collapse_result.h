@@ -10,14 +10,12 @@
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/SparseCore>
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,9 +51,7 @@ struct Spectral_edge_collapse_result
   double seconds_first_costs = 0;        ///< evaluating every edge once
   double seconds_collapse = 0;           ///< first costs and the collapse loop
   double seconds_relocation = 0; ///< wall seconds of `Spectral_edge_collapse_options::relocate`
-  double seconds_operator_fit =
-      0;                    ///< wall seconds of `Spectral_edge_collapse_options::fit_operators`
-  double seconds_total = 0; ///< the whole call
+  double seconds_total = 0;      ///< the whole call
 
   std::size_t signals =
       0; ///< how many steered the collapses, all at once or in mixtures: those of positive weight
@@ -65,9 +61,6 @@ struct Spectral_edge_collapse_result
   /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the
   /// one below is the one to use
   Spectral_geometry::Relocation_result relocation;
-  /// what `Spectral_edge_collapse_options::fit_operators` found, rows in the order of those of P;
-  /// empty where it was not asked for, or failed, which a warning says
-  std::optional<Spectral_geometry::Operator_fit_result> fitted;
 
   /// P, coarse x fine: rows in the order of `vertices(mesh)` when the function returned, columns in
   /// that of the input. `Surface_mesh::collect_garbage()` changes that order: write or copy the

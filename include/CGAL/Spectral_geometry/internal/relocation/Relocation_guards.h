@@ -6,9 +6,9 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_GUARDS_H
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
-#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -142,7 +142,7 @@ public:
     admit_without_projection(from, to);
   }
 
-  /// The same where single vertices are known to be allowed where they are.
+  /// Does so where single vertices are known to be allowed where they are.
   void admit_without_projection(const Positions& from, Positions& to) const
   {
     std::vector<char> offends(std::size_t(to.rows()), 0);

@@ -7,7 +7,7 @@
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
 #include <Eigen/Core>
@@ -41,10 +41,10 @@ public:
     m_closed = m_closed && std::abs(volume) > 1e-3 * area * std::sqrt(area) / 10.6;
   }
 
-  /// Of the coarse mesh.
+  /// The area of the coarse mesh at the start.
   double area() const { return m_area.from; }
 
-  /// Of the coarse mesh with these positions, and of the fine one.
+  /// Returns the areas of the coarse mesh with these positions, and of the fine one.
   std::pair<double, double> areas(const Positions& V) const
   {
     return {measure(m_T, V).first, m_fine_area};

@@ -7,7 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/operators/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
 
 #include <CGAL/number_type_config.h>
 
@@ -148,8 +148,8 @@ private:
     return true;
   }
 
-  // Of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was taken
-  // last.
+  // Adds the gradient of slope * sum_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the
+  // change was taken last.
   void add_gradient(const double slope, const Positions& V, Positions& gradient) const
   {
     Operator_geometry::Entries d = m_geometry.zero_entries();

@@ -5,8 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_SURFACE_SIGNALS_H
 
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
 #include <Eigen/Core>

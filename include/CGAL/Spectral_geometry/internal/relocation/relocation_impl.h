@@ -11,12 +11,12 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
-#include <CGAL/Spectral_geometry/internal/parallel/Thread_pool.h>
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
-#include <CGAL/Spectral_geometry/internal/search/Surface_regions.h>
-#include <CGAL/Spectral_geometry/internal/search/closest_point_search.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
 #include <CGAL/Real_timer.h>

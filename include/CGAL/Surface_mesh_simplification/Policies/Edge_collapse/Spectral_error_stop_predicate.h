@@ -67,7 +67,7 @@ public:
     : Spectral_error_stop_predicate(policies, maximum_error, policies.get_placement())
   {}
 
-  /// The same for a placement that wraps that of the policies, `Constrained_placement` for
+  /// Takes a placement that wraps that of the policies, `Constrained_placement` for
   /// instance.
   Spectral_error_stop_predicate(const Policies& policies, const double maximum_error,
                                 const GetPlacement& placement)

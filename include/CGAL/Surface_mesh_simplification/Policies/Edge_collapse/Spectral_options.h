@@ -69,9 +69,7 @@ enum class Spectral_phase {
   eigenpairs,         ///< solving for the basis
   first_costs,        ///< evaluating every edge once
   collapses,          ///< inside the collapse loop
-  relocation, ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
-  operator_fit ///< choosing a Laplacian and a mass for them, see
-               ///< `Spectral_edge_collapse_options::fit_operators`
+  relocation ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
 };
 
 /// The argument of `Spectral_options::progress`.
@@ -176,12 +174,15 @@ struct Spectral_options
   /// wrapper of the placement puts it. Signals of the user's must vanish there.
   Spectral_geometry::Boundary_condition boundary = Spectral_geometry::Boundary_condition::neumann;
 
-  /// Whether eigenvectors are those of the intrinsic Delaunay triangulation of the input, see
-  /// `Spectral_geometry::intrinsic_delaunay_laplacian()`: for inputs of needles and obtuse
-  /// triangles, whose own operator is that of a poorer space. The metric follows the triangles of
-  /// the mesh all the same, so that E begins with the difference of both operators. Not with
-  /// `coefficients`, `boundary` or `signals`.
-  bool intrinsic_delaunay = false;
+  /// Returns the operator whose eigenpairs are kept, of positions V and triangles T, where it is
+  /// not the mesh's own: that of the intrinsic Delaunay triangulation for inputs of needles and
+  /// obtuse triangles, whose own operator is that of a poorer space. The metric follows the
+  /// triangles of the mesh all the same, so that E begins with the difference of both operators.
+  /// Its mass must be of the kind of `mass`. Not with `coefficients`, `boundary` or `signals`.
+  /// Empty: the mesh's own.
+  std::function<Spectral_geometry::Laplace_operator(const Eigen::MatrixXd& V,
+                                                    const Eigen::MatrixXi& T)>
+      operator_of_eigenpairs;
 
   /// Rounds the weights of every merge to 0 or 1, so that each row of P has exactly one 1 (section
   /// 3.4). A tie keeps the vertex of larger mass, then the one that comes first in the input.

@@ -46,7 +46,7 @@ public:
     : Spectral_stop_predicate(policies, number_of_vertices, maximum_error, policies.get_placement())
   {}
 
-  /// The same for a placement that wraps that of the policies, `Constrained_placement` for
+  /// Takes a placement that wraps that of the policies, `Constrained_placement` for
   /// instance.
   Spectral_stop_predicate(const Policies& policies, const std::size_t number_of_vertices,
                           const double maximum_error, const GetPlacement& placement)
@@ -95,7 +95,7 @@ private:
     m_reached = m_error_reached = m_cancelled = false;
   }
 
-  // Of the way to whichever end is nearer. The error may fall again: the caller keeps the largest.
+  // Measures the way to the nearer end. The error may fall again: the caller keeps the largest.
   double fraction() const
   {
     const std::size_t n = m_state->number_of_vertices();

@@ -53,7 +53,7 @@ inline bool is_filtered(const Spectral_options& options)
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
 local_operator(const Spectral_options& options);
 
-/// The matrices of it, or of the intrinsic Delaunay triangulation, of which eigenvectors are taken.
+/// The matrices of it, or those of `Spectral_options::operator_of_eigenpairs`.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
 operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                   const Spectral_options& options);

@@ -7,10 +7,9 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
-#include <CGAL/Spectral_geometry/intrinsic_delaunay.h>
-#include <CGAL/Spectral_geometry/internal/eigenpairs/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/QR>
@@ -69,12 +68,12 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
             "source is filtered noise; leave one of them out.");
   }
   Spectral_geometry::internal::check_local_operator(local_operator(options), n);
-  require(!options.intrinsic_delaunay ||
-              (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
-               options.boundary == Spectral_geometry::Boundary_condition::neumann),
-          "Spectral_options: intrinsic_delaunay is for eigenvectors of the Laplace-Beltrami "
-          "operator, but "
-          "coefficients, signals or a boundary condition are given; leave one of the two out.");
+  require(
+      !options.operator_of_eigenpairs ||
+          (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
+           options.boundary == Spectral_geometry::Boundary_condition::neumann),
+      "Spectral_options: operator_of_eigenpairs takes the place of the mesh's own operator, but "
+      "coefficients, signals or a boundary condition are given; leave one of the two out.");
   const bool given = options.signals.size() != 0 || options.eigenpairs;
   require(given || (options.number_of_eigenvectors >= 1 && options.number_of_eigenvectors < n),
           "Spectral_options: number_of_eigenvectors is ", options.number_of_eigenvectors,
@@ -91,9 +90,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
 operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                   const Spectral_options& options)
 {
-  return options.intrinsic_delaunay
-             ? Spectral_geometry::intrinsic_delaunay_laplacian(V, T, options.mass)
-             : Spectral_geometry::laplace_operator(V, T, local_operator(options));
+  if(!options.operator_of_eigenpairs)
+    return Spectral_geometry::laplace_operator(V, T, local_operator(options));
+  Spectral_geometry::Laplace_operator op = options.operator_of_eigenpairs(V, T);
+  require(op.L.rows() == V.rows() && op.theta == Spectral_geometry::mass_blend(options.mass),
+          "Spectral_options: operator_of_eigenpairs returned an operator of ", op.L.rows(),
+          " vertices and the blend ", op.theta, ", but the mesh has ", V.rows(),
+          " vertices and mass the blend ", Spectral_geometry::mass_blend(options.mass),
+          "; return that of the mesh in this mass.");
+  return op;
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)

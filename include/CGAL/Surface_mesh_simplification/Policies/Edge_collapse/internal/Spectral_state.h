@@ -361,11 +361,11 @@ public:
     all.crossing = m_core.number_of_crossings();
     return all;
   }
-  /// Of the mesh as it is now.
+  /// Counts those of the mesh as it is now.
   std::size_t number_of_vertices() const { return log().number_of_vertices_left(); }
   /// Runs that were started so far.
   std::size_t number_of_runs() const { return m_number_of_runs; }
-  /// Of the input, in its own unit, weighted by the density of the operator.
+  /// The area of the input, in its own unit, weighted by the density of the operator.
   double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
   double error() const { return (std::max)(0., m_core.total()); }
@@ -374,7 +374,7 @@ public:
   double sum_of_squares() const { return m_sum_of_squares; }
   /// sqrt(E / sum_k lambda_k^2); 0 for constant signals, which P carries over exactly.
   double relative_error() const { return relative_error(error()); }
-  /// The same, were E the given number.
+  /// What it would be, were E the given number.
   double relative_error(const double E) const
   {
     return m_sum_of_squares > 0 ? std::sqrt((std::max)(0., E) / m_sum_of_squares) : 0.;

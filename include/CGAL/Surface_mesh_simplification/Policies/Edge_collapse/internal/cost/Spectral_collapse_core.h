@@ -68,7 +68,7 @@ public:
   /// nothing.
   void set_kept(std::vector<char> kept) { m_fields.kept = std::move(kept); }
 
-  /// Those of set_basis(), without their signals and coefficients.
+  /// Returns the options of set_basis(), without their signals and coefficients.
   const Spectral_options& options() const { return m_options; }
   const Spectral_fields& fields() const { return m_fields; }
   const Collapse_log& log() const { return m_log; }
@@ -162,7 +162,7 @@ private:
 
   Spectral_placement_search search(Spectral_slot u, Spectral_slot v) const;
 
-  // Of the mesh as it is, whatever the density.
+  // Sums up the mesh as it is, whatever the density.
   double surface_area() const;
 
   // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.

@@ -7,8 +7,8 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 
-#include <CGAL/Spectral_geometry/internal/search/Box_tree.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <Eigen/Core>
 
@@ -129,7 +129,7 @@ private:
 
   static constexpr std::size_t largest_fan_of_pairs = 64;
 
-  // Of the unit vectors from the first corner into the triangle.
+  // Bounds the unit vectors from the first corner into the triangle.
   static Box box_of_directions(const Corners& t)
   {
     const Eigen::Vector3d& x = t[0].point;

@@ -8,7 +8,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_signals.h>
 
-#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
 #include <Eigen/Core>
 

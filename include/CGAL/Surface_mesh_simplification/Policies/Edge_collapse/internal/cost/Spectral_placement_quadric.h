@@ -76,8 +76,8 @@ public:
   }
 
 private:
-  // Of half the edge. On spot, cheburashka, homer and rocker-arm 0.1 and 0.25 give away half of
-  // what 0.5 gains.
+  // It is a part of half the edge. On spot, cheburashka, homer and rocker-arm 0.1 and 0.25 give
+  // away half of what 0.5 gains.
   static constexpr double normal_ratio = 0.5;
 
   // The y of |y| <= 1 with (A + mu I) y = -b / 2, where mu >= 0 makes the matrix positive definite

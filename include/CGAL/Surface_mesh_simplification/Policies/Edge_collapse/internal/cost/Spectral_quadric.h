@@ -70,7 +70,7 @@ private:
   // sigma^2: of the direction of a normal, 0.15 radians. Between 0.1 and 0.25 the norms hardly
   // depend on it; 0.5 shrinks tips.
   static constexpr double variance = 0.0225;
-  // Of a border edge beside a face of as much area; 100 is as good, 1 lets the border wear off.
+  // A border edge counts so much beside a face of as much area; 100 is as good, 1 lets it wear off.
   static constexpr double border_weight = 10;
 
   void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal,

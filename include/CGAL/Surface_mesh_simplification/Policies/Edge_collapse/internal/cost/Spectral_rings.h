@@ -5,7 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RINGS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_RINGS_H
 
-#include <CGAL/Spectral_geometry/internal/operators/Triangle_element.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/assertions.h>
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ struct Spectral_triangle
   double cot_second = 0; ///< at b, opposite ca
   double area = 0;
 
-  /// The same triangle, (a; b, c) and (b; c, a).
+  /// This triangle as (a; b, c) and (b; c, a).
   Spectral_triangle from_first() const { return {cot_first, cot_second, cot_center, area}; }
   Spectral_triangle from_second() const { return {cot_second, cot_center, cot_first, area}; }
 

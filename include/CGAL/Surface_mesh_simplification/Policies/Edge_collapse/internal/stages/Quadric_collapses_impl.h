@@ -11,7 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
 
 #include <CGAL/Spectral_geometry/internal/require.h>
-#include <CGAL/Spectral_geometry/internal/search/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <Eigen/Geometry>
 
@@ -227,7 +227,7 @@ public:
   }
 
 private:
-  // Of a halfedge: not in the queue; refused; in the queue, with the number of collapses before its
+  // A halfedge is not in the queue; refused; in the queue, with the number of collapses before its
   // cost was computed.
   static constexpr int none = -2, refused = -1;
 

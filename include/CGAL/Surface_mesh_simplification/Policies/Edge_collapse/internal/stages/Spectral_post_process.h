@@ -11,9 +11,8 @@
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
-#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_geometry/fitted_operators.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
 #include <CGAL/Real_timer.h>
@@ -33,14 +32,8 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-/// Whether anything follows the collapses.
-inline bool has_post_process(const Spectral_edge_collapse_options& options)
-{
-  return options.relocate || options.fit_operators;
-}
-
-/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`,
-/// in this order. The log, and what is replayed from it, stay as they are: they end before.
+/// What follows the collapses: `Spectral_edge_collapse_options::relocate`, and the error of what is
+/// left. The log, and what is replayed from it, stay as they are: they end before.
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -62,18 +55,16 @@ public:
   void run(const Pre_simplification& first)
   {
     set_error(m_P);
-    if(!has_post_process(m_options) || m_result.stop_reason == Result::Stop_reason::cancelled)
+    if(!m_options.relocate || m_result.stop_reason == Result::Stop_reason::cancelled)
       return;
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
-    if(m_options.relocate && allows("The vertices were not relocated: ", true))
+    if(has_operator_and_areas())
       relocate();
-    if(m_options.fit_operators && m_result.stop_reason != Result::Stop_reason::cancelled)
-      fit(relocation.resampled ? relocation.restriction : m_P);
     m_result.seconds_relocation = relocation.seconds;
     if(m_result.relative_error > m_options.maximum_error &&
        m_result.stop_reason != Result::Stop_reason::cancelled)
       m_result.warnings.push_back(
-          "The collapses kept the error bound, but with what followed them the relative error is " +
+          "The collapses kept the error bound, but with relocation the relative error is " +
           std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
     // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
     // eigenpairs.
@@ -85,42 +76,6 @@ public:
   }
 
 private:
-  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it. What fails
-  // is a warning: the mesh is made.
-  void fit(const SpMat& P)
-  {
-    using namespace Spectral_geometry;
-    Real_timer timer;
-    timer.start();
-    const auto progress = reporting(Spectral_phase::operator_fit);
-    const char* consequence = "The operators were not fitted: ";
-    try {
-      if(!allows(consequence, false))
-        return;
-      const Laplace_operator fine =
-          operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
-      std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
-      if(!pairs) {
-        Eigenpairs_options solver = m_options.eigenpairs_options;
-        solver.threads = (std::max)(solver.threads, m_options.threads);
-        solver.progress = [&](const double fraction) { return progress(fraction / 2); };
-        const Eigen::Index K =
-            m_result.eigenpairs ? m_result.eigenpairs->size() : m_options.number_of_eigenvectors;
-        pairs = std::make_shared<Eigenpairs>(
-            eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
-      }
-      Operator_fit_options options = m_options.operator_fit;
-      options.threads = (std::max)(options.threads, m_options.threads);
-      options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
-      m_result.fitted = fit_operators(coarse_operator(), P, fine, *pairs, options);
-    } catch(const Cancelled&) {
-      set_cancelled(m_result, ", before operators were fitted to them");
-    } catch(const std::runtime_error& error) {
-      m_result.warnings.push_back(consequence + std::string(error.what()));
-    }
-    m_result.seconds_operator_fit = timer.time();
-  }
-
   std::function<bool(double)> reporting(const Spectral_phase phase) const
   {
     return [this, phase](const double fraction) { return m_state.report(phase, fraction); };
@@ -137,25 +92,24 @@ private:
     return {m_options.mass, m_result.coefficients, m_options.boundary};
   }
 
-  // Of the mesh as it is now.
+  // The operator of the mesh as it is now.
   Spectral_geometry::Laplace_operator coarse_operator() const
   {
     const Spectral_geometry::Mesh_matrices mesh = coarse();
     return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
   }
 
-  // Whether the mesh that is left has an operator, and each face an area if need be; warns where it
-  // has not. The collapses are done: to throw would lose them.
-  bool allows(const char* consequence, const bool needs_areas)
+  // Whether the mesh that is left has an operator, and each face an area; warns where it has not.
+  // The collapses are done: to throw would lose them.
+  bool has_operator_and_areas()
   {
     using namespace Spectral_geometry;
     const Mesh_matrices mesh = coarse();
     try {
       laplace_operator(mesh.V, mesh.T, local_operator());
-      if(needs_areas)
-        Spectral_geometry::internal::check_areas("", "simplified", mesh.V, mesh.T);
+      Spectral_geometry::internal::check_areas("", "simplified", mesh.V, mesh.T);
     } catch(const std::invalid_argument& error) {
-      m_result.warnings.push_back(consequence + std::string(error.what()));
+      m_result.warnings.push_back("The vertices were not relocated: " + std::string(error.what()));
       return false;
     }
     return true;

@@ -1,0 +1,189 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SURFACE_REGIONS_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SURFACE_REGIONS_H
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <queue>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
+
+/*!
+Which places of a fine and of a coarse surface belong together, so that a closest point is not found
+on another part of the body that lies in the way. Each fine vertex goes with the coarse vertex whose
+row of P is nearest to it on the surface; a coarse vertex may have its closest point where the fine
+vertices go with one at most two edges away from it, and the other way round. Two edges, since the
+regions of one edge end where a vertex that is moved may go.
+*/
+class Surface_regions
+{
+public:
+  /// P: coarse x fine. `coarse` and `fine` are kept by reference.
+  Surface_regions(const Mesh_matrices& coarse, const Mesh_matrices& fine,
+                  const Eigen::SparseMatrix<double>& P)
+    : m_coarse(coarse)
+    , m_fine(fine)
+    , m_rings(Vertex_rings::of_vertices(coarse.T, coarse.V.rows()))
+  {
+    set_nearest_rows(P);
+    set_homes(P);
+  }
+
+  /// Whether a fine vertex belongs to a coarse one.
+  bool are_near(const int coarse, const Eigen::Index fine) const
+  {
+    return within_two_edges(coarse, m_row[std::size_t(fine)]);
+  }
+
+  /// The closest point on the fine surface of a coarse vertex that is at `p`.
+  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
+                                               const Eigen::Index v, const Eigen::Vector3d& p) const
+  {
+    const Eigen::Index home = m_home[std::size_t(v)].face;
+    return home < 0 ? fine(p) : of_coarse_vertex(fine, v, p, home);
+  }
+
+  /// Begins at a face where it was before, which saves most of the search.
+  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
+                                               const Eigen::Index v, const Eigen::Vector3d& p,
+                                               const Eigen::Index face) const
+  {
+    const int own = m_home[std::size_t(v)].row;
+    return fine.among(p, face, [&](const Eigen::Index f) {
+      for(int k = 0; k < 3; ++k) {
+        const int row = m_row[std::size_t(m_fine.T(f, k))];
+        if(own < 0 || row == own || within_two_edges(int(v), row))
+          return true;
+      }
+      return false;
+    });
+  }
+
+  /// P at the closest points of the coarse vertices, which are at V.
+  Eigen::SparseMatrix<double> restriction(const Closest_point_query& fine,
+                                          const Eigen::MatrixXd& V) const
+  {
+    return interpolation(m_fine, V.rows(),
+                         [&](const Eigen::Index v) { return of_coarse_vertex(fine, v, V.row(v)); });
+  }
+
+  /// The way back, fine x coarse, at the closest points of the fine vertices.
+  Eigen::SparseMatrix<double> prolongation() const
+  {
+    const Closest_point_query coarse(m_coarse);
+    std::vector<Eigen::Index> face_of(std::size_t(m_coarse.V.rows()), -1);
+    for(Eigen::Index f = 0; f < m_coarse.T.rows(); ++f)
+      for(int k = 0; k < 3; ++k)
+        face_of[std::size_t(m_coarse.T(f, k))] = f;
+    return interpolation(m_coarse, m_fine.V.rows(), [&](const Eigen::Index i) {
+      const int row = m_row[std::size_t(i)];
+      const Eigen::Index face = row < 0 ? -1 : face_of[std::size_t(row)];
+      if(face < 0)
+        return coarse(m_fine.V.row(i)); // P says nothing about it
+      return coarse.among(m_fine.V.row(i), face, [&](const Eigen::Index f) {
+        for(int k = 0; k < 3; ++k)
+          if(within_two_edges(row, m_coarse.T(f, k)))
+            return true;
+        return false;
+      });
+    });
+  }
+
+private:
+  // A fine face where the row of a coarse vertex is, and the coarse vertex that this place goes
+  // with: another one where rows share it.
+  struct Home
+  {
+    Eigen::Index face = -1;
+    int row = -1;
+  };
+
+  bool within_two_edges(int v, int w) const
+  {
+    if(v < 0 || w < 0)
+      return false;
+    if(v == w || m_rings.has(v, w))
+      return true;
+    if(m_rings.size(v) > m_rings.size(w))
+      std::swap(v, w);
+    return std::any_of(m_rings.begin(v), m_rings.end(v),
+                       [&](const int u) { return m_rings.has(w, u); });
+  }
+
+  // Dijkstra's algorithm along the fine edges, from all entries of P at once.
+  void set_nearest_rows(const Eigen::SparseMatrix<double>& P)
+  {
+    const Vertex_rings rings = Vertex_rings::of_vertices(m_fine.T, m_fine.V.rows());
+    const Eigen::MatrixXd feet = P * m_fine.V;
+    using Front = std::tuple<double, int, int>; // distance, fine vertex, row
+    std::priority_queue<Front, std::vector<Front>, std::greater<Front>> queue;
+    for(int j = 0; j < int(P.cols()); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
+        if(it.value() > 0)
+          queue.emplace((m_fine.V.row(j) - feet.row(it.row())).norm(), j, int(it.row()));
+    m_row.assign(std::size_t(m_fine.V.rows()), -1);
+    while(!queue.empty()) {
+      const auto [distance, i, row] = queue.top();
+      queue.pop();
+      if(m_row[std::size_t(i)] >= 0)
+        continue;
+      m_row[std::size_t(i)] = row;
+      for(const int* j = rings.begin(i); j != rings.end(i); ++j)
+        if(m_row[std::size_t(*j)] < 0)
+          queue.emplace(distance + (m_fine.V.row(*j) - m_fine.V.row(i)).norm(), *j, row);
+    }
+  }
+
+  // A face at the heaviest entry of each row; where a row is empty, that of a neighbour.
+  void set_homes(const Eigen::SparseMatrix<double>& P)
+  {
+    std::vector<Eigen::Index> face_of(std::size_t(m_fine.V.rows()), -1);
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+      for(int k = 0; k < 3; ++k)
+        face_of[std::size_t(m_fine.T(f, k))] = f;
+    m_home.assign(std::size_t(m_coarse.V.rows()), Home());
+    Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
+    for(Eigen::Index j = 0; j < P.cols(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
+        if(face_of[std::size_t(j)] >= 0 && it.value() > most(it.row())) {
+          most(it.row()) = it.value();
+          m_home[std::size_t(it.row())] = {face_of[std::size_t(j)], m_row[std::size_t(j)]};
+        }
+    std::vector<int> reached;
+    for(int v = 0; v < int(P.rows()); ++v)
+      if(m_home[std::size_t(v)].face >= 0)
+        reached.push_back(v);
+    if(reached.size() == m_home.size())
+      return;
+    for(std::size_t k = 0; k < reached.size(); ++k)
+      for(const int* w = m_rings.begin(reached[k]); w != m_rings.end(reached[k]); ++w)
+        if(m_home[std::size_t(*w)].face < 0) {
+          m_home[std::size_t(*w)] = m_home[std::size_t(reached[k])];
+          reached.push_back(*w);
+        }
+  }
+
+  const Mesh_matrices& m_coarse;
+  const Mesh_matrices& m_fine;
+  Vertex_rings m_rings;     // of the coarse vertices
+  std::vector<int> m_row;   // for each fine vertex the coarse one that it goes with, or -1
+  std::vector<Home> m_home; // by coarse vertex
+};
+
+} // namespace CGAL::Spectral_geometry::internal
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SURFACE_REGIONS_H

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_CONNECTIVITY_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_CONNECTIVITY_H
+
+#include <Eigen/Core>
+
+#include <boost/pending/disjoint_sets.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
+
+/// For each of n vertices the number of its component, from 0 in the order of their first vertices.
+/// `for_each_edge` calls its argument with the ends of each edge.
+template <class For_each_edge>
+std::vector<Eigen::Index> connected_components(const Eigen::Index n,
+                                               const For_each_edge& for_each_edge)
+{
+  boost::disjoint_sets_with_storage<> sets(static_cast<std::size_t>(n));
+  for_each_edge([&](const Eigen::Index i, const Eigen::Index j) {
+    sets.union_set(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+  });
+  std::vector<Eigen::Index> of_root(static_cast<std::size_t>(n), -1), result;
+  Eigen::Index components = 0;
+  for(std::size_t v = 0; v < of_root.size(); ++v) {
+    Eigen::Index& c = of_root[sets.find_set(v)];
+    if(c == -1)
+      c = components++;
+    result.push_back(c);
+  }
+  return result;
+}
+
+/// Here triangles (m x 3) join vertices.
+inline std::vector<Eigen::Index> connected_components(const Eigen::Index n,
+                                                      const Eigen::MatrixXi& T)
+{
+  return connected_components(n, [&](const auto& join) {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int c = 1; c < 3; ++c)
+        join(T(f, 0), T(f, c));
+  });
+}
+
+/// The edges of one face, sorted, each with its smaller vertex first.
+inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
+{
+  std::vector<std::pair<int, int>> edges, result;
+  edges.reserve(3 * std::size_t(T.rows()));
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      edges.push_back(std::minmax({T(f, k), T(f, (k + 1) % 3)}));
+  std::sort(edges.begin(), edges.end());
+  for(std::size_t i = 0; i < edges.size(); ++i)
+    if((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
+      result.push_back(edges[i]);
+  return result;
+}
+
+/// One flag for each of n vertices: whether it is an end of such an edge.
+inline std::vector<char> border_vertices(const Eigen::MatrixXi& T, const Eigen::Index n)
+{
+  std::vector<char> result(std::size_t(n), 0);
+  for(const auto& [i, j] : boundary_edges(T))
+    result[std::size_t(i)] = result[std::size_t(j)] = 1;
+  return result;
+}
+
+/// For each of n vertices what lies around it, sorted and each once: other vertices, or faces.
+class Vertex_rings
+{
+public:
+  static Vertex_rings of_vertices(const Eigen::MatrixXi& T, const Eigen::Index n)
+  {
+    return Vertex_rings(T, n, 2, [&](const Eigen::Index f, const int k, int* at) {
+      at[0] = T(f, (k + 1) % 3);
+      at[1] = T(f, (k + 2) % 3);
+    });
+  }
+
+  static Vertex_rings of_faces(const Eigen::MatrixXi& T, const Eigen::Index n)
+  {
+    return Vertex_rings(T, n, 1, [](const Eigen::Index f, int, int* at) { *at = int(f); });
+  }
+
+  const int* begin(const int v) const { return m_items.data() + m_begin[std::size_t(v)]; }
+  const int* end(const int v) const { return begin(v) + m_size[std::size_t(v)]; }
+  std::size_t size(const int v) const { return m_size[std::size_t(v)]; }
+  bool has(const int v, const int item) const { return std::binary_search(begin(v), end(v), item); }
+
+private:
+  template <class Put>
+  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const std::size_t each,
+               const Put& put)
+    : m_begin(std::size_t(n) + 1, 0)
+    , m_size(std::size_t(n), 0)
+  {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k)
+        m_begin[std::size_t(T(f, k)) + 1] += each;
+    for(std::size_t v = 0; v < m_size.size(); ++v)
+      m_begin[v + 1] += m_begin[v];
+    m_items.resize(m_begin.back());
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k) {
+        const std::size_t v = std::size_t(T(f, k));
+        put(f, k, m_items.data() + m_begin[v] + m_size[v]);
+        m_size[v] += each;
+      }
+    for(std::size_t v = 0; v < m_size.size(); ++v) {
+      int* const first = m_items.data() + m_begin[v];
+      std::sort(first, first + m_size[v]);
+      m_size[v] = std::size_t(std::unique(first, first + m_size[v]) - first);
+    }
+  }
+
+  std::vector<std::size_t> m_begin, m_size;
+  std::vector<int> m_items;
+};
+
+} // namespace CGAL::Spectral_geometry::internal
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_CONNECTIVITY_H

@@ -1,0 +1,134 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_TRIANGLES_INTERSECT_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_TRIANGLES_INTERSECT_H
+
+#include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
+#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
+
+/// A corner of a triangle: which vertex it is, and where.
+struct Corner
+{
+  std::size_t vertex;
+  Eigen::Vector3d point;
+};
+
+using Corners = std::array<Corner, 3>;
+
+/// The corners of a face of the mesh (V, T).
+template <class Positions, class Face>
+Corners corners_of_face(const Positions& V, const Face& face)
+{
+  Corners result;
+  for(int k = 0; k < 3; ++k)
+    result[std::size_t(k)] = {std::size_t(face[k]), V.row(face[k]).transpose()};
+  return result;
+}
+
+inline Eigen::AlignedBox3d box_of(const Corners& t)
+{
+  Eigen::AlignedBox3d box;
+  for(const Corner& c : t)
+    box.extend(c.point);
+  return box;
+}
+
+/// Whether the corners of t from the `common`-th on lie on one side of the plane of s, certainly:
+/// doubles suffice for most.
+inline bool lie_on_one_side(const Corners& s, const Corners& t, const std::size_t common)
+{
+  const Eigen::Vector3d a = s[1].point - s[0].point, b = s[2].point - s[0].point,
+                        normal = a.cross(b);
+  const double size = a.cwiseAbs().maxCoeff() * b.cwiseAbs().maxCoeff();
+  int side = 0;
+  for(std::size_t k = common; k < 3; ++k) {
+    const Eigen::Vector3d d = t[k].point - s[0].point;
+    const double height = normal.dot(d), rounding = 1e-14 * size * d.cwiseAbs().maxCoeff();
+    const int sign = height > rounding ? 1 : height < -rounding ? -1 : 0;
+    if(sign == 0 || sign == -side)
+      return false;
+    side = sign;
+  }
+  return true;
+}
+
+/// triangles_intersect() for triangles whose first `common` vertices are common, without the first
+/// look.
+CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
+                                                               std::size_t common);
+
+/// Whether two triangles meet in more than their common vertices or edge. Exact. A triangle without
+/// area meets nothing.
+inline bool triangles_intersect(Corners s, Corners t)
+{
+  std::size_t common = 0; // those come to the front
+  for(std::size_t k = 0; k < 3; ++k)
+    for(std::size_t l = common; l < 3; ++l)
+      if(s[k].vertex == t[l].vertex) {
+        std::swap(t[common], t[l]);
+        std::swap(s[common++], s[k]);
+        break;
+      }
+  if((common < 3 && lie_on_one_side(s, t, common)) || (common < 2 && lie_on_one_side(t, s, common)))
+    return false;
+  return triangles_intersect_exactly(s, t, common);
+}
+
+/// Pairs of faces, the smaller index first, in ascending order.
+using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
+
+/// Whether `found(f, g)` is true for two faces f < g of the mesh (V, T) that meet in more than a
+/// common vertex or edge; looks no further then.
+template <class Positions, class Found>
+bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, const Found& found)
+{
+  std::vector<Corners> faces;
+  std::vector<Box_tree::Box> boxes;
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    faces.push_back(corners_of_face(V, T.row(f)));
+    boxes.push_back(box_of(faces.back()));
+  }
+  Box_tree tree;
+  tree.build(boxes);
+  for(std::size_t f = 0; f < faces.size(); ++f)
+    if(tree.any(boxes[f], [&](const std::size_t g) {
+         return f < g && triangles_intersect(faces[f], faces[g]) &&
+                found(Eigen::Index(f), Eigen::Index(g));
+       }))
+      return true;
+  return false;
+}
+
+/// All such pairs, in ascending order.
+template <class Positions>
+Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
+{
+  Face_pairs pairs;
+  any_self_intersecting_faces(V, T, [&](const Eigen::Index f, const Eigen::Index g) {
+    pairs.emplace_back(f, g);
+    return false;
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+} // namespace CGAL::Spectral_geometry::internal
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect_impl.h>
+#endif
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_TRIANGLES_INTERSECT_H

@@ -1,0 +1,146 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_TOOLBOX_SPECTRAL_MEMORY_ESTIMATE_H
+#define CGAL_SPECTRAL_TOOLBOX_SPECTRAL_MEMORY_ESTIMATE_H
+
+#include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
+
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace CGAL::Surface_mesh_simplification {
+
+namespace internal {
+
+constexpr double bytes_of_mesh = 300; ///< for each vertex
+
+/// What `Spectral_geometry::eigenpairs()` takes, its result included.
+inline double memory_of_eigenpairs(const double n, const double K,
+                                   const Spectral_geometry::Eigenpairs_options& options)
+{
+  const double factor = 900; // matrices and their factor, for each vertex
+  if(Spectral_geometry::internal::is_dense(Eigen::Index(n), Eigen::Index(K), options.method))
+    return n * (8 * 5.2 * n + factor);
+  const double space =
+      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(2.6 * K, K + 120);
+  return n * (8 * space + factor);
+}
+
+} // namespace internal
+
+/// \addtogroup PkgSpectralMeshSimplificationPolicies
+/// @{
+
+/*!
+ * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to
+ * be compared with what the machine has before a large mesh is started. Two phases compete: the
+ * Krylov space of the eigensolver, of 2.6 K vectors of n doubles (or
+ * `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which
+ * is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and the
+ * loop, which keeps the eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or
+ * mixtures that the metric sees. Relocation keeps F and Z of at most 128 mixtures, twice;
+ * `fit_operators_of_run()` solves once more beside them. Filtered noise takes a factor and the
+ * signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates
+ * are within about a quarter.
+ *
+ * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
+ * first stage takes a number of bytes per vertex of the input that does not depend on K. What
+ * `quadrics_above` saves in the loop is not subtracted.
+ *
+ * The shape term keeps a quadric for each vertex,
+ * `Spectral_options::keep_free_of_self_intersections` a tree of boxes.
+ *
+ * @param number_of_vertices n of the input
+ * @param number_of_eigenvectors K, at least 1; the number of columns where signals or eigenpairs
+ * are given
+ * @param options `signals`, `eigenpairs`, `shape`, `keep_free_of_self_intersections`, `relocate`,
+ *        `pre_simplify`, `coefficients` and `eigenpairs_options` matter, placement and so on do not
+ * @param fits_operators whether `fit_operators_of_run()` follows
+ */
+inline double
+estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number_of_eigenvectors,
+                 const Spectral_edge_collapse_options& options = Spectral_edge_collapse_options(),
+                 const bool fits_operators = false)
+{
+  const bool reduced = options.pre_simplify != 0 && number_of_vertices > options.pre_simplify;
+  const double input = double(number_of_vertices),
+               n = reduced ? double(options.pre_simplify) : input;
+  const double K = double(number_of_eigenvectors);
+  const bool filtered = internal::is_filtered(options);
+  const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
+  const double seen =
+      options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
+  const double mixed =
+      options.number_of_mixtures == 0 ? K : (std::min)(K, 4. * double(options.number_of_mixtures));
+  const double noise = options.relocate ? 64 : double(options.number_of_mixtures);
+
+  // Bytes per vertex: rings and CGAL's queue; the first stage.
+  const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;
+  double loop =
+      1650 + sizeof(internal::Spectral_block) * std::ceil(seen / internal::spectral_width);
+  if(options.shape > 0)
+    loop += sizeof(internal::Spectral_quadric);
+  if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2
+                                              // is there
+    loop += 1.5 * 2 * sizeof(Eigen::AlignedBox3d) + 8;
+  const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options)
+                        : filtered ? n * (900 + 8 * 3 * noise)
+                                   : 0;
+  // Columns that stay: eigenvectors, those of the user, F and Z of filtered noise.
+  const double given = filtered ? 2 * noise : options.signals.size() != 0 ? 3 * K : K;
+  const double collapses = n * (8 * given + loop);
+  // F and Z twice: as they are, and by rows.
+  const double after = !options.relocate ? 0 : filtered ? 4 * noise : 4 * mixed;
+  // A fit solves for those of the whole input.
+  const double fit =
+      fits_operators && !options.eigenpairs
+          ? internal::memory_of_eigenpairs(input, 1.2 * K, options.eigenpairs_options)
+          : 0;
+  const double both =
+      (std::max)({solver, collapses, n * 8 * given + (std::max)(n * 8 * after, fit)});
+  const double coefficients =
+      5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
+  return input * internal::bytes_of_mesh + coefficients +
+         (reduced ? (std::max)(input * first_stage, both) : both);
+}
+
+/*!
+ * Returns about how many bytes it takes to judge a result by
+ * `Spectral_geometry::evaluate_spectrum()`: first the eigenpairs of the whole input, whatever
+ * `Spectral_edge_collapse_options::pre_simplify` was, then those of the result beside them. It
+ * comes after the run of `estimated_memory()`: the larger one counts.
+ *
+ * @param number_of_vertices n of the input
+ * @param number_of_coarse_vertices N of the result, at most n
+ * @param number_of_eigenvectors K pairs of either mesh; as many as it has where these are fewer
+ * @param options of both solves
+ * @param pairs_are_known whether those of the input are at hand, and need not be solved for
+ */
+inline double estimated_evaluation_memory(const std::size_t number_of_vertices,
+                                          const std::size_t number_of_coarse_vertices,
+                                          const Eigen::Index number_of_eigenvectors,
+                                          const Spectral_geometry::Eigenpairs_options& options = {},
+                                          const bool pairs_are_known = false)
+{
+  const double n = double(number_of_vertices), N = double(number_of_coarse_vertices);
+  const double K = (std::min)(double(number_of_eigenvectors), n), coarse_K = (std::min)(K, N);
+  const double fine_pairs = 8 * n * K;
+  const double fine = pairs_are_known ? fine_pairs : internal::memory_of_eigenpairs(n, K, options);
+  const double coarse = fine_pairs + internal::memory_of_eigenpairs(N, coarse_K, options);
+  return n * internal::bytes_of_mesh + (std::max)(fine, coarse);
+}
+
+/// @}
+
+} // namespace CGAL::Surface_mesh_simplification
+
+#endif // CGAL_SPECTRAL_TOOLBOX_SPECTRAL_MEMORY_ESTIMATE_H

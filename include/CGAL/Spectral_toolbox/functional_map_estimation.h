@@ -1,0 +1,146 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_TOOLBOX_FUNCTIONAL_MAP_ESTIMATION_H
+#define CGAL_SPECTRAL_TOOLBOX_FUNCTIONAL_MAP_ESTIMATION_H
+
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
+
+#include <Eigen/Core>
+
+/*!
+\file
+Finding the map between two shapes: functional maps from descriptors, and their refinement.
+Directions and units as in vertex_maps.h; these functions need eigenpairs of both meshes **at unit
+area** (or of two meshes of one area).
+*/
+
+namespace CGAL::Spectral_geometry {
+
+/// \addtogroup PkgSpectralMeshSimplificationTransfer
+/// @{
+
+/*!
+returns the operator \f$ \Omega_f = \Phi^\top W_f \Phi \f$ with
+\f[ (W_f g)_v = \int \psi_v \, n \cdot (\nabla f \times \nabla g)
+             = \sum_{(v_1, v_2, v_3) \ni v}
+               \frac{(f_2 - f_1)(g_3 - g_1) - (f_3 - f_1)(g_2 - g_1)}{6} \f]
+for linear elements with hat functions \f$ \psi_v \f$. A map that keeps f and the orientation
+commutes with it, one that mirrors the surface changes its sign: the term that tells left from right
+(Ren, Poulenard, Wonka and Ovsjanikov 2018). It depends on the triangles, not on the positions.
+
+@param T the triangles, m x 3, oriented
+@param vectors \f$ \Phi \f$, n x k
+@param f one value per vertex
+@return k x k, antisymmetric on a closed mesh
+*/
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd orientation_operator(const Eigen::MatrixXi& T,
+                                                                  const Eigen::MatrixXd& vectors,
+                                                                  const Eigen::VectorXd& f);
+
+/// what `functional_map_of_descriptors()` weighs, relative to the preservation of the descriptors.
+struct Functional_map_weights
+{
+  /// of \f$ \|C \Lambda_X - \Lambda_Y C\|^2 \f$ with eigenvalues divided by the largest
+  double commutativity = 1e-1;
+  /// of \f$ \sum_i \|C \Gamma_i^X - \Gamma_i^Y C\|^2 \f$ with the multiplication by the i-th
+  /// descriptor as operator (Nogneng and Ovsjanikov 2017), on average over the descriptors
+  double multiplication = 1e-1;
+  /// of \f$ \sum_i \|C \Omega_i^X - \Omega_i^Y C\|^2 \f$, see `orientation_operator()`, on average
+  /// over the descriptors
+  double orientation = 1e-1;
+};
+
+/// a mesh of unit area as functional maps see it.
+struct Spectral_shape
+{
+  Eigen::MatrixXi T;   ///< triangles, m x 3
+  Laplace_operator op; ///< at unit area
+  Eigenpairs pairs;    ///< at unit area
+};
+
+/*!
+returns the functional map \f$ C_{X,Y} \f$ between the first modes of two shapes that best keeps
+pairs of descriptors \f$ f_i, g_i \f$ with coefficients \f$ a_i, b_i \f$ in the two bases: the
+minimiser of
+\f[ \frac1d \sum_i \frac{2 \|C a_i - b_i\|^2}{\|a_i\|^2 + \|b_i\|^2} + w_L \|C \Lambda_X - \Lambda_Y
+C\|^2
+    + \frac{w_M}{d} \sum_i \|C \Gamma_i^X - \Gamma_i^Y C\|^2 + \frac{w_O}{d} \sum_i \|C \Omega_i^X -
+\Omega_i^Y C\|^2 \f]
+(Ovsjanikov et al. 2012; Nogneng and Ovsjanikov 2017; Ren et al. 2018), a
+linear system of the size of C. Pairs of operators are scaled to the norm \f$ \sqrt k \f$.
+
+@param X, Y source and target, at unit area
+@param f, g descriptors, n_X x d and n_Y x d, column i of both being the same function of the
+surface. Times and energies must be the same for both shapes. Their scale does not matter
+@param k number of modes; time grows with \f$ k^6 \f$: 20 to 30 are usual
+@param weights of the terms; with none of multiplication and orientation the rows of C are
+independent and few descriptors leave it underdetermined, which commutativity then decides
+@return k x k
+
+Throws `std::invalid_argument` if sizes do not match, `std::runtime_error` if the system is singular
+up to rounding.
+*/
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd
+functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
+                              const Eigen::MatrixXd& f, const Eigen::MatrixXd& g, Eigen::Index k,
+                              const Functional_map_weights& weights = {});
+
+/*!
+returns the orthogonal matrix nearest to a functional map in the Frobenius norm, \f$ U V^\top \f$ of
+\f$ C = U S V^\top \f$ (orthogonal Procrustes): a map between surfaces that keeps areas has an
+orthogonal one (Ovsjanikov et al. 2012).
+
+@param C square
+
+Throws `std::invalid_argument` if it is not.
+*/
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C);
+
+/*!
+refines a functional map by spectral up-sampling: ZoomOut (Melzi, Ren, Rodola, Sharma, Wonka and
+Ovsjanikov 2019). The map of k modes gives a map of points, that one a functional map of k + `step`
+modes, until `last` modes are reached.
+
+Points are taken from the faces of X, not only from its vertices, see `target_to_source_points()`:
+on coarse meshes the rounding to vertices would be the largest error.
+
+@param C \f$ C_{X,Y} \f$ to start from, k x k
+@param X, Y source and target
+@param last number of modes to end with, at least k, at most what both shapes have
+@param step at least 1
+@param threads of the searches
+@return \f$ C_{X,Y} \f$, `last` x `last`. It is that of a map of points, also when k is `last`
+already
+*/
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X,
+                                                      const Spectral_shape& Y, Eigen::Index last,
+                                                      Eigen::Index step = 1, int threads = 1);
+
+/*!
+returns the scores \f$ K_Y B_Y \Pi K_X = \Psi e^{-t \Lambda_Y} C e^{-t \Lambda_X} \Phi^\top \f$ of
+the Product Manifold Filter with heat kernels (Vestner et al. 2017): entry (y, x) says how much of
+the neighbourhood of y the map that C stands for puts near x. One iteration of the filter is the
+permutation of largest total score, and the `C` of that permutation the next map.
+
+@param C \f$ C_{X,Y} \f$ of the present map
+@param X, Y source and target
+@param time \f$ t \f$ at unit area, at least 0: the width of the kernels is about \f$ \sqrt{2 t} \f$
+@return n_Y x n_X
+*/
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd product_manifold_scores(const Eigen::MatrixXd& C,
+                                                                     const Spectral_shape& X,
+                                                                     const Spectral_shape& Y,
+                                                                     double time);
+
+/// @}
+
+} // namespace CGAL::Spectral_geometry
+
+#ifndef CGAL_SPECTRAL_TOOLBOX_COMPILED
+#include <CGAL/Spectral_toolbox/internal/functional_map_estimation_impl.h>
+#endif
+
+#endif // CGAL_SPECTRAL_TOOLBOX_FUNCTIONAL_MAP_ESTIMATION_H
