@@ -7,7 +7,7 @@
 #
 # What the formatter does not see to, in the files of the project in the folder SOURCE:
 # - no comment begins with "Of", "The same" or "Those": it has a subject;
-# - no line of C++ has more than 100 characters, but for one that includes a file. The viewer of a report is JavaScript.
+# - no line of C++ has more than 100 characters, but for one that includes a file.
 set -eu
 cd "$1"
 status=0
@@ -47,7 +47,7 @@ fi
 
 # Bytes that continue a character of UTF-8 do not count.
 # shellcheck disable=SC2016
-found=$(sources | grep -v '/shape_view_script\.h$' | LC_ALL=C xargs awk '
+found=$(sources | LC_ALL=C xargs awk '
   { line = $0; gsub(/[\200-\277]/, "", line) }
   length(line) > 100 && line !~ /^ *# *(include |if __has_include)/ { print FILENAME ":" FNR ": " length(line) " characters" }')
 if [ -n "$found" ]; then

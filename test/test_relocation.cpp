@@ -80,22 +80,22 @@ double volume(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
 
 // What the guards promise and is not so; empty if all is well.
 std::string broken_guard(const Simplified_mesh& s, const Eigen::MatrixXd& V,
-                         const SG::Relocation_options& options = {})
+                         const SG::internal::Relocation_limits& limits = {})
 {
   const Eigen::MatrixXi& T = s.coarse.T;
   for(Eigen::Index f = 0; f < T.rows(); ++f) {
-    if(normal(V, T, f).dot(normal(s.coarse.V, T, f)) < std::cos(options.largest_turn) - 1e-9)
+    if(normal(V, T, f).dot(normal(s.coarse.V, T, f)) < std::cos(limits.largest_turn) - 1e-9)
       return "a triangle has turned";
     if(smallest_angle(V, T, f) <
-       (options.smallest_angle_ratio - 1e-6) * smallest_angle(s.coarse.V, T, f))
+       (limits.smallest_angle_ratio - 1e-6) * smallest_angle(s.coarse.V, T, f))
       return "an angle has become too small";
   }
   const auto area = [](const Eigen::MatrixXd& W, const Eigen::MatrixXi& F) {
     return SG::laplace_operator(W, F).mass.sum();
   };
   const double before = area(s.coarse.V, T), fine = area(s.fine.V, s.fine.T), now = area(V, T);
-  if(now < (std::min)(before, fine) - options.size_tolerance * before ||
-     now > (std::max)(before, fine) + options.size_tolerance * before)
+  if(now < (std::min)(before, fine) - limits.size_tolerance * before ||
+     now > (std::max)(before, fine) + limits.size_tolerance * before)
     return "the area is neither that of the coarse mesh nor nearer to that of the fine one";
   const Eigen::MatrixXd anchors = s.P * s.fine.V;
   Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()), count = length;
@@ -106,7 +106,7 @@ std::string broken_guard(const Simplified_mesh& s, const Eigen::MatrixXd& V,
         count(T(f, k)) += 1;
       }
   for(Eigen::Index v = 0; v < V.rows(); ++v) // on a border edges are counted once or twice
-    if((V.row(v) - anchors.row(v)).norm() > 1.2 * options.trust_radius * length(v) / count(v))
+    if((V.row(v) - anchors.row(v)).norm() > 1.2 * limits.trust_radius * length(v) / count(v))
       return "vertex " + std::to_string(v) + " has left its ball";
   if(!SG::internal::self_intersecting_faces(V, T).empty())
     return "the mesh intersects itself";
@@ -236,13 +236,14 @@ TEST_CASE("guards without room end the descent")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()})
     for(const double turn : {1e-300, 1e-9, 1e-3}) {
-      SG::Relocation_options options;
-      options.largest_turn = turn;
-      options.smallest_angle_ratio = 1;
-      options.trust_radius = turn;
-      options.size_tolerance = turn;
-      SG::Relocation_result result;
-      const Eigen::MatrixXd V = relocated(*s, result, options);
+      SG::internal::Relocation_limits limits;
+      limits.largest_turn = turn;
+      limits.smallest_angle_ratio = 1;
+      limits.trust_radius = turn;
+      limits.size_tolerance = turn;
+      Eigen::MatrixXd V = s->coarse.V;
+      SG::internal::relocate_within(V, s->coarse.T, s->P, s->fine, s->F(), s->Z(), 0.5, {}, {},
+                                    limits);
       CHECK(V.allFinite());
       for(Eigen::Index f = 0; f < s->coarse.T.rows(); ++f)
         CHECK(normal(V, s->coarse.T, f).dot(normal(s->coarse.V, s->coarse.T, f)) >
@@ -314,14 +315,15 @@ TEST_CASE("two sheets that nearly touch do not pass through each other")
   P.setFromTriplets(entries.begin(), entries.end());
   SG::Relocation_options options;
   options.signals = Signals::carried;
-  options.size_tolerance = 0.5; // there is hardly any volume between the sheets
+  SG::internal::Relocation_limits limits;
+  limits.size_tolerance = 0.5; // there is hardly any volume between the sheets
   Eigen::MatrixXd free = V, guarded = V;
   options.keep_free_of_self_intersections = false;
-  SG::relocate_positions(free, T, P, fine, F, Z, 0.5, fixed, options);
+  SG::internal::relocate_within(free, T, P, fine, F, Z, 0.5, fixed, options, limits);
   REQUIRE(!SG::internal::self_intersecting_faces(free, T).empty());
   options.keep_free_of_self_intersections = true;
   const SG::Relocation_result result =
-      SG::relocate_positions(guarded, T, P, fine, F, Z, 0.5, fixed, options);
+      SG::internal::relocate_within(guarded, T, P, fine, F, Z, 0.5, fixed, options, limits);
   CHECK(SG::internal::self_intersecting_faces(guarded, T).empty());
   CHECK(result.reverted_vertices > 0);
   const bool gains = result.stop_reason != SG::Relocation_result::Stop_reason::no_gain;
@@ -348,9 +350,11 @@ TEST_CASE("a cancelled relocation leaves the positions, a spent budget ends it")
   CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps ==
         0);
   options.maximum_seconds = 1e9;
-  options.relative_decrease = 0.9;
-  CHECK(SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options).steps ==
-        10);
+  SG::internal::Relocation_limits limits;
+  limits.relative_decrease = 0.9;
+  CHECK(SG::internal::relocate_within(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options,
+                                      limits)
+            .steps == 10);
 }
 
 TEST_CASE("relocation refuses what does not belong together")
@@ -368,14 +372,14 @@ TEST_CASE("relocation refuses what does not belong together")
   };
   CHECK_THAT(refusal(s.coarse.V, s.P.transpose(), {}), ContainsSubstring("coarse x fine"));
   SG::Relocation_options options;
-  options.trust_radius = 0;
-  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("trust_radius"));
+  options.largest_distance = 0;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_distance"));
   options = {};
   options.beyond = -1;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("beyond"));
   options = {};
-  options.largest_turn = 2;
-  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_turn"));
+  options.smoothing = -1;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("smoothing"));
   Eigen::MatrixXd V = s.coarse.V;
   V.row(s.coarse.T(3, 0)) = V.row(s.coarse.T(3, 1));
   CHECK_THAT(refusal(V, s.P, {}), ContainsSubstring("face") && ContainsSubstring("no area"));

@@ -41,23 +41,6 @@ struct Relocation_options
 
   /// tau lambda_K of `Relocation_energy`. 0 leaves the plain metric E, half as much work.
   double smoothing = 1;
-  /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E
-  /// lies in modes that the norms do not see: a large weight costs them their gain, with none E may
-  /// rise to a multiple.
-  double plain = 0.03;
-
-  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident
-  /// edge, or as far as it starts, where that is more. Positive.
-  double trust_radius = 0.5;
-  /// No triangle's smallest angle falls below this part of what it was. In [0, 1].
-  double smallest_angle_ratio = 0.5;
-  /// No triangle turns its normal further than this from where it was, radians. In ]0, pi/2].
-  double largest_turn = CGAL_PI / 3;
-  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine
-  /// mesh (where these are further apart, no more than a tenth from those of the coarse one), give
-  /// or take this part. Positive. The spectra are compared at the scale of the meshes as they are,
-  /// which brings the area near that of the fine mesh by itself.
-  double size_tolerance = 0.03;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
   /// Refuses steps after which a vertex of the fine mesh would be further from the coarse one than
@@ -79,8 +62,6 @@ struct Relocation_options
   /// Number of threads; from 1. The result does not depend on it.
   int threads = 1;
 
-  /// Ends when ten steps lower the objective by less than this part.
-  double relative_decrease = 0.005;
   /// Ends after so many steps; one step is a value and a gradient, seldom two.
   int maximum_steps = 40;
   /// Ends after so much time.
@@ -94,8 +75,7 @@ struct Relocation_result
 {
   /// Why the descent ended.
   enum class Stop_reason {
-    converged,  ///< ten steps lowered the objective by less than
-                ///< `Relocation_options::relative_decrease`
+    converged,  ///< ten steps lowered the objective by less than half a percent
     no_descent, ///< no step that the guards allow lowers it
     no_gain,    ///< the norm after it was no better than before: everything is as it was
     steps,      ///< `Relocation_options::maximum_steps`
@@ -107,7 +87,7 @@ struct Relocation_result
   {
     std::size_t fixed =
         0; ///< never moved: kept by the caller, or boundary vertices that have to stay
-    std::size_t trust = 0;    ///< by `Relocation_options::trust_radius`
+    std::size_t trust = 0;    ///< by the ball around (P V)_w in which it stays
     std::size_t boundary = 0; ///< by the end of the boundary that they slide along
     std::size_t sheet =
         0; ///< because their closest point would have leapt to another sheet of the fine surface
@@ -151,22 +131,38 @@ struct Relocation_result
 
 namespace internal {
 
+/// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies
+/// in modes that the norms do not see: a large weight costs them their gain. With none E rose to
+/// twelve times what it was on falconstatue; with this it falls on seven of eight meshes.
+constexpr double weight_of_plain_energy = 0.03;
+
+/// What no vertex and no triangle may do while vertices are relocated, and when the descent ends.
+struct Relocation_limits
+{
+  /// A vertex stays in the ball around (P V)_w whose radius is this many times its mean incident
+  /// edge, or as far as it starts, where that is more: beyond it its signals are another place's.
+  double trust_radius = 0.5;
+  /// No triangle's smallest angle falls below this part of what it was.
+  double smallest_angle_ratio = 0.5;
+  /// No triangle turns its normal further than this from where it was, radians.
+  double largest_turn = CGAL_PI / 3;
+  /// Total area, and the volume of a closed mesh, stay between those of the coarse and of the fine
+  /// mesh (where these are further apart, no more than a tenth from those of the coarse one), give
+  /// or take this part. The spectra are compared at the scale of the meshes as they are, which
+  /// brings the area near that of the fine mesh by itself.
+  double size_tolerance = 0.03;
+  /// The descent ends when ten steps lower the objective by less than this part.
+  double relative_decrease = 0.005;
+};
+
 inline void check_relocation_options(const Relocation_options& o)
 {
-  require(o.smoothing >= 0 && o.plain >= 0 && std::isfinite(o.smoothing) && std::isfinite(o.plain),
-          "relocation: smoothing and plain must be numbers from 0.");
+  require(o.smoothing >= 0 && std::isfinite(o.smoothing),
+          "relocation: smoothing must be a number from 0.");
   require(o.modes >= 0, "relocation: modes is ", o.modes, ", use a number from 0.");
   require(o.beyond >= 0 && o.beyond <= 10, "relocation: beyond must lie in [0, 10], but is ",
           o.beyond, ".");
-  require(o.trust_radius > 0 && o.size_tolerance > 0 && o.largest_distance > 0 &&
-              o.relative_decrease > 0,
-          "relocation: trust_radius, size_tolerance, largest_distance and relative_decrease must "
-          "be positive.");
-  require(o.smallest_angle_ratio >= 0 && o.smallest_angle_ratio <= 1,
-          "relocation: smallest_angle_ratio must lie in [0, 1], but is ", o.smallest_angle_ratio,
-          ".");
-  require(o.largest_turn > 0 && o.largest_turn <= CGAL_PI / 2,
-          "relocation: largest_turn must lie in ]0, pi/2], but is ", o.largest_turn, ".");
+  require(o.largest_distance > 0, "relocation: largest_distance must be positive.");
   require(o.threads >= 1, "relocation: threads must be a number from 1, but is ", o.threads, ".");
 }
 

@@ -62,6 +62,17 @@ relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
 
 /// @}
 
+namespace internal {
+
+/// Relocates within other limits; the arguments have been checked.
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
+relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+                const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                const Local_operator& op, const std::vector<bool>& fixed,
+                const Relocation_options& options, const Relocation_limits& limits);
+
+} // namespace internal
+
 } // namespace CGAL::Spectral_geometry
 
 #ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED

@@ -48,17 +48,17 @@ public:
   using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   Relocation_guards(const Positions& V, const Eigen::MatrixXi& T, const Positions& anchors,
-                    const Relocation_options& options)
+                    const Relocation_limits& limits, const int threads)
     : m_T(T)
     // The rounding of what is legal only just must not make the start illegal; nor below.
-    , m_largest_turn_cosine((std::min)(std::cos(options.largest_turn), 1 - 1e-12))
+    , m_largest_turn_cosine((std::min)(std::cos(limits.largest_turn), 1 - 1e-12))
     , m_anchors(anchors)
     , m_fixed(std::size_t(V.rows()), false)
     , m_boundary(std::size_t(V.rows()))
     , m_held_by(std::size_t(V.rows()))
     , m_radius(V.rows())
     , m_smallest_angle(T.rows())
-    , m_threads(options.threads)
+    , m_threads(threads)
   {
     Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()),
                     count = Eigen::VectorXd::Zero(V.rows());
@@ -72,10 +72,10 @@ public:
         }
       }
       m_normal.push_back(normal_of(f, V).normalized());
-      m_smallest_angle(f) = (options.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+      m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
     }
     for(Eigen::Index v = 0; v < V.rows(); ++v)
-      m_radius(v) = (std::max)(options.trust_radius * length(v) / (std::max)(count(v), 1.),
+      m_radius(v) = (std::max)(limits.trust_radius * length(v) / (std::max)(count(v), 1.),
                                (V.row(v) - m_anchors.row(v)).norm());
   }
 

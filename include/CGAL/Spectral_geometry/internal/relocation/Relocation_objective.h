@@ -156,7 +156,7 @@ public:
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
     if(tau > 0 && m_S.plain_part() > 0) {
-      m_S.set_mu(options.plain * m_S.smoothed_part() / m_S.plain_part());
+      m_S.set_mu(weight_of_plain_energy * m_S.smoothed_part() / m_S.plain_part());
       m_scale = m_S.value(start);
     }
   }

@@ -39,8 +39,10 @@ public:
   Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
              const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
              const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
-             const std::vector<bool>& fixed, const Relocation_options& options)
+             const std::vector<bool>& fixed, const Relocation_options& options,
+             const Relocation_limits& limits)
     : m_options(options)
+    , m_limits(limits)
     , m_start(V)
     , m_T(T)
     , m_fine(fine)
@@ -48,8 +50,8 @@ public:
     , m_F(F)
     , m_Z(Z)
     , m_op(op)
-    , m_guards(m_start, T, Positions(P * fine.V), m_options)
-    , m_size(T, m_start, fine, options.size_tolerance)
+    , m_guards(m_start, T, Positions(P * fine.V), limits, options.threads)
+    , m_size(T, m_start, fine, limits.size_tolerance)
     , m_coarse{m_start, T}
     , m_regions(m_coarse, fine, P)
   {
@@ -90,7 +92,7 @@ public:
         break;
       }
       if(++result.steps % 10 == 0) {
-        if(descent.value() > (1 - m_options.relative_decrease) * last) {
+        if(descent.value() > (1 - m_limits.relative_decrease) * last) {
           result.stop_reason = Reason::converged;
           break;
         }
@@ -278,6 +280,7 @@ private:
   }
 
   Relocation_options m_options;
+  Relocation_limits m_limits;
   Positions m_start;
   Eigen::MatrixXi m_T;
   const Mesh_matrices& m_fine;
@@ -298,6 +301,18 @@ private:
   std::size_t m_reverted = 0;          // vertices that went back, and stay
 };
 
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
+relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+                const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                const Local_operator& op, const std::vector<bool>& fixed,
+                const Relocation_options& options, const Relocation_limits& limits)
+{
+  Relocation_result result;
+  Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
+  V = relocation.run(result);
+  return result;
+}
+
 } // namespace internal
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
@@ -317,10 +332,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
           "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
           " vertices; pass one for each, or none.");
   internal::check_relocation_options(options);
-  Relocation_result result;
-  internal::Relocation relocation(V, T, P, fine, F, Z, op, fixed, options);
-  V = relocation.run(result);
-  return result;
+  return internal::relocate_within(V, T, P, fine, F, Z, op, fixed, options, {});
 }
 
 } // namespace CGAL::Spectral_geometry
