@@ -15,6 +15,16 @@ if(TARGET make_demo_shape)
     add_test(NAME "${example}" COMMAND ${example} "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/${example}.ply" 400)
     set_tests_properties("${example}" PROPERTIES LABELS examples FIXTURES_REQUIRED shape)
   endforeach()
+  set(mesh_types surface_mesh polyhedron)
+  if(TARGET OpenMeshCore)
+    list(APPEND mesh_types openmesh)
+  endif()
+  foreach(type IN LISTS mesh_types)
+    add_test(NAME "edge_collapse_spectral_swap-${type}"
+             COMMAND edge_collapse_spectral_swap "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/swap_${type}.off" 600 ${type})
+    set_tests_properties("edge_collapse_spectral_swap-${type}" PROPERTIES LABELS examples FIXTURES_REQUIRED shape
+                         PASS_REGULAR_EXPRESSION "with Garland-Heckbert 600 .*P is 600 x [0-9]+, [1-9][0-9]* vertices were relocated")
+  endforeach()
   set_tests_properties("edge_collapse_spectral" PROPERTIES PASS_REGULAR_EXPRESSION "is 400 x [0-9]+")
   set_tests_properties("edge_collapse_spectral_attributes" PROPERTIES PASS_REGULAR_EXPRESSION
                        "normals are [0-9]\\.[0-9]+ degrees .*red is [0-9]\\.[0-9]+ of 255 .* (9[0-9].*|100) % of the labels.*P differ by (0|[0-9.]+e-1[0-9]) at most")

@@ -40,7 +40,7 @@ case "${1:-}" in
   *) stop "'$1' is unknown: test/run-all.sh runs every test, test/run-all.sh --browser those of the page." ;;
 esac
 install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libspectra-dev libboost-dev \
-  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev \
+  libboost-program-options-dev nlohmann-json3-dev libsuitesparse-dev liblemon-dev libopenmesh-dev \
   pybind11-dev python3-dev python3-numpy python3-scipy python3-venv python3-setuptools python3-wheel python3-pybind11 python3-pandas \
   python3-nibabel python3-meshio python3-distributed python3-matplotlib catch2 ||
   stop "The tests were not run: packages are missing."

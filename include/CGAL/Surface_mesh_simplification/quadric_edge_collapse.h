@@ -85,7 +85,7 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
 template <class TriangleMesh, class Report, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
 collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                     const std::vector<char>& kept, const bool border_is_apart,
+                     const std::vector<char>& kept, const bool border_is_apart, const bool binary,
                      const bool keep_free_of_self_intersections, const Report& report,
                      const NamedParameters& np)
 {
@@ -106,6 +106,7 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
   arrays.fixed = fixed_vertex_flags(mesh, kept, np);
   arrays.border_is_apart = border_is_apart;
+  arrays.binary = binary;
   report(std::size_t(arrays.V.rows()));
   Collapse_log log = quadric_collapses(std::move(arrays), keep_free_of_self_intersections,
                                        number_of_vertices, report);
@@ -184,8 +185,9 @@ quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
       throw Spectral_geometry::Cancelled();
   };
   Quadric_edge_collapse_result result;
-  auto [log, slots] = internal::collapse_by_quadrics(
-      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), false, true, report, np);
+  auto [log, slots] = internal::collapse_by_quadrics(mesh, number_of_vertices,
+                                                     internal::kept_vertex_flags(mesh, {}, np),
+                                                     false, false, true, report, np);
   internal::set_restriction(result, std::move(log), slots);
   return result;
 }

@@ -12,12 +12,16 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_post_process.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/run_explanations.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
+<<<<<<< HEAD
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
+=======
+>>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
@@ -28,6 +32,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -42,20 +47,81 @@ namespace internal {
 
 using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
-/// Runs the loop with the constraint map, filter and visitor that the user gave, if any. Returns
-/// what has ended it unless that was the target.
-template <class TriangleMesh, class Policies, class NamedParameters>
+/// A visitor of the user's over several runs of the loop, which it sees as one.
+template <class UserVisitor>
+class Visitor_of_runs
+{
+public:
+  explicit Visitor_of_runs(const UserVisitor& user)
+    : m_user(user)
+  {}
+
+  template <class TriangleMesh>
+  void OnStarted(TriangleMesh& mesh)
+  {
+    if(!std::exchange(m_started, true))
+      user().OnStarted(mesh);
+  }
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh&)
+  {}
+  /// After the last run.
+  template <class TriangleMesh>
+  void finish(TriangleMesh& mesh)
+  {
+    user().OnFinished(mesh);
+  }
+  template <class... T>
+  void OnStopConditionReached(T&&... t)
+  {
+    user().OnStopConditionReached(std::forward<T>(t)...);
+  }
+  template <class... T>
+  void OnCollected(T&&... t)
+  {
+    user().OnCollected(std::forward<T>(t)...);
+  }
+  template <class... T>
+  void OnSelected(T&&... t)
+  {
+    user().OnSelected(std::forward<T>(t)...);
+  }
+  template <class... T>
+  void OnCollapsing(T&&... t)
+  {
+    user().OnCollapsing(std::forward<T>(t)...);
+  }
+  template <class... T>
+  void OnCollapsed(T&&... t)
+  {
+    user().OnCollapsed(std::forward<T>(t)...);
+  }
+  template <class... T>
+  void OnNonCollapsable(T&&... t)
+  {
+    user().OnNonCollapsable(std::forward<T>(t)...);
+  }
+
+private:
+  auto& user() { return std::ref(m_user).get(); } // what a reference_wrapper refers to
+
+  UserVisitor m_user;
+  bool m_started = false;
+};
+
+/// Runs the loop with the constraint map and filter that the user gave, if any. Returns what has
+/// ended it unless that was the target.
+template <class TriangleMesh, class Policies, class Visitor, class NamedParameters>
 Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& policies,
                                        const std::size_t target, const double maximum_error,
-                                       const NamedParameters& np)
+                                       Visitor& user, const NamedParameters& np)
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
   constexpr bool has_constraints =
       !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
 
-  const auto visitor =
-      policies.visitor(choose_parameter(get_parameter(np, internal_np::visitor), Dummy_visitor()));
+  const auto visitor = policies.visitor(std::ref(user));
   const auto common = parameters::visitor(visitor)
                           .vertex_point_map(policies.state().vertex_point_map())
                           .geom_traits(policies.state().geom_traits());
@@ -83,40 +149,10 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
     return run(policies.get_placement(), common);
 }
 
-inline Eigen::Index number_of_components(const Spectral_geometry::Mesh_matrices& mesh)
-{
-  const std::vector<Eigen::Index> component =
-      Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
-  return *std::max_element(component.begin(), component.end()) + 1;
-}
-
 template <class TriangleMesh, class NamedParameters>
 Eigen::Index number_of_components(const TriangleMesh& mesh, const NamedParameters& np)
 {
   return number_of_components(Spectral_geometry::mesh_matrices(mesh, np));
-}
-
-/// Why a mesh that has run out of edges cannot be reduced further.
-inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrices& mesh,
-                                           const Spectral_edge_collapse_result& result,
-                                           const std::size_t wanted)
-{
-  using namespace Spectral_geometry::internal;
-  const Eigen::Index components = number_of_components(mesh);
-  using std::to_string;
-  return "The mesh stopped at " + to_string(result.output_vertices) + " vertices instead of " +
-         to_string(wanted) + " because every edge left was refused (topology " +
-         to_string(result.refusals.topology) + ", geometry " + to_string(result.refusals.geometry) +
-         ", filter " + to_string(result.refusals.filter) + ", placement " +
-         to_string(result.refusals.placement) + " times" +
-         (result.refusals.crossing == 0 ? ""
-                                        : "; " + to_string(result.refusals.crossing) +
-                                              " times so that no face goes through another, as "
-                                              "keep_free_of_self_intersections asks") +
-         "; constrained edges are never collapsed): it has " + to_string(components) +
-         (components == 1 ? " component" : " components") +
-         ", each of which needs at least 3 (open) or 4 (closed) vertices, and " +
-         to_string(boundary_edges(mesh.T).size()) + " border edges.";
 }
 
 /// The policies of the second stage. What they refuse here is the mesh that the first one has left:
@@ -200,21 +236,9 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals =
       std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
-  if(const auto pairs = policies.eigenpairs(); pairs && !pairs->complete &&
-                                               pairs->residuals.size() != 0 &&
-                                               pairs->residuals.maxCoeff() > 1e-3)
-    result.warnings.push_back(
-        "The eigenpairs of the input did not reach their tolerance, the largest residual is " +
-        std::to_string(pairs->residuals.maxCoeff()) +
-        ": its triangles are of too different sizes for doubles; remesh it.");
-  if(Eigen::Index(target) < 3 * K && !std::isfinite(options.maximum_error))
-    result.warnings.push_back(
-        "The target of " + std::to_string(target) +
-        " vertices is less than 3 K = " + std::to_string(3 * K) +
-        "; the upper part of the spectrum will not be preserved (section 4.3 of the paper)" +
-        (Eigen::Index(result.signals) < K
-             ? ", and the metric saw the first " + std::to_string(result.signals) + " eigenvectors."
-             : "."));
+  warn_of_eigenpairs(result.warnings, policies.eigenpairs().get());
+  if(!std::isfinite(options.maximum_error))
+    warn_of_target(result.warnings, target, K, Eigen::Index(result.signals));
 
   collapse_ahead_by_quadrics(mesh, policies, target, options, np, result);
   Real_timer timer;
@@ -223,10 +247,14 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   // An edge that was given up because of another sheet is not asked for again when that sheet
   // changes: once more, while that removes a hundredth of the vertices.
   bool again = true;
+  Visitor_of_runs user(std::decay_t<decltype(parameters::choose_parameter(
+                           parameters::get_parameter(np, internal_np::visitor), Dummy_visitor()))>(
+      parameters::choose_parameter(parameters::get_parameter(np, internal_np::visitor),
+                                   Dummy_visitor())));
   try {
     for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
         before = state.number_of_vertices()) {
-      end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, np);
+      end = run_spectral_edge_collapse(mesh, policies, target, options.maximum_error, user, np);
       again = end == Stop_reason::queue_exhausted && state.core().number_of_crossings() != 0 &&
               state.number_of_vertices() > target &&
               state.number_of_vertices() < before - before / 100;
@@ -236,6 +264,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
       throw;
     end = Stop_reason::cancelled; // while first costs were evaluated, after collapses
   }
+  user.finish(mesh);
   result.seconds_collapse = timer.time();
   result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
@@ -249,8 +278,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     if(end == Stop_reason::cancelled)
       set_cancelled(result);
     else if(end == Stop_reason::queue_exhausted)
-      result.explanation =
-          explain_exhausted_queue(Spectral_geometry::mesh_matrices(mesh, np), result, target);
+      result.explanation = explain_exhausted_queue(Spectral_geometry::mesh_matrices(mesh, np),
+                                                   result.refusals, target);
   }
   result.eigenpairs = policies.eigenpairs();
   std::vector<Eigen::Index> slots = state.current_slots();

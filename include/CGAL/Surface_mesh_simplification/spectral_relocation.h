@@ -5,10 +5,13 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
 
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Run_signals.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/operators/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -18,7 +21,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
@@ -64,6 +71,105 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   return result;
 }
 
+/// What the collapses have left, in P, in the rows that are flagged; the rest from `own`.
+template <class Flags>
+void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<double>& P,
+               const Flags& kept)
+{
+  Eigen::SparseMatrix<double> carried = P;
+  carried.prune(
+      [&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
+  own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
+  own += carried;
+}
+
+/// A vertex of the border has its row of P from the closest point of the border, among the loops
+/// that its row in `carried` came from; where it came from none its row stays.
+inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
+                                       const Eigen::SparseMatrix<double>& carried,
+                                       const Spectral_geometry::Mesh_matrices& fine,
+                                       const Spectral_geometry::Mesh_matrices& coarse)
+{
+  using namespace Spectral_geometry::internal;
+  const auto segments = boundary_edges(fine.T);
+  if(segments.empty())
+    return;
+  const auto joined = [&](const auto& join) {
+    for(const auto& [i, j] : segments)
+      join(i, j);
+  };
+  const std::vector<Eigen::Index> loop = connected_components(fine.V.rows(), joined);
+  const std::vector<char> fine_border = border_vertices(fine.T, fine.V.rows());
+  std::vector<char> on_border = border_vertices(coarse.T, coarse.V.rows());
+  std::vector<std::set<Eigen::Index>> own(std::size_t(coarse.V.rows())); // loops
+  for(Eigen::Index j = 0; j < carried.cols(); ++j)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(carried, j); it; ++it)
+      if(fine_border[std::size_t(j)] && it.value() > 0)
+        own[std::size_t(it.row())].insert(loop[std::size_t(j)]);
+  std::vector<Eigen::Triplet<double>> entries;
+  for(std::size_t w = 0; w < own.size(); ++w) {
+    on_border[w] = on_border[w] && !own[w].empty();
+    if(!on_border[w])
+      continue;
+    const Eigen::Vector3d p = coarse.V.row(Eigen::Index(w));
+    double least = std::numeric_limits<double>::infinity(), weight = 0;
+    std::pair<int, int> best;
+    for(const auto& [i, j] : segments) {
+      if(own[w].count(loop[std::size_t(i)]) == 0)
+        continue;
+      const Eigen::Vector3d a = fine.V.row(i), b = fine.V.row(j);
+      const double t = projected_edge_weight(a, b, p);
+      const double distance = (a + t * (b - a) - p).squaredNorm();
+      if(distance < least) {
+        least = distance;
+        weight = t;
+        best = {i, j};
+      }
+    }
+    if(weight < 1)
+      entries.emplace_back(int(w), best.first, 1 - weight);
+    if(weight > 0)
+      entries.emplace_back(int(w), best.second, weight);
+  }
+  Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  P.prune(
+      [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
+  P += rows;
+}
+
+/// Relocation after the collapses of a run, whose P leads to `mesh`: signals, mass, operator and
+/// what must stay are those of the run. `coefficients`: of the operator of `mesh`, or none.
+template <class TriangleMesh, class State, class NamedParameters>
+Spectral_geometry::Relocation_result
+relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_options& options,
+                         const Eigen::SparseMatrix<double>& P,
+                         const Spectral_geometry::Operator_coefficients& coefficients,
+                         Spectral_geometry::Relocation_options relocation, std::vector<bool> fixed,
+                         const NamedParameters& np)
+{
+  const Run_signals signals(state, options);
+  const auto [F, Z] = signals.for_relocation();
+  relocation.modes = signals.modes();
+  relocation.threads = (std::max)(relocation.threads, options.threads);
+  Spectral_geometry::Relocation_result result =
+      relocate_mesh(mesh, P, state.fine(), F, Z, {options.mass, coefficients, options.boundary},
+                    relocation, std::move(fixed), np);
+  if(!result.resampled)
+    return result;
+  keep_border_rows_on_border(result.restriction, P, state.fine(),
+                             Spectral_geometry::mesh_matrices(mesh, np));
+  // Where the input has several points in one place, the closest may be another's.
+  if(const std::vector<bool> kept = state.kept_vertices(); !kept.empty())
+    keep_rows(result.restriction, P, kept);
+  // A vertex of the border whose closest point is an inner one goes on having 0.
+  if(options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+    keep_rows(result.restriction, P,
+              Spectral_geometry::internal::border_vertices(
+                  Spectral_geometry::mesh_matrices(mesh, np).T, P.rows()));
+  return result;
+}
+
 } // namespace internal
 
 /*!
@@ -103,6 +209,74 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
 {
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors,
                                  pairs.vectors * pairs.values.asDiagonal(), op, options, {}, np);
+}
+
+/*!
+ * The relocation that ends `spectral_edge_collapse()`, after `edge_collapse()` with the policies:
+ * signals of any kind, mass, operator, the fine mesh and P are theirs. Kept vertices stay, and so
+ * do both ends of constrained edges, where the policies were made with the map or it is given here.
+ *
+ * \code
+ * SMS::Spectral_policies spectral(mesh);
+ * SMS::edge_collapse(mesh, ...);
+ * Eigen::SparseMatrix<double> P = SMS::spectral_relocation(mesh, spectral).restriction;
+ * \endcode
+ *
+ * `Spectral_policies::restriction()` goes on to be the P of the collapses. A filter of CGAL's, a
+ * distance to the input for instance, is not asked.
+ *
+ * @param mesh     that of the policies
+ * @param policies after the collapses
+ * @param options  as above; `modes` is replaced, and a `progress` that is empty by that of the
+ * policies
+ * @param np `edge_is_constrained_map` and `vertex_is_constrained_map`, of `mesh` as it is: further
+ * vertices that stay
+ *
+ * @throws std::invalid_argument for another mesh, for `Spectral_options::binary` with signals that
+ * are `sampled`, and where a wrapper of the placement has chosen points but nobody says which edges
+ * are constrained
+ * @throws Spectral_geometry::Cancelled as above
+ */
+template <class TriangleMesh, class GeomTraits, class VertexPointMap,
+          class NamedParameters = parameters::Default_named_parameters>
+Spectral_geometry::Relocation_result
+spectral_relocation(TriangleMesh& mesh,
+                    const Spectral_policies<TriangleMesh, GeomTraits, VertexPointMap>& policies,
+                    const Spectral_geometry::Relocation_options& options = {},
+                    const NamedParameters& np = parameters::default_values())
+{
+  const auto& state = policies.state();
+  internal::require(&mesh == &state.mesh(), "spectral_relocation: the policies are those of "
+                                            "another mesh; pass the mesh that they were made for.");
+  constexpr bool has_constraints =
+      !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
+  internal::require(
+      has_constraints || state.knows_constraints() || !state.has_foreign_points(),
+      "spectral_relocation: a wrapper of the placement has chosen points, and the policies know of "
+      "no constrained edges; make them with edge_is_constrained_map, or pass it here, one that is "
+      "false everywhere if no edge is constrained.");
+  internal::require(!state.options().binary ||
+                        options.signals != Spectral_geometry::Relocation_options::Signals::sampled,
+                    "spectral_relocation: the restriction that it takes anew is not binary; set "
+                    "signals to carried.");
+  Spectral_geometry::Relocation_options relocation = options;
+  if(!relocation.progress)
+    relocation.progress = [&state](const double fraction) {
+      return state.report(Spectral_phase::relocation, fraction);
+    };
+  std::vector<bool> fixed = state.fixed_vertices();
+  const std::vector<char> further =
+      internal::fixed_vertex_flags(mesh, internal::kept_vertex_flags(mesh, {}, np), np);
+  fixed.resize((std::max)(fixed.size(), further.size()), false);
+  for(std::size_t v = 0; v < further.size(); ++v)
+    fixed[v] = fixed[v] || further[v];
+  const Eigen::SparseMatrix<double> P = policies.restriction();
+  Spectral_geometry::Operator_coefficients coefficients;
+  if(state.options().coefficients.rows() != 0)
+    coefficients = P * state.options().coefficients;
+  return internal::relocate_after_collapses(
+      mesh, state, state.options(), P, coefficients, relocation, std::move(fixed),
+      parameters::vertex_point_map(state.vertex_point_map()).geom_traits(state.geom_traits()));
 }
 
 /// @}

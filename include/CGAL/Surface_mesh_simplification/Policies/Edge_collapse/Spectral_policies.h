@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_handle.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/run_explanations.h>
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
@@ -29,6 +30,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -97,7 +99,9 @@ public:
    * @param options see `Spectral_options`
    * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets;
    *        `vertex_is_constrained_map`, a readable map from vertices to `bool`: those to be kept,
-   *        in addition to `Spectral_options::kept_vertices`. It is read here and not again
+   *        in addition to `Spectral_options::kept_vertices`; `edge_is_constrained_map`, that of
+   *        `edge_collapse()`, for `spectral_relocation()` to leave both ends of these edges in
+   *        place. Both are read here and not again
    *
    * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the
    * first offender
@@ -114,7 +118,8 @@ public:
   /// The cost that `edge_collapse()` must get, a model of `GetCost`.
   Get_cost get_cost() const { return Get_cost(shared_state()); }
 
-  /// The placement that `edge_collapse()` must get, a model of `GetPlacement`; it may be wrapped.
+  /// The placement that `edge_collapse()` must get, a model of `GetPlacement`. It may be wrapped,
+  /// see filter().
   Get_placement get_placement() const { return Get_placement(shared_state()); }
 
   /// The visitor that `edge_collapse()` must get. It also calls yours, if any; `std::ref(v)` is
@@ -127,7 +132,8 @@ public:
 
   /// Where the placement is wrapped, in `Constrained_placement` for instance, and there are
   /// vertices to keep, or no face is to go through another: the filter that `edge_collapse()` must
-  /// get. It also asks yours, if any, which is copied.
+  /// get; without it the first collapse to a point of the wrapper throws `std::logic_error`. It
+  /// also asks yours, if any, which is copied.
   template <class Filter = internal::Dummy_filter>
   Spectral_filter<State, Filter> filter(Filter user_filter = Filter()) const
   {
@@ -151,11 +157,8 @@ public:
   /// 1.
   Eigen::SparseMatrix<double> prolongation() const
   {
-    return Spectral_geometry::closest_point_prolongation(
-        state().fine(),
-        Spectral_geometry::mesh_matrices(state().mesh(),
-                                         parameters::vertex_point_map(state().vertex_point_map())),
-        restriction());
+    return Spectral_geometry::closest_point_prolongation(state().fine(), current_matrices(),
+                                                         restriction());
   }
 
   /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
@@ -174,6 +177,35 @@ public:
   /// exactly.
   double relative_error() const { return state().relative_error(); }
 
+  /// One sentence where the last run ended because every edge left was refused: the reasons, genus
+  /// and components among them, and what to do. Empty where its stop predicate ended it.
+  std::string explanation() const
+  {
+    return state().has_run_out_of_edges()
+               ? internal::explain_exhausted_queue(current_matrices(), refusals(), 0)
+               : std::string();
+  }
+
+  /// Candidates that were given up in all runs so far, by cause.
+  Spectral_refusals refusals() const { return state().refusals(); }
+
+  /// One sentence for each thing that was done but is not advised: eigenpairs that did not reach
+  /// their tolerance, a mesh of less than 3 K vertices, a relative error above one half.
+  std::vector<std::string> warnings() const
+  {
+    std::vector<std::string> result;
+    const Spectral_options& options = state().options();
+    const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols()
+                           : eigenpairs()              ? eigenpairs()->size()
+                                                       : options.number_of_eigenvectors;
+    internal::warn_of_eigenpairs(result, eigenpairs().get());
+    internal::warn_of_target(result, state().number_of_vertices(), K,
+                             options.weights.size() == 0 ? K
+                                                         : (options.weights.array() > 0).count());
+    internal::warn_of_error(result, relative_error());
+    return result;
+  }
+
   /// \cond SKIP_IN_MANUAL
   // What the handles share: for the other headers of this package, and its tests.
   std::shared_ptr<State> shared_state() const
@@ -186,6 +218,12 @@ public:
   /// \endcond
 
 private:
+  Spectral_geometry::Mesh_matrices current_matrices() const
+  {
+    return Spectral_geometry::mesh_matrices(
+        state().mesh(), parameters::vertex_point_map(state().vertex_point_map()));
+  }
+
   std::shared_ptr<State> m_state;
 };
 

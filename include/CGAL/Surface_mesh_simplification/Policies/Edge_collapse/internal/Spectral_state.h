@@ -84,6 +84,11 @@ public:
     , m_traits(parameters::choose_parameter<Geom_traits>(
           parameters::get_parameter(np, internal_np::geom_traits)))
     , m_slots(mesh, "Spectral_policies")
+    , m_options(options)
+    , m_knows_constraints(
+          !parameters::is_default_parameter<NamedParameters,
+                                            internal_np::edge_is_constrained_t>::value)
+    , m_constrained(fixed_vertex_flags(mesh, {}, np))
   {
     Real_timer timer;
     timer.start();
@@ -121,6 +126,7 @@ public:
     for(std::size_t i = 0; i < log.points().size(); ++i) {
       const Merge& m = log.forest().merges()[i];
       m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha, log.points()[i]);
+      merge_constraints(Slot(m.removed), Slot(m.kept));
     }
   }
 
@@ -137,7 +143,7 @@ public:
     auto [points, rings] = read_geometry();
     m_core.set_geometry(std::move(points), std::move(rings));
     m_positions_checked = false;
-    m_selecting = m_selection_open = false;
+    m_selecting = m_selection_open = m_stopped = false;
     m_announced.reset();
     m_answer = Answer();
     m_postponed = Postponed();
@@ -168,13 +174,18 @@ public:
     }
     close_selection();
     m_selecting = m_selection_open = true;
+    m_filter_asked = false;
     m_answer = Answer();
     m_postponed = Postponed();
     m_placement_found.reset();
   }
 
   /// \copydoc on_finished()
-  void on_stop_condition_reached() { m_selection_open = false; }
+  void on_stop_condition_reached()
+  {
+    m_selection_open = false;
+    m_stopped = true;
+  }
 
   /// \copydoc on_finished()
   void on_non_collapsable()
@@ -184,13 +195,23 @@ public:
   }
 
   /// Remembers which slots are merged, and with which weight: afterwards some mesh types have freed
-  /// the removed vertex, and the point of the kept one has changed.
+  /// the removed vertex, and the point of the kept one has changed. Throws `std::logic_error` for a
+  /// point of a wrapper that nobody has looked at: no callback but a filter can refuse it.
   template <class Profile, class OptionalPoint>
   void on_collapsing(const Profile& profile, const OptionalPoint& placement)
   {
     m_selection_open = false;
     const Slot removed = slot(profile.v0()), kept = slot(profile.v1());
     const Eigen::Vector3d point = placement ? to_vector(*placement) : m_core.fields().points[kept];
+    if(!m_filter_asked && !is_own_point(removed, kept, point)) {
+      m_has_foreign_points = true;
+      if(m_options.keep_free_of_self_intersections || !m_core.fields().kept.empty())
+        throw std::logic_error(
+            "Spectral_policies: the placement is wrapped and chose a point of its own, which may "
+            "put a face through another or move a kept vertex; pass spectral.filter() to "
+            "edge_collapse() with .filter(), or set keep_free_of_self_intersections to false and "
+            "keep no vertices.");
+    }
     m_announced = {Eigen::Index(removed), Eigen::Index(kept), weight_of(removed, kept, point)};
     if(!is_answered(removed, kept))
       m_core.postpone_no_more();
@@ -211,6 +232,7 @@ public:
     m_selecting = false;
     m_answer = Answer();
     m_postponed = Postponed();
+    merge_constraints(Slot(m.removed), kept);
     m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)),
                   ring_of(kept_vertex));
   }
@@ -257,7 +279,9 @@ public:
     if(m_core.fields().moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
     const Spectral_sample& c = answer(u, v);
-    const double value = c.collapsible() && c.point == point ? c.cost : m_core.cost_at(u, v, point);
+    const bool own = is_own_point(u, v, point);
+    m_has_foreign_points = m_has_foreign_points || !own;
+    const double value = own ? c.cost : m_core.cost_at(u, v, point);
     m_core.set_queued_cost((std::min)(u, v), (std::max)(u, v), value);
     if(!(value < double((std::numeric_limits<float>::max)())))
       return Optional_cost(largest_cost());
@@ -289,15 +313,15 @@ public:
   bool lets_through(const Profile& profile, const OptionalPoint& placement)
   {
     // CGAL has got as far as to ask, whether or not a wrapper has asked our own placement.
-    m_placement_found = true;
+    m_placement_found = m_filter_asked = true;
     if(!placement)
       return false;
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.fields().moves_kept_vertex(u, v, point))
       return false;
-    const Spectral_sample& own = answer(u, v); // which has been looked at
-    return (own.collapsible() && own.point == point) || !m_core.crosses(u, v, point);
+    answer(u, v); // which has been looked at
+    return is_own_point(u, v, point) || !m_core.crosses(u, v, point);
   }
 
   /// @}
@@ -363,6 +387,37 @@ public:
   }
   /// Counts those of the mesh as it is now.
   std::size_t number_of_vertices() const { return log().number_of_vertices_left(); }
+  /// Whether the last run ended because every edge left was refused, not by its stop predicate.
+  bool has_run_out_of_edges() const
+  {
+    return m_number_of_runs != 0 && m_run.expired() && !m_stopped;
+  }
+  /// Those of the policies, with signals and coefficients.
+  const Spectral_options& options() const { return m_options; }
+  /// Whether a wrapper of the placement has chosen points of its own.
+  bool has_foreign_points() const { return m_has_foreign_points; }
+  /// Whether a map of constrained edges was given.
+  bool knows_constraints() const { return m_knows_constraints; }
+  /// For each of `vertices(mesh)` whether it has to stay where it is after the collapses: one that
+  /// is kept, or the end of a constrained edge; none where none has.
+  std::vector<bool> fixed_vertices() const
+  {
+    std::vector<bool> fixed;
+    if(!m_core.fields().kept.empty() || !m_constrained.empty())
+      for(const Eigen::Index s : current_slots())
+        fixed.push_back(m_core.fields().is_kept(Slot(s)) ||
+                        (!m_constrained.empty() && m_constrained[std::size_t(s)]));
+    return fixed;
+  }
+  /// Those that are kept with their row of P; none where none is.
+  std::vector<bool> kept_vertices() const
+  {
+    std::vector<bool> kept;
+    if(!m_core.fields().kept.empty())
+      for(const Eigen::Index s : current_slots())
+        kept.push_back(m_core.fields().is_kept(Slot(s)));
+    return kept;
+  }
   /// Runs that were started so far.
   std::size_t number_of_runs() const { return m_number_of_runs; }
   /// The area of the input, in its own unit, weighted by the density of the operator.
@@ -463,13 +518,25 @@ private:
       throw Spectral_geometry::Cancelled();
   }
 
+  // Whether the last answer, of which nothing may have changed since, offered this point.
+  bool is_own_point(const Slot u, const Slot v, const Eigen::Vector3d& point) const
+  {
+    return is_answered(u, v) && m_answer.sample->collapsible() && m_answer.sample->point == point;
+  }
+
+  // Constrained edges go on with whichever of both handles the mesh keeps.
+  void merge_constraints(const Slot removed, const Slot kept)
+  {
+    if(!m_constrained.empty() && m_constrained[removed])
+      m_constrained[kept] = true;
+  }
+
   // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that
   // point, or its projection.
   double weight_of(const Slot removed, const Slot kept, const Eigen::Vector3d& point) const
   {
-    const Answer& a = m_answer;
-    if(is_answered(removed, kept) && a.sample->collapsible() && a.sample->point == point)
-      return a.v == removed ? a.sample->weight : 1 - a.sample->weight;
+    if(is_own_point(removed, kept, point))
+      return m_answer.v == removed ? m_answer.sample->weight : 1 - m_answer.sample->weight;
     return m_core.projected_weight(kept, removed, point);
   }
 
@@ -540,6 +607,9 @@ private:
   bool m_has_own_points; // of the mesh, not a map of the user's
   Geom_traits m_traits;
   Fine_vertex_slots<Triangle_mesh> m_slots;
+  Spectral_options m_options; // relocation needs the signals again, at all vertices
+  bool m_knows_constraints;
+  std::vector<char> m_constrained; // slots at the ends of constrained edges, or none
 
   Spectral_geometry::Mesh_matrices m_fine;
   std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
@@ -554,6 +624,9 @@ private:
   bool m_positions_checked = false;
   bool m_selecting = false;      // a placement asked for now is that of the selected candidate
   bool m_selection_open = false; // selected, and nothing has become of it yet
+  bool m_filter_asked = false;   // for it
+  bool m_stopped = false;        // the run, by its stop predicate
+  bool m_has_foreign_points = false;
   std::optional<bool> m_placement_found; // whether there was one for it; none: not asked yet
   Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;

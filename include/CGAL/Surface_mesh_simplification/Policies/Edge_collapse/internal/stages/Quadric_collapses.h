@@ -28,7 +28,8 @@ struct Triangle_arrays
   bool single_precision = false; ///< whether the mesh holds positions as `float`
   std::vector<char> fixed;       ///< a flag for each vertex that stays where it is, or nothing
   bool border_is_apart =
-      false; ///< whether a vertex of the border takes its values from vertices of the border alone
+      false; ///< whether a vertex of the border stays on it, with values of the border alone
+  bool binary = false; ///< whether a merged vertex has the values of one of both ends
 };
 
 /*!

@@ -301,6 +301,10 @@ private:
     Eigen::Vector3d x = m_mesh.fixed[at(u)] ? p : m_mesh.fixed[at(v)] ? q : sum.minimiser();
     if(!x.allFinite())
       x = (p + q) / 2;
+    if(m_mesh.border_is_apart && (is_border_vertex(u) || is_border_vertex(v)))
+      x = !is_border_vertex(v)   ? p
+          : !is_border_vertex(u) ? q
+                                 : Eigen::Vector3d(p + projected_edge_weight(p, q, x) * (q - p));
     x = x + m_origin;
     if(m_mesh.single_precision)
       x = x.cast<float>().cast<double>();
@@ -435,6 +439,8 @@ private:
                        : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
     if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
       alpha = is_border_vertex(kept) ? 0. : 1.;
+    if(m_mesh.binary)
+      alpha = alpha <= 0.5 ? 0. : 1.;
     m_log.merge(gone, kept, alpha, x + m_origin);
 
     std::vector<int>& ring = m_ring; // what is left of both

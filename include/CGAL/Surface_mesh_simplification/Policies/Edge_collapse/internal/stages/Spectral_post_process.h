@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/run_explanations.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
@@ -27,13 +28,17 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
+<<<<<<< HEAD
 /// What follows the collapses: `Spectral_edge_collapse_options::relocate`, and the error of what is
 /// left. The log, and what is replayed from it, stay as they are: they end before.
+=======
+/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`,
+/// in this order. The log, and what is replayed from it, stay as they are: they end before.
+>>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -54,18 +59,33 @@ public:
 
   void run(const Pre_simplification& first)
   {
+<<<<<<< HEAD
     set_error(m_P);
     if(!m_options.relocate || m_result.stop_reason == Result::Stop_reason::cancelled)
       return;
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
     if(has_operator_and_areas())
       relocate();
+=======
+    attempt("E of the result is not known: ", "", [&] { set_error(m_P); });
+    Spectral_geometry::Relocation_result& relocation = m_result.relocation;
+    if(m_options.relocate && !is_cancelled())
+      attempt("The vertices were not relocated: ", ", which are as the collapses left them",
+              [&] { relocate(); });
+    if(m_options.fit_operators && !is_cancelled()) {
+      Real_timer timer;
+      timer.start();
+      attempt("The operators were not fitted: ", ", before operators were fitted to them",
+              [&] { fit(relocation.resampled ? relocation.restriction : m_P); });
+      m_result.seconds_operator_fit = timer.time();
+    }
+>>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
     m_result.seconds_relocation = relocation.seconds;
-    if(m_result.relative_error > m_options.maximum_error &&
-       m_result.stop_reason != Result::Stop_reason::cancelled)
+    if(m_result.relative_error > m_options.maximum_error && !is_cancelled())
       m_result.warnings.push_back(
           "The collapses kept the error bound, but with relocation the relative error is " +
           std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
+    warn_of_error(m_result.warnings, m_result.relative_error);
     // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
     // eigenpairs.
     if(relocation.resampled)
@@ -76,9 +96,58 @@ public:
   }
 
 private:
+<<<<<<< HEAD
+=======
+  bool is_cancelled() const { return m_result.stop_reason == Result::Stop_reason::cancelled; }
+
+  // The collapses are done: whatever a stage after them throws is a warning, for the mesh and P not
+  // to be lost. What a callback of the user's throws is the user's.
+  template <class Stage>
+  void attempt(const char* const consequence, const char* const cancelled, const Stage& stage)
+  {
+    try {
+      stage();
+    } catch(const Spectral_geometry::Cancelled&) {
+      set_cancelled(m_result, cancelled);
+    } catch(const std::exception& error) {
+      if(m_thrown_by_callback)
+        throw;
+      m_result.warnings.push_back(consequence + std::string(error.what()));
+    }
+  }
+
+  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it.
+  void fit(const SpMat& P)
+  {
+    using namespace Spectral_geometry;
+    const auto progress = reporting(Spectral_phase::operator_fit);
+    const Laplace_operator coarse = coarse_operator();
+    const Laplace_operator fine = operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
+    std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
+    if(!pairs) {
+      Eigenpairs_options solver = m_options.eigenpairs_options;
+      solver.threads = (std::max)(solver.threads, m_options.threads);
+      solver.progress = [&](const double fraction) { return progress(fraction / 2); };
+      const Eigen::Index K =
+          m_result.eigenpairs ? m_result.eigenpairs->size() : m_options.number_of_eigenvectors;
+      pairs = std::make_shared<Eigenpairs>(
+          eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
+    }
+    Operator_fit_options options = m_options.operator_fit;
+    options.threads = (std::max)(options.threads, m_options.threads);
+    options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
+    m_result.fitted = fit_operators(coarse, P, fine, *pairs, options);
+  }
+
+>>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
   std::function<bool(double)> reporting(const Spectral_phase phase) const
   {
-    return [this, phase](const double fraction) { return m_state.report(phase, fraction); };
+    return [this, phase](const double fraction) {
+      m_thrown_by_callback = true;
+      const bool goes_on = m_state.report(phase, fraction);
+      m_thrown_by_callback = false;
+      return goes_on;
+    };
   }
 
   Spectral_geometry::Mesh_matrices coarse() const
@@ -99,6 +168,7 @@ private:
     return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
   }
 
+<<<<<<< HEAD
   // Whether the mesh that is left has an operator, and each face an area; warns where it has not.
   // The collapses are done: to throw would lose them.
   bool has_operator_and_areas()
@@ -115,107 +185,32 @@ private:
     return true;
   }
 
+=======
+>>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
   void relocate()
   {
-    const auto [F, Z] = signals_for_relocation();
     if(m_options.mass != Spectral_geometry::Mass::averaged)
       m_result.warnings.push_back(
           "Relocation is made for the averaged mass: in a lumped one it bends the shape "
           "to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.modes = m_state.filtered_signals() != nullptr ? m_options.number_of_eigenvectors
-                                                             : given_signals().cols();
     relocation.progress = reporting(Spectral_phase::relocation);
-    relocation.threads = (std::max)(relocation.threads, m_options.threads);
-    std::vector<bool> stays;
-    if(!m_state.core().fields().kept.empty())
-      for(const Eigen::Index slot : m_state.current_slots())
-        stays.push_back(m_state.core().fields().is_kept(Spectral_slot(slot)));
+    const auto points = m_state.vertex_point_map();
+    std::vector<typename Policies::State::Point> before;
+    for(const auto v : vertices(m_mesh))
+      before.push_back(get(points, v));
     try {
-      m_result.relocation = relocate_mesh(m_mesh, m_P, m_state.fine(), F, Z, local_operator(),
-                                          relocation, stays, m_np);
-    } catch(const Spectral_geometry::Cancelled&) {
-      set_cancelled(m_result, ", which are as the collapses left them");
-      return;
+      m_result.relocation =
+          relocate_after_collapses(m_mesh, m_state, m_options, m_P, m_result.coefficients,
+                                   relocation, m_state.fixed_vertices(), m_np);
+      set_error(m_result.relocation.restriction);
+    } catch(...) {
+      m_result.relocation = Spectral_geometry::Relocation_result();
+      std::size_t i = 0;
+      for(const auto v : vertices(m_mesh))
+        put(points, v, before[i++]);
+      throw;
     }
-    SpMat& own = m_result.relocation.restriction;
-    if(m_result.relocation.resampled &&
-       !stays.empty()) // where the input has several points in one place
-      keep_rows(own, stays);
-    // A vertex of the border whose closest point is an inner one goes on having 0.
-    if(m_result.relocation.resampled &&
-       m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-      keep_rows(own, Spectral_geometry::internal::border_vertices(coarse().T, m_P.rows()));
-    set_error(own);
-  }
-
-  // What the collapses have left in the rows that are flagged.
-  template <class Flags>
-  void keep_rows(SpMat& own, const Flags& kept) const
-  {
-    SpMat carried = m_P;
-    carried.prune(
-        [&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
-    own.prune(
-        [&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
-    own += carried;
-  }
-
-  using Signals = std::pair<Eigen::MatrixXd, Eigen::MatrixXd>;
-
-  const Eigen::MatrixXd& given_signals() const
-  {
-    return m_options.signals.size() != 0           ? m_options.signals
-           : m_state.filtered_signals() != nullptr ? m_state.filtered_signals()->F
-                                                   : m_result.eigenpairs->vectors;
-  }
-
-  Eigen::VectorXd weights() const { return spectral_weights(m_options, given_signals().cols()); }
-
-  // F R and Z R at the scale of the input, for mixtures or weights R.
-  Signals signals(const Eigen::MatrixXd& R) const
-  {
-    Eigen::MatrixXd F = given_signals() * R;
-    Eigen::MatrixXd Z =
-        m_state.has_rough_basis()
-            ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
-            : Eigen::MatrixXd(given_signals() * (m_result.eigenpairs->values.asDiagonal() * R));
-    return {std::move(F), std::move(Z)};
-  }
-
-  // What the relocation sees. Unlike a greedy order a descent finds the way around mixtures of
-  // eigenvectors: with 64 of 100
-  // |C|_L was 1.08 times as large.
-  Signals signals_for_relocation() const
-  {
-    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
-      return {filtered->F, filtered->Z};
-    Spectral_options options;
-    options.number_of_mixtures = 4 * m_options.number_of_mixtures;
-    options.seed = m_options.seed + 1; // others than those of the collapses
-    return signals(mixing_matrix(options, weights()));
-  }
-
-  // All signals, restricted, each multiplied by the root of its weight.
-  Signals restricted_signals(const SpMat& P) const
-  {
-    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
-      return {P * filtered->F, P * filtered->Z};
-    const Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
-    Eigen::MatrixXd PF = P * given_signals() * R;
-    Eigen::MatrixXd PZ = m_state.has_rough_basis()
-                             ? Eigen::MatrixXd(P * signals(R).second)
-                             : Eigen::MatrixXd(PF * m_result.eigenpairs->values.asDiagonal());
-    return {std::move(PF), std::move(PZ)};
-  }
-
-  // || Z ||_B^2 of these signals, for the input scaled to unit area.
-  double sum_of_squares() const
-  {
-    if(!m_result.eigenpairs)
-      return m_state.sum_of_squares();
-    const double area = m_state.area();
-    return area * area * weights().dot(m_result.eigenpairs->values.cwiseAbs2());
   }
 
   // E of the input scaled to unit area, as the loop has it, but of all signals. There eigenvectors
@@ -225,11 +220,12 @@ private:
   void set_error(const SpMat& P)
   {
     const double area = m_state.area();
-    const auto [PF, PZ] = restricted_signals(P);
+    const Run_signals signals(m_state, m_options);
+    const auto [PF, PZ] = signals.restricted(P);
     m_result.E = area * (m_options.signals.size() != 0 ? 1. : area) *
                  Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
     m_result.relative_error =
-        m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / sum_of_squares()) : 0.;
+        m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / signals.sum_of_squares()) : 0.;
   }
 
   TriangleMesh& m_mesh;
@@ -238,6 +234,7 @@ private:
   const NamedParameters& m_np;
   Result& m_result;
   SpMat m_P; // from the mesh of the eigenpairs to that of the collapses
+  mutable bool m_thrown_by_callback = false;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal

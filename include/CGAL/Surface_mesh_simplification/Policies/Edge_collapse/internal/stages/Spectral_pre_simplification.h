@@ -69,8 +69,10 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t 
       throw Spectral_geometry::Cancelled();
   };
   return collapse_by_quadrics(mesh, target, kept,
-                              options.boundary == Spectral_geometry::Boundary_condition::dirichlet,
-                              options.keep_free_of_self_intersections, report, np);
+                              options.preserve_border ||
+                                  options.boundary ==
+                                      Spectral_geometry::Boundary_condition::dirichlet,
+                              options.binary, options.keep_free_of_self_intersections, report, np);
 }
 
 /// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
