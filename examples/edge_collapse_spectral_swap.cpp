@@ -38,11 +38,12 @@ using Polyhedron = CGAL::Polyhedron_3<Kernel>;
 namespace PMP = CGAL::Polygon_mesh_processing;
 namespace SMS = CGAL::Surface_mesh_simplification;
 
-// Edges sharper than 60 degrees, and those of the border.
+// Edges sharper than 60 degrees, and those of the border. Not `bool`: CGAL 5.5 cannot read such a
+// property of OpenMesh.
 template <class Mesh>
 auto sharp_edges(Mesh& mesh)
 {
-  const auto result = get(CGAL::dynamic_edge_property_t<bool>(), mesh);
+  const auto result = get(CGAL::dynamic_edge_property_t<char>(), mesh);
   for(const auto e : edges(mesh))
     put(result, e, false);
   PMP::detect_sharp_edges(mesh, 60, result);
@@ -54,8 +55,11 @@ void simplify_before(Mesh& mesh, const std::size_t N)
 {
   const auto constrained = sharp_edges(mesh);
   //! [before]
-  using Policies = SMS::GarlandHeckbert_plane_policies<Mesh, Kernel>;
-  const Policies policies(mesh);
+  using Point_map = typename boost::property_map<Mesh, CGAL::vertex_point_t>::type;
+  using Point = typename boost::property_traits<Point_map>::value_type;
+  using Policies =
+      SMS::GarlandHeckbert_plane_policies<Mesh, typename CGAL::Kernel_traits<Point>::Kernel>;
+  Policies policies(mesh);
   const SMS::Constrained_placement<typename Policies::Get_placement, decltype(constrained)>
       placement(constrained, policies.get_placement());
   SMS::edge_collapse(mesh, SMS::Vertex_count_stop_predicate(N, mesh),

@@ -17,11 +17,6 @@
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-<<<<<<< HEAD
-#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-
-=======
->>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>

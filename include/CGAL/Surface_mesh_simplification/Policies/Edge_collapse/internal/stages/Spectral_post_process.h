@@ -32,13 +32,8 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
-<<<<<<< HEAD
 /// What follows the collapses: `Spectral_edge_collapse_options::relocate`, and the error of what is
 /// left. The log, and what is replayed from it, stay as they are: they end before.
-=======
-/// What follows the collapses: `relocate` and `fit_operators` of `Spectral_edge_collapse_options`,
-/// in this order. The log, and what is replayed from it, stay as they are: they end before.
->>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
 template <class TriangleMesh, class Policies, class NamedParameters>
 class Spectral_post_process
 {
@@ -59,27 +54,11 @@ public:
 
   void run(const Pre_simplification& first)
   {
-<<<<<<< HEAD
-    set_error(m_P);
-    if(!m_options.relocate || m_result.stop_reason == Result::Stop_reason::cancelled)
-      return;
-    Spectral_geometry::Relocation_result& relocation = m_result.relocation;
-    if(has_operator_and_areas())
-      relocate();
-=======
     attempt("E of the result is not known: ", "", [&] { set_error(m_P); });
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
     if(m_options.relocate && !is_cancelled())
       attempt("The vertices were not relocated: ", ", which are as the collapses left them",
               [&] { relocate(); });
-    if(m_options.fit_operators && !is_cancelled()) {
-      Real_timer timer;
-      timer.start();
-      attempt("The operators were not fitted: ", ", before operators were fitted to them",
-              [&] { fit(relocation.resampled ? relocation.restriction : m_P); });
-      m_result.seconds_operator_fit = timer.time();
-    }
->>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
     m_result.seconds_relocation = relocation.seconds;
     if(m_result.relative_error > m_options.maximum_error && !is_cancelled())
       m_result.warnings.push_back(
@@ -96,8 +75,6 @@ public:
   }
 
 private:
-<<<<<<< HEAD
-=======
   bool is_cancelled() const { return m_result.stop_reason == Result::Stop_reason::cancelled; }
 
   // The collapses are done: whatever a stage after them throws is a warning, for the mesh and P not
@@ -116,30 +93,6 @@ private:
     }
   }
 
-  // Operators for the mesh as it is now; P leads from the mesh of the eigenpairs to it.
-  void fit(const SpMat& P)
-  {
-    using namespace Spectral_geometry;
-    const auto progress = reporting(Spectral_phase::operator_fit);
-    const Laplace_operator coarse = coarse_operator();
-    const Laplace_operator fine = operator_of_basis(m_state.fine().V, m_state.fine().T, m_options);
-    std::shared_ptr<const Eigenpairs> pairs = m_options.eigenpairs;
-    if(!pairs) {
-      Eigenpairs_options solver = m_options.eigenpairs_options;
-      solver.threads = (std::max)(solver.threads, m_options.threads);
-      solver.progress = [&](const double fraction) { return progress(fraction / 2); };
-      const Eigen::Index K =
-          m_result.eigenpairs ? m_result.eigenpairs->size() : m_options.number_of_eigenvectors;
-      pairs = std::make_shared<Eigenpairs>(
-          eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
-    }
-    Operator_fit_options options = m_options.operator_fit;
-    options.threads = (std::max)(options.threads, m_options.threads);
-    options.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
-    m_result.fitted = fit_operators(coarse, P, fine, *pairs, options);
-  }
-
->>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
   std::function<bool(double)> reporting(const Spectral_phase phase) const
   {
     return [this, phase](const double fraction) {
@@ -168,25 +121,6 @@ private:
     return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
   }
 
-<<<<<<< HEAD
-  // Whether the mesh that is left has an operator, and each face an area; warns where it has not.
-  // The collapses are done: to throw would lose them.
-  bool has_operator_and_areas()
-  {
-    using namespace Spectral_geometry;
-    const Mesh_matrices mesh = coarse();
-    try {
-      laplace_operator(mesh.V, mesh.T, local_operator());
-      Spectral_geometry::internal::check_areas("", "simplified", mesh.V, mesh.T);
-    } catch(const std::invalid_argument& error) {
-      m_result.warnings.push_back("The vertices were not relocated: " + std::string(error.what()));
-      return false;
-    }
-    return true;
-  }
-
-=======
->>>>>>> 89be22c (What the policies keep is kept after them: relocation knows constraints, unwatched wrappers are refused, failures after the collapses are warnings)
   void relocate()
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
