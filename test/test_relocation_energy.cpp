@@ -138,7 +138,7 @@ TEST_CASE("gradients agree with finite differences, in every mass, with a bounda
     }
 }
 
-TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, and its gradient "
+TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, and its gradient "
           "is right")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
@@ -146,22 +146,22 @@ TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, 
     Positions W = V;
     for(Eigen::Index i = 0; i < W.size(); ++i)
       W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
-    SG::internal::Spectrum_guard guard(s->coarse.T, V, 0.5, 20, 30);
+    SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {});
     REQUIRE(guard.is_active());
-    CHECK(std::abs(guard.change(V)) < 1e-4);
-    const double before = guard.change(W); // with the eigenvectors of V
+    CHECK(std::abs(guard.changes(V).mean()) < 1e-4);
+    const double before = guard.changes(W).mean(); // with the eigenvectors of V
     guard.refresh(W);
     const auto values = [&](const Positions& at) {
       const SG::Laplace_operator op = SG::laplace_operator(at, s->coarse.T, 0.5);
       return Eigen::ArrayXd(op.mass.sum() * SG::eigenpairs(op, 30).values.tail(10).array());
     };
     const double change = (values(W) / values(V)).mean() - 1;
-    CHECK(guard.change(W) == Catch::Approx(change).margin(1e-4));
+    CHECK(guard.changes(W).mean() == Catch::Approx(change).margin(1e-4));
     CHECK(before > change);   // eigenvectors of another mesh
     REQUIRE(change < 0.0015); // the penalty begins at 0.002
     struct Penalty
     {
-      SG::internal::Spectrum_guard& guard;
+      SG::internal::Spectrum_term& guard;
       double value(const Positions& at)
       {
         Positions gradient = Positions::Zero(at.rows(), 3);
@@ -175,11 +175,27 @@ TEST_CASE("the guard of the spectrum: what it says is what an eigensolver says, 
     } penalty{guard};
     CHECK(gradient_error(penalty, W) < 1e-6);
     CHECK(penalty.value(W) > 0);
-    CHECK(!SG::internal::Spectrum_guard(s->coarse.T, V, 0.5, 20, 20).is_active());
+    SG::Relocation_options with_goals;
+    with_goals.beyond = 0;
+    CHECK(!SG::internal::Spectrum_term(s->coarse.T, V, 0.5, 20, with_goals).is_active());
+    // Goals: five beyond K among them, then those that have none.
+    with_goals.beyond = 0.5;
+    const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
+    with_goals.eigenvalues = op.mass.sum() * SG::eigenpairs(op, 25).values;
+    with_goals.eigenvalues.tail(24) *= 1.01;
+    SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 20, with_goals);
+    REQUIRE(goals.has_goals());
+    const Eigen::ArrayXd errors = goals.changes(V).transpose();
+    REQUIRE(errors.size() == 29);
+    CHECK((errors.head(24) + 0.01 / 1.01).abs().maxCoeff() < 1e-4);
+    CHECK(errors.tail(5).abs().maxCoeff() < 1e-4);
+    Penalty to_goals{goals};
+    CHECK(gradient_error(to_goals, W) < 1e-6);
+    CHECK(to_goals.value(V) == Catch::Approx(3. * std::pow(0.01 / 1.01 / 0.03, 2)).epsilon(0.5));
   }
 }
 
-TEST_CASE("the guard of the spectrum compares with the start, also where it has to find the "
+TEST_CASE("the term of the spectrum compares with the start, also where it has to find the "
           "eigenvectors again")
 {
   // A needle in a component whose mass is below the rounding of its cotangents: some of these
@@ -198,9 +214,9 @@ TEST_CASE("the guard of the spectrum compares with the start, also where it has 
       Positions W = V;
       W.col(2).head(n) *= 1.3;
       W.row(n + 3) << 0.5 * size, -height * size, height * size;
-      SG::internal::Spectrum_guard guard(T, V, 0.5, 20, 30);
+      SG::internal::Spectrum_term guard(T, V, 0.5, 20, {});
       guard.refresh(W);
-      CHECK(guard.change(W) > 0.001);
+      CHECK(guard.changes(W).mean() > 0.001);
     }
 }
 

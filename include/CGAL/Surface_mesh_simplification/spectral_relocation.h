@@ -185,7 +185,8 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @param fine  the fine mesh, taken with `Spectral_geometry::mesh_matrices()` before it was
  * simplified
  * @param pairs eigenpairs of the fine mesh, of the same operator and mass, at its own scale; tight
- *        ones, since Z is taken as Phi Lambda
+ *        ones, since Z is taken as Phi Lambda. Their eigenvalues are those of `options` where it
+ *        has none, `op` no coefficients and at least half of the consistent mass
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
  * mass `averaged`: with a lumped one the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
@@ -207,8 +208,12 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const Spectral_geometry::Relocation_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
+  Spectral_geometry::Relocation_options with_goals = options;
+  if(options.eigenvalues.size() == 0 && op.theta >= 0.5 && op.coefficients.size() == 0)
+    with_goals.eigenvalues =
+        pairs.values * Spectral_geometry::laplace_operator(fine.V, fine.T, op).mass.sum();
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors,
-                                 pairs.vectors * pairs.values.asDiagonal(), op, options, {}, np);
+                                 pairs.vectors * pairs.values.asDiagonal(), op, with_goals, {}, np);
 }
 
 /*!

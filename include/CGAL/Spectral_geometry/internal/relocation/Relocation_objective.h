@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
-#include <CGAL/Spectral_geometry/internal/relocation/Spectrum_guard.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Spectrum_term.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
@@ -149,9 +149,7 @@ public:
     , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
-    , m_spectrum(T, start, op, number_of_modes(F, options),
-                 number_of_modes(F, options) +
-                     Eigen::Index(options.beyond * double(number_of_modes(F, options))))
+    , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options)
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
@@ -168,6 +166,9 @@ public:
     return m_spectrum.is_active();
   }
 
+  /// Whether values change that `refresh()` should follow closely.
+  bool has_goals() const { return m_spectrum.has_goals(); }
+
   double E(const Positions& V) { return m_E.value(V); }
 
   double value_and_gradient(const Positions& V, Positions& gradient)
@@ -179,14 +180,9 @@ public:
   }
 
 private:
-  static Eigen::Index number_of_modes(const Eigen::MatrixXd& F, const Relocation_options& options)
-  {
-    return options.modes == 0 ? F.cols() : options.modes;
-  }
-
   Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
-  Spectrum_guard m_spectrum;
+  Spectrum_term m_spectrum;
   double m_scale = 1;
 };
 

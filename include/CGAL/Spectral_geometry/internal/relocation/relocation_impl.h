@@ -105,7 +105,9 @@ public:
             descent.refresh();
         }
         last = descent.value();
-      }
+      } else if(result.steps % 5 == 0 && m_objective->has_goals() &&
+                m_objective->refresh(descent.positions()))
+        descent.refresh();
     }
     result.objective_after = descent.value();
     V = repaired(descent.positions());

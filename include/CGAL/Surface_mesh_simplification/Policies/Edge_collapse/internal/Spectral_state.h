@@ -103,6 +103,7 @@ public:
     m_sum_of_squares = basis.sum_of_squares;
     m_has_rough_basis = basis.rough;
     m_filtered = basis.filtered;
+    m_eigenvalues = basis.eigenvalues;
     m_core.set_basis(std::move(basis), local_operator(options), options,
                      std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
@@ -375,6 +376,10 @@ public:
   bool has_rough_basis() const { return m_has_rough_basis; }
   /// The signals of filtered noise at the scale of the input; null with others.
   const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
+
+  /// The eigenvalues of the input at unit area, see `Spectral_options::number_for_relocation`;
+  /// empty with signals of the user's or of filtered noise.
+  const Eigen::VectorXd& eigenvalues() const { return m_eigenvalues; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered
   /// noise.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
@@ -632,6 +637,7 @@ private:
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
   bool m_has_rough_basis = false;
   std::shared_ptr<const Spectral_geometry::Filtered_signals> m_filtered;
+  Eigen::VectorXd m_eigenvalues;
   Real_timer m_first_costs; // runs until the first edge is selected
   std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;
 };
