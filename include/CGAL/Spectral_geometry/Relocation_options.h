@@ -53,7 +53,8 @@ struct Relocation_options
   Eigen::Index modes = 0;
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
   /// coarse ones are drawn to them; those beyond the first K may be among them. Not for lumped
-  /// masses, where the shape would make up for the error of the elements. Empty: no such term.
+  /// masses, where the shape would make up for the error of the elements. Where |C|_L would be
+  /// larger than before, the relocation is done anew without them. Empty: no such term.
   Eigen::VectorXd eigenvalues;
   /// epsilon: relative errors of the first K eigenvalues of this size in the mean square cost as
   /// much as all that is minimised does at the start. With 0.03 errors fall to 0.5 times what they

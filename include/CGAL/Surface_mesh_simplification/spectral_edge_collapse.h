@@ -225,7 +225,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed = given;
     narrowed->weights = weights_for_target(target, K, number_of_components(mesh, np));
   }
-  if(given.relocate && given.signals.size() == 0 && !given.eigenpairs && !is_filtered(given)) {
+  if(given.relocate && given.signals.size() == 0 && !given.eigenpairs && !is_filtered(given) &&
+     has_reachable_eigenvalues(Spectral_geometry::Local_operator(given.mass))) {
     if(!narrowed)
       narrowed = given;
     // The relocation has eigenvalues beyond K for goals, as far as the target has room for them.

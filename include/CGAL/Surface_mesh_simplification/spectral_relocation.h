@@ -35,6 +35,13 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
+/// Whether eigenvalues of the fine mesh are goals of a relocation: with less than half of the
+/// consistent mass those of linear elements are lower, and only a bent shape would have the same.
+inline bool has_reachable_eigenvalues(const Spectral_geometry::Local_operator& op)
+{
+  return op.theta >= 0.5;
+}
+
 /// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices
 /// that stay, or empty.
 template <class TriangleMesh, class NamedParameters>
@@ -209,7 +216,8 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const NamedParameters& np = parameters::default_values())
 {
   Spectral_geometry::Relocation_options with_goals = options;
-  if(options.eigenvalues.size() == 0 && op.theta >= 0.5 && op.coefficients.size() == 0)
+  if(options.eigenvalues.size() == 0 && internal::has_reachable_eigenvalues(op) &&
+     op.coefficients.size() == 0)
     with_goals.eigenvalues =
         pairs.values * Spectral_geometry::laplace_operator(fine.V, fine.T, op).mass.sum();
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors,

@@ -311,7 +311,14 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 {
   Relocation_result result;
   Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
-  V = relocation.run(result);
+  const Eigen::MatrixXd moved = relocation.run(result);
+  if(result.stop_reason == Relocation_result::Stop_reason::no_gain &&
+     options.eigenvalues.size() > 0 && options.eigenvalue_error > 0) {
+    Relocation_options without = options;
+    without.eigenvalue_error = 0;
+    return relocate_positions(V, T, P, fine, F, Z, op, fixed, without);
+  }
+  V = moved;
   return result;
 }
 
