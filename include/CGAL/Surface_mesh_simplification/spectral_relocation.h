@@ -158,10 +158,12 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const Run_signals signals(state, options);
   const auto [F, Z] = signals.for_relocation();
   relocation.modes = signals.modes();
+  const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
+  if(relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
+    relocation.eigenvalues = state.eigenvalues();
   relocation.threads = (std::max)(relocation.threads, options.threads);
   Spectral_geometry::Relocation_result result =
-      relocate_mesh(mesh, P, state.fine(), F, Z, {options.mass, coefficients, options.boundary},
-                    relocation, std::move(fixed), np);
+      relocate_mesh(mesh, P, state.fine(), F, Z, op, relocation, std::move(fixed), np);
   if(!result.resampled)
     return result;
   keep_border_rows_on_border(result.restriction, P, state.fine(),
