@@ -26,10 +26,11 @@
 #include <string>
 #include <vector>
 
-using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 
 namespace test_promises {
+
+using namespace spectral_test;
 
 namespace {
 
@@ -86,7 +87,7 @@ SMS::Spectral_options options_of(const Source source, const shapes::Matrices& in
   options.number_of_eigenvectors = 20;
   if(source == Source::noise) {
     options.source = SMS::Spectral_signal_source::filtered_noise;
-    options.number_of_relocation_signals = 64;
+    options.number_for_relocation = 64;
   }
   if(source == Source::own_signals) {
     const SG::Eigenpairs pairs =
