@@ -65,14 +65,14 @@ for phase in "reading and checking" "pre-simplification" "eigenpairs" "collapses
 done
 
 # A limit of the size of files stands for a disk that is full: the mesh fits in, the matrices of the input do not.
-if (trap '' XFSZ; ulimit -f 16; "$program" shape.off late.off --preset paper --vertices 20 --eigenvectors 5 --map late.txt \
+if (trap '' XFSZ; ulimit -f 16; "$program" shape.off late.off --preset paper --vertices 40 --eigenvectors 5 --map late.txt \
   --eigenpairs late --json late.json >said 2>complained); then
   fail "pairs on a full disk: the exit status is 0"
 else
   [ $? -eq 3 ] || fail "pairs on a full disk: the exit status is not 3"
 fi
 [ -s late.off ] && [ -s late.txt ] && [ ! -e late ] || fail "pairs on a full disk: there is $(ls -d late*)"
-grep -q '"output_vertices": 20' late.json || fail "pairs on a full disk: no JSON file"
+grep -q '"output_vertices": 40' late.json || fail "pairs on a full disk: no JSON file"
 [ "$(wc -l <complained)" -eq 1 ] || fail "pairs on a full disk: not one line: $(cat complained)"
 grep -q "^spectral_simplify: 'late.off' is written, but its evaluation failed: cannot write 'late/.*\.\$\|full?\$" complained ||
   fail "pairs on a full disk: $(cat complained)"

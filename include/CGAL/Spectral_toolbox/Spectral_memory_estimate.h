@@ -47,8 +47,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which
  * is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and the
  * loop, which keeps the eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or
- * mixtures that the metric sees. Relocation
- * has the solver find 1.5 K pairs, and keeps F and Z of at most 64 mixtures, twice;
+ * mixtures that the metric sees. Relocation keeps F and Z of at most 64 mixtures, twice;
  * `fit_operators_of_run()` solves once more beside them. Filtered noise takes a factor and the
  * signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates
  * are within about a quarter.
@@ -93,10 +92,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2
                                               // is there
     loop += 1.5 * 2 * sizeof(Eigen::AlignedBox3d) + 8;
-  // Relocation has eigenvalues beyond K for goals.
-  const double solved = options.relocate ? 1.5 * K : K;
-  const double solver = solves
-                            ? internal::memory_of_eigenpairs(n, solved, options.eigenpairs_options)
+  const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options)
                         : filtered ? n * (900 + 8 * 3 * noise)
                                    : 0;
   // Columns that stay: eigenvectors, those of the user, F and Z of filtered noise.

@@ -217,20 +217,13 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->number_of_mixtures = 0;
   } else if(is_filtered(given)) {
     narrowed = given;
-    narrowed->number_for_relocation = given.relocate ? 64 : 0;
+    narrowed->number_of_relocation_signals = given.relocate ? 64 : 0;
     narrowed->number_of_eigenvectors =
         Eigen::Index(weights_for_target(target, K, number_of_components(mesh, np)).sum());
   } else if(given.signals.size() == 0 && given.weights.size() == 0 &&
             Eigen::Index(target / 3) < K) {
     narrowed = given;
     narrowed->weights = weights_for_target(target, K, number_of_components(mesh, np));
-  }
-  if(given.relocate && given.signals.size() == 0 && !given.eigenpairs && !is_filtered(given) &&
-     has_reachable_eigenvalues(Spectral_geometry::Local_operator(given.mass))) {
-    if(!narrowed)
-      narrowed = given;
-    // The relocation has eigenvalues beyond K for goals, as far as the target has room for them.
-    narrowed->number_for_relocation = (std::min)(K + K / 2, Eigen::Index(target / 3));
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);

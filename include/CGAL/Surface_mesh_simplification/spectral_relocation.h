@@ -159,8 +159,9 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const auto [F, Z] = signals.for_relocation();
   relocation.modes = signals.modes();
   const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
-  if(relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
-    relocation.eigenvalues = state.eigenvalues();
+  if(const auto pairs = state.eigenpairs();
+     pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
+    relocation.eigenvalues = state.area() * pairs->values;
   relocation.threads = (std::max)(relocation.threads, options.threads);
   Spectral_geometry::Relocation_result result =
       relocate_mesh(mesh, P, state.fine(), F, Z, op, relocation, std::move(fixed), np);

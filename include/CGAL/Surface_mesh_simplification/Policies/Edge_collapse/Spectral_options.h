@@ -127,10 +127,10 @@ struct Spectral_options
   /// there are `number_of_mixtures` of them, which must not be 0, and no `weights`.
   Spectral_signal_source source = Spectral_signal_source::eigenpairs;
 
-  /// How many signals of filtered noise, or eigenvalues, are computed and kept for a relocation
-  /// afterwards, where that is more than `number_of_mixtures`, or `number_of_eigenvectors`;
-  /// `spectral_edge_collapse()` sets it. One factorisation serves both. Not negative.
-  Eigen::Index number_for_relocation = 0;
+  /// How many signals of filtered noise are made and kept for a relocation afterwards, where that
+  /// is more than `number_of_mixtures`; `spectral_edge_collapse()` sets it. One factorisation
+  /// serves both. Not negative.
+  Eigen::Index number_of_relocation_signals = 0;
 
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::free;

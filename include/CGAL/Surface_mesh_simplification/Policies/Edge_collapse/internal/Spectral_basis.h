@@ -35,7 +35,6 @@ struct Spectral_basis
   /// with `Spectral_signal_source::filtered_noise`, at the input's scale; those that the metric
   /// sees are the first
   std::shared_ptr<const Spectral_geometry::Filtered_signals> filtered;
-  Eigen::VectorXd eigenvalues; ///< at unit area, more than `eigenpairs` has if asked for; or none
   std::shared_ptr<const Spectral_geometry::Eigenpairs>
       eigenpairs; ///< all of them, at the input's scale
 };

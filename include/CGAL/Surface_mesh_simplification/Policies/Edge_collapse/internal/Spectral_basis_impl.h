@@ -54,8 +54,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
         pairs.values.size() != 0,
         "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
   }
-  require(options.number_for_relocation >= 0, "Spectral_options: number_for_relocation is ",
-          options.number_for_relocation, ", use a number from 0.");
+  require(options.number_of_relocation_signals >= 0,
+          "Spectral_options: number_of_relocation_signals is ",
+          options.number_of_relocation_signals, ", use a number from 0.");
   require(options.number_of_mixtures >= 0, "Spectral_options: number_of_mixtures is ",
           options.number_of_mixtures, ", use a number from 0.");
   if(is_filtered(options)) {
@@ -298,7 +299,7 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
 {
   Spectral_geometry::Filtered_signals_options how;
   const Eigen::Index r = options.number_of_mixtures;
-  how.signals = (std::max)(r, options.number_for_relocation);
+  how.signals = (std::max)(r, options.number_of_relocation_signals);
   how.seed = options.seed;
   how.threads = options.threads;
   how.progress = [&options, &op](const double fraction) {
@@ -334,7 +335,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
     basis = basis_of_noise(op, options, area);
   } else {
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
-    Eigen::VectorXd eigenvalues;
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
       solver.threads =
@@ -346,25 +346,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
                                std::size_t(V.rows())) &&
                (!own || own(fraction));
       };
-      const Eigen::Index K = options.number_of_eigenvectors;
-      Spectral_geometry::Eigenpairs all = Spectral_geometry::eigenpairs(
-          op, (std::max)(K, (std::min)(options.number_for_relocation, V.rows() - op.vanishing)),
-          solver);
-      eigenvalues = all.values;
-      if(eigenvalues.size() > K) {
-        all.values.conservativeResize(K);
-        all.vectors.conservativeResize(Eigen::NoChange, K);
-        all.residuals.conservativeResize((std::min)(K, all.residuals.size()));
-      }
-      pairs = std::make_shared<Spectral_geometry::Eigenpairs>(std::move(all));
-    } else {
-      eigenvalues = pairs->values;
+      pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
+          Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
     }
     const std::vector<Eigen::Index> component =
         Spectral_geometry::internal::connected_components(V.rows(), T);
     basis = basis_of_eigenpairs(op, options, pairs, area,
                                 *std::max_element(component.begin(), component.end()) + 1);
-    basis.eigenvalues = area * eigenvalues;
   }
   basis.number_of_vertices = V.rows();
   basis.area = area;

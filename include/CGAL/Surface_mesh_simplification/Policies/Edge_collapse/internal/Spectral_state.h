@@ -103,7 +103,6 @@ public:
     m_sum_of_squares = basis.sum_of_squares;
     m_has_rough_basis = basis.rough;
     m_filtered = basis.filtered;
-    m_eigenvalues = basis.eigenvalues;
     m_core.set_basis(std::move(basis), local_operator(options), options,
                      std::is_same<FT, float>::value);
     m_seconds_basis = timer.time();
@@ -377,9 +376,6 @@ public:
   /// The signals of filtered noise at the scale of the input; null with others.
   const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
 
-  /// The eigenvalues of the input at unit area, see `Spectral_options::number_for_relocation`;
-  /// empty with signals of the user's or of filtered noise.
-  const Eigen::VectorXd& eigenvalues() const { return m_eigenvalues; }
   /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered
   /// noise.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
@@ -397,7 +393,7 @@ public:
   {
     return m_number_of_runs != 0 && m_run.expired() && !m_stopped;
   }
-  /// Those of the policies, with signals and coefficients.
+  /// The options of the policies, with signals and coefficients.
   const Spectral_options& options() const { return m_options; }
   /// Whether a wrapper of the placement has chosen points of its own.
   bool has_foreign_points() const { return m_has_foreign_points; }
@@ -414,7 +410,7 @@ public:
                         (!m_constrained.empty() && m_constrained[std::size_t(s)]));
     return fixed;
   }
-  /// Those that are kept with their row of P; none where none is.
+  /// Vertices that are kept with their row of P; none where none is.
   std::vector<bool> kept_vertices() const
   {
     std::vector<bool> kept;
@@ -637,7 +633,6 @@ private:
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
   bool m_has_rough_basis = false;
   std::shared_ptr<const Spectral_geometry::Filtered_signals> m_filtered;
-  Eigen::VectorXd m_eigenvalues;
   Real_timer m_first_costs; // runs until the first edge is selected
   std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;
 };
