@@ -413,6 +413,7 @@ function(manual_sections result figures prefix)
   if(prefix STREQUAL "sec_SG_")
     string(REGEX REPLACE "<!-- snippet: [^\n]* -->\n" "" all "${all}")
   else()
+    string(REPLACE "<!-- snippet: examples/edge_collapse_spectral_swap.cpp swap -->\n" "" all "${all}")
     string(REGEX REPLACE "<!-- snippet: examples/([A-Za-z0-9_]+\\.cpp) ([a-z_]+) -->\n+```cpp\n[^`]*```"
                          "\\\\snippet Surface_mesh_simplification/\\1 \\2" all "${all}")
   endif()
