@@ -30,7 +30,7 @@ With eigenvalues of the fine mesh, the weighted mean square of their relative er
 \f[ \frac{1}{\epsilon^2} \sum_k w_k e_k^2 \Big/ \sum_{k \le K} w_k, \qquad
    w_k = 1 + 50 \lambda_1 / \lambda_k \ (k \le K), \quad w_k = 0.3 \ (k > K). \f]
 E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as many modes take part
-as a third of the vertices: linear elements do not have the others.
+as a sixth of the vertices: linear elements hardly have the others.
 
 For the modes beyond K that have no eigenvalue to go to, a penalty on their mean fall since the
 start. Why they fall: a coarse mode i beyond K meets only signals with \f$ \lambda_j <
@@ -67,7 +67,7 @@ public:
       all_have_faces = all_have_faces && !m_geometry.row(v).empty();
     }
     m_last = modes + Index(options.beyond * double(modes));
-    if(const Index goals = (std::min)(options.eigenvalues.size(), m_modes / 3);
+    if(const Index goals = (std::min)(options.eigenvalues.size(), m_modes / 6);
        goals > 0 && m_error > 0) {
       Eigen::VectorXd sorted = options.eigenvalues;
       std::sort(sorted.data(), sorted.data() + sorted.size());
