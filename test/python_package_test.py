@@ -577,7 +577,7 @@ class Maps(Case):
         others = self.run_.P @ where[self.order]
         coarse = np.array([np.linalg.norm(others - p, axis=1).argmin() for p in own])
         T = ss.lift_point_map(coarse, self.run_, RUN, 30)
-        self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.12)
+        self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.2)
 
 
 class Poses(Case):
@@ -600,7 +600,7 @@ class Poses(Case):
                 np.testing.assert_array_equal(level.F, RUN.F)
                 np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
         np.testing.assert_allclose(RUN.apply(other).V, RUN.P @ other)
-        self.assertLess(errors["relocated"], 1.6 * errors["own"])
+        self.assertLess(errors["relocated"], 2 * errors["own"])
         self.assertLess(errors["relocated"], errors["P"])
         self.assertAlmostEqual(errors["given"], errors["relocated"], 4)
 
