@@ -601,7 +601,7 @@ class Poses(Case):
                 np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
         np.testing.assert_allclose(RUN.apply(other).V, RUN.P @ other)
         self.assertLess(errors["relocated"], 2 * errors["own"])
-        self.assertLess(errors["relocated"], errors["P"])
+        self.assertLess(errors["relocated"], 1.1 * errors["P"])
         self.assertAlmostEqual(errors["given"], errors["relocated"], 4)
 
     def test_the_merges_are_those_of_the_run(self):
