@@ -567,6 +567,21 @@ TEST_CASE("a mesh whose norm relocation would raise is returned as it was")
   CHECK_FALSE(result.resampled);
   CHECK((result.restriction - P).norm() == 0);
   CHECK(result.norm_after == result.norm_before);
+
+  // With goals it is tried anew without them, and says so to the callback by a whole fraction.
+  SG::Relocation_options options;
+  options.eigenvalues = 1.1 * SG::laplace_operator(coarse.V, coarse.T).mass.sum() * pairs.values;
+  std::vector<double> fractions;
+  options.progress = [&](const double fraction) {
+    fractions.push_back(fraction);
+    return true;
+  };
+  const SG::Relocation_result again =
+      SG::relocate_positions(V, coarse.T, P, fine, F, Z, SG::Mass::averaged, {}, options);
+  CHECK(again.stop_reason == SG::Relocation_result::Stop_reason::no_gain);
+  CHECK(V == coarse.V);
+  CHECK(fractions.back() == 1);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
 }
 
 TEST_CASE("a vertex of the border stays on that of its own component, whichever is nearer")

@@ -32,10 +32,10 @@ struct Relocation_options
     carried,             ///< P F, the restriction that came with the mesh; it stays as it is
     carried_and_sampled, ///< both that and F at the closest point of the fine surface: good in
                          ///< either reading
-    sampled ///< F at the closest point alone, in the component that the vertex' row of P belongs
-            ///< to. The lowest of the
-    ///< three in that reading; the restriction that came with the mesh no longer fits, and the
-    ///< result holds the one to use instead
+    /// F at the closest point alone, in the component that the vertex' row of P belongs to. The
+    /// lowest of the three in that reading; the restriction that came with the mesh no longer
+    /// fits, and the result holds the one to use instead
+    sampled
   };
   Signals signals = Signals::sampled; ///< the choice among them
 

@@ -19,11 +19,13 @@
 #include <CGAL/boost/graph/properties.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -40,6 +42,17 @@ namespace internal {
 inline bool has_reachable_eigenvalues(const Spectral_geometry::Local_operator& op)
 {
   return op.theta >= 0.5;
+}
+
+inline double area(const Spectral_geometry::Mesh_matrices& mesh)
+{
+  double result = 0;
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    const Eigen::RowVector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
+                             r = mesh.V.row(mesh.T(f, 2));
+    result += (q - p).cross(r - p).norm() / 2;
+  }
+  return result;
 }
 
 /// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices
@@ -106,6 +119,9 @@ inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
       join(i, j);
   };
   const std::vector<Eigen::Index> loop = connected_components(fine.V.rows(), joined);
+  std::map<Eigen::Index, std::vector<std::pair<int, int>>> segments_of_loop;
+  for(const auto& [i, j] : segments)
+    segments_of_loop[loop[std::size_t(i)]].emplace_back(i, j);
   const std::vector<char> fine_border = border_vertices(fine.T, fine.V.rows());
   std::vector<char> on_border = border_vertices(coarse.T, coarse.V.rows());
   std::vector<std::set<Eigen::Index>> own(std::size_t(coarse.V.rows())); // loops
@@ -121,18 +137,17 @@ inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
     const Eigen::Vector3d p = coarse.V.row(Eigen::Index(w));
     double least = std::numeric_limits<double>::infinity(), weight = 0;
     std::pair<int, int> best;
-    for(const auto& [i, j] : segments) {
-      if(own[w].count(loop[std::size_t(i)]) == 0)
-        continue;
-      const Eigen::Vector3d a = fine.V.row(i), b = fine.V.row(j);
-      const double t = projected_edge_weight(a, b, p);
-      const double distance = (a + t * (b - a) - p).squaredNorm();
-      if(distance < least) {
-        least = distance;
-        weight = t;
-        best = {i, j};
+    for(const Eigen::Index of : own[w])
+      for(const auto& [i, j] : segments_of_loop[of]) {
+        const Eigen::Vector3d a = fine.V.row(i), b = fine.V.row(j);
+        const double t = projected_edge_weight(a, b, p);
+        const double distance = (a + t * (b - a) - p).squaredNorm();
+        if(distance < least) {
+          least = distance;
+          weight = t;
+          best = {i, j};
+        }
       }
-    }
     if(weight < 1)
       entries.emplace_back(int(w), best.first, 1 - weight);
     if(weight > 0)
@@ -221,8 +236,7 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   Spectral_geometry::Relocation_options with_goals = options;
   if(options.eigenvalues.size() == 0 && internal::has_reachable_eigenvalues(op) &&
      op.coefficients.size() == 0)
-    with_goals.eigenvalues =
-        pairs.values * Spectral_geometry::laplace_operator(fine.V, fine.T, op).mass.sum();
+    with_goals.eigenvalues = pairs.values * internal::area(fine);
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors,
                                  pairs.vectors * pairs.values.asDiagonal(), op, with_goals, {}, np);
 }

@@ -58,7 +58,6 @@ public:
     , m_geometry(T, V.rows(), op)
     , m_modes(V.rows() - 1)
     , m_first(modes)
-    , m_matched(modes)
     , m_error(options.eigenvalue_error)
   {
     bool all_have_faces = true;
@@ -73,15 +72,15 @@ public:
       std::sort(sorted.data(), sorted.data() + sorted.size());
       set_goals(sorted.head(goals), modes);
     }
-    m_last = all_have_faces ? (std::min)((std::max)(m_last, m_matched), m_modes) : m_first;
-    m_matched = (std::min)(m_matched, m_last);
+    m_last = (std::max)(m_last, m_first + m_goals.size());
+    m_last = all_have_faces ? (std::min)(m_last, m_modes) : m_first;
     refresh(V);
   }
 
   bool is_active() const { return m_last > m_first; }
 
   /// Whether eigenvalues of the fine mesh are among what it knows.
-  bool has_goals() const { return m_matched > m_first && m_goals.size() != 0; }
+  bool has_goals() const { return is_active() && m_goals.size() != 0; }
 
   /// The eigenvectors of the mesh as it is now: from those before by two steps of inverse iteration
   /// on all of them.
@@ -155,10 +154,9 @@ private:
     if(zeros >= (std::min)(modes, values.size()))
       return;
     m_first = zeros;
-    m_matched = values.size();
-    m_goals = values.tail(m_matched - m_first).transpose().array();
+    m_goals = values.tail(values.size() - zeros).transpose().array();
     m_weights = 1 + low * m_goals[0] / m_goals;
-    const Index within = (std::min)(modes, m_matched) - m_first;
+    const Index within = (std::min)(modes, values.size()) - zeros;
     m_weights.tail(m_goals.size() - within).setConstant(beyond);
     m_weights /= m_weights.head(within).sum();
   }
@@ -223,9 +221,8 @@ private:
   Eigen::MatrixXi m_T;
   Operator_geometry m_geometry;
   Operator_geometry::Entries m_entries;
-  Index m_modes;            // that the coarse mesh has
-  Index m_first, m_matched; // the modes that have goals, or K twice
-  Index m_last;             // behind the last that is looked at
+  Index m_modes;         // that the coarse mesh has
+  Index m_first, m_last; // the modes that are looked at; those with goals come first
   double m_error;
   Row m_goals, m_weights; // at unit area; empty: none
   Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> m_phi;

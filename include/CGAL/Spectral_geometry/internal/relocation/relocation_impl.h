@@ -316,7 +316,12 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
      options.eigenvalues.size() > 0 && options.eigenvalue_error > 0) {
     Relocation_options without = options;
     without.eigenvalue_error = 0;
-    return relocate_positions(V, T, P, fine, F, Z, op, fixed, without);
+    without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
+    if(options.progress) // a fraction never decreases
+      without.progress = [&](double) { return options.progress(1.); };
+    Relocation_result second = relocate_within(V, T, P, fine, F, Z, op, fixed, without, limits);
+    second.seconds += result.seconds;
+    return second;
   }
   V = moved;
   return result;
