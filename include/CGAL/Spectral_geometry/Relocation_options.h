@@ -52,12 +52,13 @@ struct Relocation_options
   /// negative.
   Eigen::Index modes = 0;
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
-  /// coarse ones are drawn to them; those beyond the first K may be among them. Not for lumped
-  /// masses, where the shape would make up for the error of the elements. Where |C|_L would be
-  /// larger than before, the relocation is done anew without them. Empty: no such term.
+  /// coarse ones are drawn to them, as many as a sixth of the vertices; those beyond the first K
+  /// may be among them. Not for lumped masses, where the shape would make up for the error of the
+  /// elements. Where |C|_L would be larger than before, the relocation is done anew without them.
+  /// Empty: no such term.
   Eigen::VectorXd eigenvalues;
   /// epsilon: relative errors of the first K eigenvalues of this size in the mean square cost as
-  /// much as all that is minimised does at the start. With 0.03 errors fall to 0.5 times what they
+  /// much as all that is minimised does at the start. With 0.03 errors fall to 0.6 times what they
   /// are without the term (0.36 for modes 2 to 20) and |C|_L stays; with 0.02 |C|_L is 1.15 times
   /// as large, with 0.01 1.5 times (twelve meshes). Not negative; 0: no such term.
   double eigenvalue_error = 0.03;
@@ -73,7 +74,7 @@ struct Relocation_options
   int threads = 1;
 
   /// Ends after so many steps; one step is a value and a gradient, seldom two. 40 are two thirds of
-  /// the time, with |C|_L 1.01 and errors of eigenvalues 1.06 times as large.
+  /// the time, with |C|_L and errors of eigenvalues 1.04 times as large.
   int maximum_steps = 60;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();
