@@ -388,10 +388,15 @@ foreach(package IN LISTS packages)
   endforeach()
 endforeach()
 
-# Sections of doc/user_manual.md in Doxygen's words, with labels that begin with `prefix`; `figures` are those they show.
-file(READ "${root}/doc/user_manual.md" manual)
+# Sections of the four pages in Doxygen's words, with labels that begin with `prefix`; `figures` are those they show.
+set(pages tutorial how_to reference measurements)
+set(manual "")
+foreach(page IN LISTS pages)
+  file(READ "${root}/doc/${page}.md" text)
+  string(APPEND manual "${text}")
+endforeach()
 if(manual MATCHES "\\*/")
-  message(FATAL_ERROR "doc/user_manual.md contains the end of a C comment; reword it.")
+  message(FATAL_ERROR "A page of doc/ contains the end of a C comment; reword it.")
 endif()
 string(APPEND manual "\n## ")
 function(manual_sections result figures prefix)
@@ -399,7 +404,7 @@ function(manual_sections result figures prefix)
   foreach(title IN LISTS ARGN)
     string(FIND "${manual}" "\n## ${title}\n" begin)
     if(begin EQUAL -1)
-      message(FATAL_ERROR "doc/user_manual.md has no section '${title}'.")
+      message(FATAL_ERROR "No page of doc/ has a section '${title}'.")
     endif()
     string(LENGTH "\n## ${title}\n" length)
     math(EXPR begin "${begin} + ${length}")
@@ -413,10 +418,10 @@ function(manual_sections result figures prefix)
   if(prefix STREQUAL "sec_SG_")
     string(REGEX REPLACE "<!-- snippet: [^\n]* -->\n" "" all "${all}")
   else()
-    string(REPLACE "<!-- snippet: examples/edge_collapse_spectral_swap.cpp swap -->\n" "" all "${all}")
     string(REGEX REPLACE "<!-- snippet: examples/([A-Za-z0-9_]+\\.cpp) ([a-z_]+) -->\n+```cpp\n[^`]*```"
                          "\\\\snippet Surface_mesh_simplification/\\1 \\2" all "${all}")
   endif()
+  string(REGEX REPLACE "```math\n([^`]*)```" "\\\\f[ \\1\\\\f]" all "${all}")
   string(REGEX MATCHALL "fig/[a-z_]+\\.(png|svg)" shown "${all}")
   string(REGEX REPLACE "!\\[([^]]*)\\]\\(fig/([a-z_]+)\\.([a-z]+)\\)\n\n\\*Figure [0-9]+\\. ([^*]*)\\*\n"
                        "\\\\cgalFigureBegin{${prefix}\\2,\\2.\\3}\n\\1 \\4\n\\\\cgalFigureEnd\n" all "${all}")
@@ -424,25 +429,36 @@ function(manual_sections result figures prefix)
   string(REGEX REPLACE " \\(\\[[^]]*\\]\\([a-z_/.]*\\.md(#[a-z-]*)?\\)\\)" "" all "${all}")
   string(REGEX REPLACE "([.:]|\n)[ \n]\\[[^]]*\\]\\([a-z_/.]*\\.md(#[a-z-]*)?\\)[^.\n]*\\." "\\1" all "${all}")
   string(REGEX REPLACE "\\[([^]]*)\\]\\([a-z_/.]*\\.md(#[a-z-]*)?\\)" "\\1" all "${all}")
+  string(REGEX REPLACE "\\[([^]]*)\\]\\(#[a-z-]*\\)" "\\1" all "${all}")
   # And the programs.
   string(REGEX REPLACE "`spectral_[a-z]+ --[^`]*`, " "" all "${all}")
   string(REGEX REPLACE " On the command line: `[^`]*`\\." "" all "${all}")
-  string(REGEX REPLACE " `spectral_simplify` has them as `--preset`, and each option\noverrides the preset\\." "" all "${all}")
-  string(REPLACE ", see\n*Large meshes*" "" all "${all}")
-  string(REPLACE ", see *Performance* below" "" all "${all}")
+  string(REGEX REPLACE "[ \n]`spectral_simplify`[ \n]has[ \n]them[^.]*\\." "" all "${all}")
   # And the toolbox.
-  string(REGEX REPLACE " Or fit operators with a diagonal mass [^%]*%\\." "" all "${all}")
-  string(REGEX REPLACE "\nThe changes of each version are in CHANGES.md[^.]*\\.\n" "" all "${all}")
+  string(REGEX REPLACE "[ \n]+Or[ \n]+fit[ \n]+operators[ \n]+with[^%]*%\\." "" all "${all}")
+  string(REGEX REPLACE "\n[^\n]*Fitted operators[^\n]*\n[^\n]*\n" "\n" all "${all}")
+  string(REGEX REPLACE "\n- A fitted mass[^\n]*\n" "\n" all "${all}")
   set(${result} "${all}" PARENT_SCOPE)
   set(${figures} ${shown} PARENT_SCOPE)
 endfunction()
 
 set(titles_Spectral_geometry "Which mass, and why" "References")
-set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them"
-    "Choosing K and N" "Why a few random mixtures are enough" "Placements" "Relocation" "Control over a run" "What is guaranteed" "Design and implementation history")
-# The others are about the programs and their figures, or doc/cgal says it in fewer words.
-set(titles_left "Introduction" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators" "Python" "Performance"
-                "Large meshes" "Troubleshooting")
+set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them" "Results"
+    "Choosing K and N" "Why a few random mixtures are enough" "Placements" "Relocation" "Control over a run" "What is guaranteed")
+# The others are about the programs, Python, the toolbox and figures, or doc/cgal says it in fewer words.
+set(titles_left
+    # tutorial.md
+    "What it is for" "Install" "Simplify a mesh" "Use it in Python" "Use it in C++" "Where to go from here"
+    # reference.md
+    "Where to find what" "Options" "Errors and warnings" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators"
+    # measurements.md
+    "Norms over the number of vertices" "Mixtures" "Eigenvalue goals" "Other operators, measured" "Fitted operators, measured" "Error bounds"
+    "Performance" "Large meshes")
+file(STRINGS "${root}/doc/how_to.md" titles REGEX "^## ")
+foreach(title IN LISTS titles)
+  string(SUBSTRING "${title}" 3 -1 title)
+  list(APPEND titles_left "${title}")
+endforeach()
 manual_sections(sections_Spectral_geometry figures_Spectral_geometry sec_SG_ ${titles_Spectral_geometry})
 manual_sections(sections_Surface_mesh_simplification figures_Surface_mesh_simplification sec_SMS_spectral_
                 ${titles_Surface_mesh_simplification})

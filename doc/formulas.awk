@@ -2,7 +2,7 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# A filter for Doxygen: turns the formulas of a header, written in TeX between \f$ \f$ or \f[ \f], into HTML with
+# A filter for Doxygen: turns the formulas of a header or a page, written in TeX between \f$ \f$ or \f[ \f], into HTML with
 # Unicode letters. The pages then need neither MathJax (a network) nor LaTeX, and awk stands wherever a shell does.
 # In CGAL's own tree the headers go through MathJax as they are, without this filter.
 #
@@ -20,10 +20,13 @@ BEGIN {
     symbol[words[i]] = words[i] " "
   symbol["quad"] = "&emsp;"
   symbol["qquad"] = "&emsp;&emsp;"
-  symbol["left"] = symbol["right"] = symbol["big"] = symbol["Big"] = symbol["bigl"] = symbol["bigr"] = ""
+  symbol["left"] = symbol["right"] = symbol["big"] = symbol["Big"] = symbol["bigl"] = symbol["bigr"] = symbol["Bigl"] = symbol["Bigr"] = ""
   text = ""
 }
 
+# A block ```math of a page is a formula as well.
+/^```math$/ { text = text "\\f[\n"; math = 1; next }
+math && /^```$/ { text = text "\\f]\n"; math = 0; next }
 { text = text $0 "\n" }
 
 END {
@@ -110,6 +113,8 @@ function command(name,    a, b, html)
     html = fenced(a) " / " fenced(b)
     return rest ~ /^ *(\\(left)?[({[A-Za-z]|[A-Za-z(])/ && rest !~ /^ *\\right/ ? "(" html ")" : html
   }
+  if(name == "tag")
+    return "&emsp;(" argument() ")"
   if(name == "sqrt")
     return "√" fenced(argument())
   if(name ~ /^(mbox|text|mathrm|operatorname)$/)

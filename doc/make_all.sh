@@ -7,7 +7,7 @@
 #
 # Makes the tables, the figures and the data of this folder anew, but for those of experiments.md, from the commit that is checked out and
 # that BUILD was built from. That takes about an hour and a half on a machine with two cores, the first of it without other work. The text around
-# the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md and user_manual.md quote wrongly.
+# the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md, reference.md and measurements.md quote wrongly.
 #
 #   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
 #              what make_operators.py does
@@ -94,7 +94,7 @@ sh "$doc/make_robustness.sh" "$build/examples/spectral_simplify" "$meshes"/nasty
 import sys
 from make_results import commit, replace
 replace("robustness.md", "inputs", f"Commit {commit()}.\n\n" + sys.stdin.read())') <"$build/robustness.txt"
-say "operators, user_manual.md"
+say "operators, measurements.md"
 for mesh in ogre beetle; do
   "$build/examples/spectral_simplify" "$meshes/nasty/$mesh.obj" "$build/$mesh.off" --repair --vertices 100% --no-evaluation --relocate none --quiet
 done

@@ -3,7 +3,7 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The numbers that README.md and user_manual.md quote:
+# The numbers that README.md, reference.md and measurements.md quote:
 #   doc/measure.py BUILD FOLDER [PART...]  measures them, or parts of them, into measured.json, on a machine without other work
 #   doc/measure.py --check                 stops at a number in the text that is not the one of the data in this folder
 # FOLDER has nefertiti.obj and rocker-arm.obj of common-3d-test-models. The data are measured.json, figures.json (make_figures.py),
@@ -26,51 +26,51 @@ from make_rivals import OURS, SUMMARY
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, "measured.json")
 PRESETS = ("best", "fast", "paper")
-# A file, what stands in it (a group for each number), and what the numbers are.
+# A file, what stands in it, with one space for any white space (a group for each number), and what the numbers are.
 QUOTED = [
     ("../README.md", r"makes a shape of ([\d,]+) vertices, simplifies it to ([\d,]+), prints",
      ("measured.demo.input_vertices", "measured.demo.output_vertices")),
-    ("../README.md", r"\|C\|_L +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_L", "measured.demo.floor_norm_L")),
-    ("../README.md", r"\|C\|_D +([\d.]+)   \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_D", "measured.demo.floor_norm_D")),
+    ("../README.md", r"\|C\|_L +([\d.]+) \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_L", "measured.demo.floor_norm_L")),
+    ("../README.md", r"\|C\|_D +([\d.]+) \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_D", "measured.demo.floor_norm_D")),
     ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("measured.demo.eigenvalue_error_percent",)),
-    ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two\s+cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
+    ("../README.md", r"nefertiti\.obj, ([\d,]+) vertices, to 1,000 on two cores: ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
      ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
     ("../README.md", r"`--fit-operators DIR --fit-mass diagonal` \(eigenvalues off by ([\d.]+) % in the mean", ("rivals.lumped.fitted.2",)),
-    ("../README.md", r"a million\s+vertices to 10,000: ([\d.]+) s and ([\d.]+) GB with best, ([\d.]+) s and ([\d.]+) GB with fast",
+    ("../README.md", r"a million vertices to 10,000: ([\d.]+) s and ([\d.]+) GB with best, ([\d.]+) s and ([\d.]+) GB with fast",
      ("measured.million.best.seconds", "measured.million.best.gigabytes", "measured.million.fast.seconds", "measured.million.fast.gigabytes")),
-    ("user_manual.md", r"What best costs: ([\d.]+) times the time of paper's", ("best_over_paper",)),
-    ("user_manual.md", r"A collapse of rocker-arm takes ([\d.]+) µs,\s+first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
+    ("reference.md", r"Beside `paper`, `best` takes ([\d.]+) times as long for nefertiti", ("best_over_paper",)),
+    ("measurements.md", r"A collapse of rocker-arm takes ([\d.]+) µs, first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
      ("measured.benchmark.us_per_collapse", "measured.benchmark.ratio_garland_heckbert")),
-    ("user_manual.md", r"everything ([\d.]+) s and\s+([\d.]+) MB", ("measured.benchmark.seconds_total", "measured.benchmark.peak_rss_mb")),
-    ("user_manual.md", r"takes ([\d,]+) µs with 1,000 neighbours, where Garland-Heckbert's takes ([\d,]+), and ([\d,]+) with 10,000, where that takes ([\d,]+)",
+    ("measurements.md", r"everything ([\d.]+) s and ([\d.]+) MB", ("measured.benchmark.seconds_total", "measured.benchmark.peak_rss_mb")),
+    ("measurements.md", r"takes ([\d,]+) µs with 1,000 neighbours, where Garland-Heckbert's takes ([\d,]+), and ([\d,]+) with 10,000, where that takes ([\d,]+)",
      tuple(f"degree.{d}.{key}" for d in (1000, 10000) for key in ("us_per_collapse", "us_per_collapse_garland_heckbert"))),
-    ("user_manual.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000\s+vertices to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
-    ("user_manual.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100,\s+([\d.]+) s of them for the eigenpairs; with K = 400 it took "
+    ("measurements.md", r"with K = 100 the ratio falls from ([\d.]+) at 25,000 vertices to ([\d.]+)\.", ("scaling.25002.100.ratio", "scaling.998562.100.ratio")),
+    ("measurements.md", r"A million vertices took ([\d.]+) s and ([\d.]+) GB with K = 100, ([\d.]+) s of them for the eigenpairs; with K = 400 it took "
      r"([\d.]+) s, ([\d.]+) of them for the eigenpairs, and ([\d.]+) GB",
      tuple(f"scaling.998562.{K}.{key}" for K, keys in ((100, ("seconds_total", "gigabytes", "seconds_eigenpairs")),
                                                       (400, ("seconds_total", "seconds_eigenpairs", "gigabytes"))) for key in keys)),
-    ("user_manual.md", r"lumped \| 5\.1 K²/N \| 0 \| ([\d.]+) \|\n\| averaged \| 2\.2 K³/N² \| 0\.52 K\^1\.5/N \| ([\d.]+) and ([\d.]+) \|",
+    ("reference.md", r"lumped \| 5\.1 K²/N \| 0 \| ([\d.]+) \| \| averaged \| 2\.2 K³/N² \| 0\.52 K\^1\.5/N \| ([\d.]+) and ([\d.]+) \|",
      ("over_n.lumped.floor.600.L", "over_n.averaged.floor.600.L", "over_n.averaged.floor.600.D")),
-    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+), and relocation to ([\d.]+):", ("figures.steps.0", "figures.steps.1", "figures.steps.2")),
-    ("user_manual.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+)\.\*", ("figures.relocation.before", "figures.relocation.after")),
-    ("user_manual.md", r"‖C‖_L of the preset best is ([\d.]+) to ([\d.]+) times that of isotropic\s+remeshing, whose even triangles are a good use of "
-     r"too few vertices, and ‖C‖_D ([\d.]+) to ([\d.]+) times; from 3 K on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+)\s+times",
+    ("reference.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+), and relocation to ([\d.]+):", ("figures.steps.0", "figures.steps.1", "figures.steps.2")),
+    ("reference.md", r"takes ‖C‖_L from ([\d.]+) to ([\d.]+)\.\*", ("figures.relocation.before", "figures.relocation.after")),
+    ("measurements.md", r"‖C‖_L of the preset best is ([\d.]+) to ([\d.]+) times as large as with isotropic remeshing, "
+     r"and ‖C‖_D ([\d.]+) to ([\d.]+) times; from 3 K on ([\d.]+) to ([\d.]+) and ([\d.]+) to ([\d.]+) times",
      tuple(f"over_isotropic.{part}.{norm}.{end}" for part in ("below", "above") for norm in ("L", "D") for end in ("least", "most"))),
-    ("user_manual.md", r"by ([\d.]+) % in the mean; the averaged mass is off by\s+([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
+    ("reference.md", r"by ([\d.]+) % in the mean; the averaged mass is off by ([\d.]+) %, and fitted operators by ([\d.]+) % with a diagonal mass and "
      r"([\d.]+) % with one on the edges", tuple("figures.masses." + key for key in ("lumped", "averaged", "lumped_fitted", "averaged_fitted"))),
-    ("user_manual.md", r"judged in the lumped mass it has ‖C‖_L ([\d.]+) in the mean of nine meshes, paper ([\d.]+) and the best rival\s+([\d.]+)\. "
+    ("reference.md", r"judged in the lumped mass it has ‖C‖_L ([\d.]+) in the mean of nine meshes, paper ([\d.]+) and the best rival ([\d.]+)\. "
      r"Or fit operators with a diagonal mass \(`fit_operators\(\)`\): ([\d.]+), and eigenvalues within ([\d.]+) %",
      ("rivals.lumped.own.0", "lumped_means.paper", "lumped_means.rival", "rivals.lumped.fitted.0", "rivals.lumped.fitted.2")),
-    ("user_manual.md", r"The 100 pairs of nefertiti to\s+1e-8 take ([\d.]+) s with one thread and ([\d.]+) s with two, to 1e-4 ([\d.]+) and ([\d.]+) s; "
+    ("measurements.md", r"The 100 pairs of nefertiti to 1e-8 take ([\d.]+) s with one thread and ([\d.]+) s with two, to 1e-4 ([\d.]+) and ([\d.]+) s; "
      r"Spectra takes ([\d.]+) s", tuple("measured.pairs." + key for key in ("1e-08 one", "1e-08 all", "1e-04 one", "1e-04 all", "spectra"))),
-    ("user_manual.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
-    ("user_manual.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
-    ("user_manual.md", r"the shape term the quadrics of border edges do that by themselves \(([\d.]+), with `preserve_border` ([\d.]+), both relocated\)",
+    ("reference.md", r"wears capes away, ([\d.]+) % of the area", ("border_loss",)),
+    ("reference.md", r"within ([\d.]+) % instead of ([\d.]+) % in the mean of nine meshes", ("rivals.averaged.own.2", "rivals.lumped.own.2")),
+    ("reference.md", r"reduced from 25,600 to 768 vertices ‖C‖_L is ([\d.]+) without `preserve_border` and ([\d.]+) with it \(both relocated\)",
      ("results.mountain 768.best", "results.mountain 768.preserved")),
-    ("user_manual.md", r"‖C‖_L falls to ([\d.]+) to ([\d.]+) times the mesh's own, ‖C‖_D to ([\d.]+) to\s+([\d.]+) times",
+    ("measurements.md", r"‖C‖_L falls to ([\d.]+) to ([\d.]+) times the mesh's own, ‖C‖_D to ([\d.]+) to ([\d.]+) times",
      ("fitted.0.least", "fitted.0.most", "fitted.1.least", "fitted.1.most")),
 ]
-# The tables of the manual, by the first cell of a row: what its other cells are.
+# The tables of measurements.md, by the first cell of a row: what its other cells are.
 TABLES = {"‖C‖_L, averaged, best": [f"over_n.averaged.best.{N}.L" for N in (100, 200, 300, 600, 1400)],
           "‖C‖_D, averaged, best": [f"over_n.averaged.best.{N}.D" for N in (100, 200, 300, 600, 1400)],
           "mean eigenvalue error, averaged, best": [f"over_n.averaged.best.{N}.percent" for N in (100, 200, 300, 600, 1400)],
@@ -264,29 +264,33 @@ def check():
             wrong.append(f"{name} says {quoted} for {key}, which is {value}")
 
     for name, pattern, keys in QUOTED:
-        found = re.search(pattern, read(name))
+        found = re.search(pattern, re.sub(r"\s+", " ", read(name)))
         if not found:
             wrong.append(f"{name} does not say: {pattern}")
             continue
         for quoted, key in zip(found.groups(), keys):
             compare(name, quoted, key)
-    manual = read("user_manual.md")
-    rows = cells(manual)
+    rows = cells(read("measurements.md"))
     for title, keys in TABLES.items():
         if len(rows.get(title, [])) != len(keys):
-            wrong.append(f"user_manual.md has no row of {len(keys)} numbers '{title}'")
+            wrong.append(f"measurements.md has no row of {len(keys)} numbers '{title}'")
             continue
         for quoted, key in zip(rows[title], keys):
-            compare("user_manual.md", quoted.removesuffix(" %"), key)
-    # Its table of fitted operators is a part of rivals.md.
+            compare("measurements.md", quoted.removesuffix(" %"), key)
+    # The table of fitted operators is a part of rivals.md.
     for title, both in list(meshes.items()) + [("geometric mean", data["rivals"])]:
         wanted = [" / ".join(both[mass][which]) for mass in ("averaged", "lumped") for which in ("own", "fitted")]
         if rows.get(title) != wanted:
-            wrong.append(f"user_manual.md and rivals.md differ in the row {title}: {' | '.join(wanted)}")
-    numbers = [int(n) for n in re.findall(r"^\*Figure (\d+)\. ", manual, re.M)]
-    if numbers != list(range(1, manual.count("](fig/") + 1)):
-        wrong.append(f"The figures of user_manual.md are numbered {numbers}")
-    # The table of the README is a part of that of the averaged mass in rivals.md, and what it says of further meshes stands there.
+            wrong.append(f"measurements.md and rivals.md differ in the row {title}: {' | '.join(wanted)}")
+    for page in ("tutorial.md", "reference.md", "measurements.md"):
+        text = read(page)
+        numbers = [int(n) for n in re.findall(r"^\*Figure (\d+)\. ", text, re.M)]
+        if numbers != list(range(1, text.count("](fig/") + 1)):
+            wrong.append(f"The figures of {page} are numbered {numbers}")
+        tags = [int(n) for n in re.findall(r"\\tag\{(\d+)\}", text)]
+        if tags != list(range(1, len(tags) + 1)):
+            wrong.append(f"The formulas of {page} are numbered {tags}")
+    # The table of the README is a part of the averaged one in rivals.md, and what it says of further meshes stands there.
     rivals, readme = read("rivals.md"), read("../README.md")
     rows = cells(rivals.split("## Geometric means, judged in the averaged mass")[1].split("\n## ")[0])
     table = cells(readme.split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0])
@@ -294,7 +298,8 @@ def check():
         if title.strip("*") not in table or table[title.strip("*")] != rows.get(OURS.get(name, name).strip("*"), [])[:6]:
             wrong.append(f"README.md and rivals.md differ in {title}")
     survey = rivals.split("<!-- survey: begin -->")[1]
-    found = re.search(r"On (\d+) further meshes \|C\|_L is ([\d.]+) times that of the probabilistic quadrics on the average, and lower on (\d+)\.", readme)
+    found = re.search(r"On (\d+) further meshes \|C\|_L is ([\d.]+) times as large as with the probabilistic quadrics on average, and lower on (\d+)\.",
+                      re.sub(r"\s+", " ", readme))
     if not found or (found[2], f"{found[3]} of {found[1]}") != tuple(cells(survey)[k][0] for k in ("ratio, geometric mean", "the default is better")):
         wrong.append("README.md does not say of further meshes what rivals.md says")
     sys.exit("\n".join(wrong) or None)

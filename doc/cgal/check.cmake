@@ -60,13 +60,13 @@ foreach(name IN ITEMS "eigenpairs()" "cotangent_laplacian()" Merge_forest "spect
   endif()
 endforeach()
 
-# Each section of the manual goes somewhere, and what it shows of the examples is there.
+# Each section of the pages goes somewhere, and what it shows of the examples is there.
 string(REGEX MATCHALL "\n## [^\n]+" titles "${manual}")
 foreach(title IN LISTS titles)
   string(SUBSTRING "${title}" 4 -1 title)
   if(NOT title IN_LIST titles_Spectral_geometry AND NOT title IN_LIST titles_Surface_mesh_simplification
      AND NOT title IN_LIST titles_left)
-    message(FATAL_ERROR "The section '${title}' of doc/user_manual.md is in none of the lists of doc/cgal_layout.cmake.")
+    message(FATAL_ERROR "The section '${title}' is in none of the lists of doc/cgal_layout.cmake.")
   endif()
 endforeach()
 if("${sections_Spectral_geometry}${sections_Surface_mesh_simplification}" MATCHES "([^\n]*(spectral_(simplify|compare|benchmark)|`--|\\.md)[^\n]*)")

@@ -427,9 +427,8 @@ int run(int argc, char* argv[])
               "nearly isometric, with the same triangles");
   line.option("shuffle", seed, "X", "renumber vertices and faces at random with this seed");
   line.option("map", map, "map.txt",
-              "write for each vertex its number in OUTPUT, one per line, from 0: that of the same "
-              "vertex in "
-              "another pose");
+              "write for each vertex its number in OUTPUT, one per line, from 0; a "
+              "line is the same vertex in every pose");
   const std::string help = line.read(argc, argv);
   if(!help.empty()) {
     std::cout << help;

@@ -19,9 +19,9 @@ inline Command_line described(Arguments& a)
                     "Laplace-Beltrami\n"
                     "operator as well as it can (Lescoat et al., Spectral Mesh Simplification, "
                     "2020). INPUT and OUTPUT\n"
-                    "end in .off, .obj, .ply or .stl. Exit status: 0 all is written; 1 nothing is; "
-                    "3 OUTPUT is, but the\n"
-                    "evaluation failed; 130 interrupted.");
+                    "end in .off, .obj, .ply or .stl. Exit status: 0 on success; 1 on error, with "
+                    "no file written; 3 if\n"
+                    "OUTPUT was written but its evaluation failed; 130 if interrupted.");
   line.argument(a.input);
   line.argument(a.output);
 
@@ -29,8 +29,8 @@ inline Command_line described(Arguments& a)
   line.option("vertices", a.vertices_word, "N|P%",
               "how many vertices OUTPUT has, such as 600 or 3%");
   line.option("faces", a.faces_word, "N|P%",
-              "in its place, how many faces it has at most; two or three fewer where its border "
-              "loses an edge");
+              "how many faces OUTPUT has at most, in place of --vertices; two or three fewer where "
+              "its border loses an edge");
   line.option("levels", a.levels_word, "N1,N2,...",
               "write these sizes as well: OUTPUT-N1, OUTPUT-N2, ..., with a matrix of "
               "--restriction and a map "
@@ -53,11 +53,8 @@ inline Command_line described(Arguments& a)
             "make INPUT an oriented manifold of triangles and say what was changed");
   line.option("keep", a.keep, "LIST",
               "vertices that stay where they are, words separated by commas: border; sharp:ANGLE, "
-              "those of edges "
-              "where the normals of both faces are ANGLE degrees apart, and corners of the border; "
-              "seams, those of a "
-              "texture; "
-              "FILE, one index per line, from 0");
+              "edges where the normals of both faces are ANGLE degrees apart, and corners of the "
+              "border; seams of a texture; FILE, one index per line, from 0");
 
   line.group("Outputs");
   line.option("restriction", a.restriction, "P.mtx",
@@ -89,12 +86,10 @@ inline Command_line described(Arguments& a)
   line.choice("self-intersections", a.self_intersections, {"allow", "refuse"},
               "collapses that put a face through another (best: refuse, paper: allow)");
   line.choice("relocate", a.relocate, words_of(relocation_words, {"none"}),
-              "afterwards move the vertices so that the spectrum is kept still better (best: "
-              "sampled, paper: "
-              "none), by the functions at the closest points of INPUT, by what the restriction "
-              "carries, or by "
-              "both. With sampled the restriction is that of the closest points, and no longer "
-              "follows --map");
+              "move the vertices afterwards so that the spectrum is kept still better (best: "
+              "sampled, paper: none), by the functions at the closest points of INPUT, by what "
+              "the restriction carries, or by both. With sampled the restriction interpolates at "
+              "closest points and no longer follows --map");
   line.option(
       "quadrics-above", a.quadrics_above, "R",
       "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "
@@ -114,9 +109,8 @@ inline Command_line described(Arguments& a)
               "direction of a "
               "principal curvature k, which is 1 on a sphere of the same area. --eigenpairs writes "
               "coarse_coefficients.npy as well");
-  line.choice(
-      "boundary", a.boundary, words_of(boundary_words),
-      "what functions do on the border of INPUT: their derivative across it is zero, or they are");
+  line.choice("boundary", a.boundary, words_of(boundary_words),
+              "boundary condition: neumann (zero normal derivative) or dirichlet (zero value)");
   line.flag("intrinsic-delaunay", a.intrinsic_delaunay,
             "for an INPUT of needles: take eigenvectors, and judge, on the intrinsic Delaunay "
             "triangulations "

@@ -96,12 +96,12 @@ inline Command_line described(Matching_arguments& a)
 {
   Command_line line("shape_matching X Y --output map.txt [options]",
                     "Finds for each vertex of the mesh X the vertex of the mesh Y that corresponds "
-                    "to it: simplifies both\n"
-                    "to the same number of vertices, matches these (functional map from "
-                    "signatures, ZoomOut, Product\n"
-                    "Manifold Filter or BCICP) and lifts the functional map to X and Y (section "
-                    "5.2 of Lescoat et al.\n"
-                    "2020).");
+                    "to it. Both are\n"
+                    "simplified to the same number of vertices and matched (functional map from "
+                    "signatures, ZoomOut,\n"
+                    "Product Manifold Filter or BCICP). The functional map is then lifted to X and "
+                    "Y (section 5.2 of\n"
+                    "Lescoat et al. 2020).");
   line.argument(a.X);
   line.argument(a.Y);
   line.group("Size");
@@ -126,15 +126,14 @@ inline Command_line described(Matching_arguments& a)
   line.option("report", a.report, "FILE.html", "a page with pictures, times and errors");
   line.option("json", a.json, "FILE", "seconds and memory of each stage, and errors, for programs");
   line.option("ground-truth", a.ground_truth, "map.txt",
-              "the true map, as of --output: geodesic errors are measured");
+              "the true map, in the format of --output: geodesic errors are measured");
   line.group("Run");
   line.threads(a.threads);
   line.flag("quiet", a.quiet, "no table");
   line.advanced_group("Stages of the match (advanced)");
-  line.option(
-      "proxy", a.proxies, "NAME,...",
-      "how to simplify, one or several of " + proxy_names() +
-          " (no matcher then), of which the first is written; spectral, if no proxy is given");
+  line.option("proxy", a.proxies, "NAME,...",
+              "how to simplify, one or several of " + proxy_names() +
+                  " (no matcher then). The first is written; spectral, if no proxy is given");
   line.option(
       "proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
       "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "

@@ -49,10 +49,10 @@ class Feature_vertices_map
       typename boost::property_map<TriangleMesh, CGAL::dynamic_vertex_property_t<bool>>::const_type;
 
 public:
-  using key_type = Vertex;
-  using value_type = bool;
-  using reference = bool;
-  using category = boost::readable_property_map_tag;
+  using key_type = Vertex;                           ///< a vertex of the mesh
+  using value_type = bool;                           ///< whether it is kept
+  using reference = bool;                            ///< the same
+  using category = boost::readable_property_map_tag; ///< only read
 
   /// @param mesh the mesh
   /// @param border whether the vertices of the border are features
