@@ -28,7 +28,7 @@ def _arguments() -> argparse.ArgumentParser:
         description="Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of "
         "its Laplace-Beltrami operator as well as it "
         "can. IN and OUT are files of meshes, see read_mesh().",
-        epilog="Exit status: 0 all is written; 1 nothing is; 130 interrupted.",
+        epilog="Exit status: 0 on success; 1 on error, with no file written; 130 if interrupted.",
     )
     add = parser.add_argument
     add("IN")
