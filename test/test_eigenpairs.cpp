@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Spectrum_slices.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -669,6 +669,63 @@ TEST_CASE("Many eigenvectors stay orthonormal")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(4), 0.5);
   CHECK(orthonormality_error(op, SG::eigenpairs(op, 400)) < 1e-11);
+}
+
+TEST_CASE("Many pairs are found in slices of the spectrum, up to nearly all")
+{
+  // The rotations of a torus make nearly all eigenvalues double.
+  for(const double theta : thetas) {
+    const Laplace_operator op = laplace(shapes::torus_matrices(48, 32), theta);
+    const Eigen::VectorXd expected = dense_values(op);
+    for(const Eigen::Index K : {theta > 0. ? 501 : 700, 1480}) {
+      INFO("K = " << K << ", theta = " << theta);
+      const Eigenpairs pairs = SG::eigenpairs(op, K);
+      CHECK(pairs.solver == "block");
+      check_converged(op, pairs, expected);
+    }
+  }
+}
+
+TEST_CASE("Slices do not depend on the number of threads, report progress and can be cancelled")
+{
+  const Laplace_operator op = laplace(shapes::irregular_grid_matrices(45, 40), 0.5);
+  SG::Eigenpairs_options options;
+  std::vector<double> fractions;
+  options.progress = [&](double fraction) { return fractions.push_back(fraction), true; };
+  const Eigenpairs one = SG::eigenpairs(op, 520, options);
+  check_pairs(op, one);
+  CHECK(one.complete);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(std::count_if(fractions.begin(), fractions.end(),
+                      [](double f) { return f > 0.3 && f < 0.7; }) > 20);
+  options.threads = 3;
+  CHECK(SG::eigenpairs(op, 520, options).vectors == one.vectors);
+  options.progress = [](double fraction) { return fraction < 0.5; };
+  CHECK_THROWS_AS(SG::eigenpairs(op, 520, options), SG::Cancelled);
+}
+
+TEST_CASE("Slices of eigenvalues 0, 1, 2, ..., at which every shift may lie, and of many copies")
+{
+  const Eigen::Index n = 1600, K = 520;
+  for(const int copies : {1, 7, 30}) { // of the values around the 200th
+    INFO(copies << " copies");
+    Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(n, 0., n - 1.);
+    values.segment(200, copies).setConstant(200.);
+    values.segment(400, copies).setConstant(400.);
+    values *= 4. * shapes::pi / double(n);
+    Laplace_operator op;
+    op.L.resize(n, n);
+    op.B.resize(n, n);
+    op.L = values.asDiagonal();
+    op.B.setIdentity();
+    op.mass.setOnes(n);
+    const SG::internal::Eigen_problem problem(op); // eigenpairs() would see n parts of it
+    const SG::Eigenpairs_options options;
+    if(copies > 8) // a block finds eight at a time: one space of all goes on until all are there
+      CHECK_THROWS_AS(SG::internal::Spectrum_slices(problem, K, options).compute(),
+                      SG::internal::Not_converged);
+    check_converged(op, SG::internal::pairs_of_part(problem, K, options), values);
+  }
 }
 
 TEST_CASE("Eigenvalues that are missing are counted")

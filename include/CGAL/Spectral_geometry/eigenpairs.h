@@ -31,7 +31,7 @@ namespace CGAL::Spectral_geometry {
 /// or smaller than cotangents) has s in that unit. Start vectors are fixed, so the result is the
 /// same in every run. With K = 100, `block` keeps about 2.4 K vectors of n doubles at a tolerance
 /// of 1e-8, 2.1 K at 1e-4, with the shift below 0 3.4 K and 2.8 K, never more than max(3.6 K, K +
-/// 120).
+/// 120). More than 500 pairs are found some 120 at a time, each time with a shift among them.
 ///
 /// Eigenvectors are orthonormal in B. Signs: the first entry (in vertex order) that is larger in
 /// magnitude than 0.618 times the largest one is positive. Within an eigenspace of several

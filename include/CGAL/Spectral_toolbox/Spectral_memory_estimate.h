@@ -28,11 +28,15 @@ inline double memory_of_eigenpairs(const double n, const double K,
                                    const Spectral_geometry::Eigenpairs_options& options)
 {
   const double factor = 900; // matrices and their factor, for each vertex
+  if(Spectral_geometry::internal::is_sliced(Eigen::Index(n), Eigen::Index(K), options))
+    return n * (8 * (K + 750) + factor);
   if(Spectral_geometry::internal::is_dense(Eigen::Index(n), Eigen::Index(K), options.method))
     return n * (8 * 5.2 * n + factor);
-  const double space =
-      options.maximum_vectors > 0 ? double(options.maximum_vectors) : (std::max)(2.6 * K, K + 120);
-  return n * (8 * space + factor);
+  // Vectors, and entries of the projected matrices.
+  const double most = double(options.maximum_vectors);
+  const double space = most > 0 ? most : (std::max)(2.6 * K, K + 120);
+  const double projected = most > 0 ? 4 * most * most : 20 * K * K;
+  return n * (8 * space + factor) + 8 * projected;
 }
 
 } // namespace internal
@@ -43,14 +47,14 @@ inline double memory_of_eigenpairs(const double n, const double K,
 /*!
  * Returns about how many bytes `spectral_edge_collapse()` takes at its peak, the mesh included: to
  * be compared with what the machine has before a large mesh is started. Two phases compete: the
- * Krylov space of the eigensolver, of 2.6 K vectors of n doubles (or
- * `Eigenpairs_options::maximum_vectors`; 3.5 K where the mesh has more than four components, which
- * is not looked at; 5.2 n^2 doubles where the solve is dense, see `Eigenpairs_method`), and the
- * loop, which keeps the eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or
- * mixtures that the metric sees. Relocation keeps F and Z of at most 64 mixtures, twice;
- * `fit_operators_of_run()` solves once more beside them. Filtered noise takes a factor and the
- * signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates
- * are within about a quarter.
+ * Krylov space of the eigensolver, of 2.6 K vectors of n doubles and 20 K^2 doubles of its
+ * projected problem (or `Eigenpairs_options::maximum_vectors`; K + 750 vectors beyond 500
+ * pairs; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2
+ * doubles where the solve is dense, see `Eigenpairs_method`), and the loop, which keeps the
+ * eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or mixtures that the metric
+ * sees. Relocation keeps F and Z of at most 64 mixtures, twice; `fit_operators_of_run()` solves
+ * once more beside them. Filtered noise takes a factor and the signals. The constants were measured
+ * on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
  * first stage takes a number of bytes per vertex of the input that does not depend on K. What

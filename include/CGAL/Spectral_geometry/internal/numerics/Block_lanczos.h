@@ -103,6 +103,56 @@ public:
   // The one that was used.
   double shift() const { return m_sigma; }
 
+  // --- a slice of the spectrum, see Spectrum_slices ---
+
+  // Factorises L - sigma B and counts the eigenvalues below sigma; -1 where solves would lose too
+  // many digits. Far up more of them may be lost, as residuals are relative to lambda.
+  Index count_below(double sigma)
+  {
+    m_sigma = sigma;
+    factorise();
+    return solves_well(1e-13 + 1e-14 * sigma / m_problem.shift())
+               ? m_factor.number_of_negative_pivots()
+               : -1;
+  }
+
+  // Finds the K pairs next to the shift, `below` of them below it.
+  bool find_next_to_shift(Index below, Index K)
+  {
+    m_below = below;
+    m_K = K;
+    return find_pairs();
+  }
+
+  Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
+
+  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
+  // Each becomes S X / theta = X + W link / theta (Ericsson and Ruhe 1980): L would enlarge what X
+  // has of the highest modes.
+  Eigenpairs pairs()
+  {
+    const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
+    Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
+    make_orthonormal(C);
+    compress(rounded_up(m_K));
+    m_basis.erase(m_basis.begin() + m_panels,
+                  m_basis.end()); // before memory for the result is taken
+    for(Index k = 0; k < m_K; k += panel_width) {
+      const Index columns = (std::min)(m_K - k, Index(panel_width));
+      Eigen::MatrixXd minus_C = Eigen::MatrixXd::Zero(panel_width, panel_width);
+      minus_C.leftCols(columns) = -C.middleCols(k, columns);
+      m_space.subtract(m_basis[k / panel_width], m_W, minus_C);
+    }
+    Eigenpairs result{lambda(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", m_complete};
+    const double scale = std::sqrt(m_problem.shift());
+    for_each_task(static_cast<int>(m_K), m_options.threads, [&](int k) {
+      const Panel& panel = m_basis[k / panel_width];
+      for(Index i = 0; i < m_space.size(); ++i)
+        result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
+    });
+    return result;
+  }
+
   // With the shift below.
   Supernodal_factor& factor_below()
   {
@@ -156,11 +206,11 @@ private:
 
   // A factorisation without pivoting loses digits next to an eigenvalue of a leading block: all but
   // two or three are to be there.
-  bool solves_well()
+  bool solves_well(const double loss = 1e-13)
   {
     const Eigen::SparseMatrix<double> A = m_problem.shifted(m_sigma);
     const Eigen::VectorXd b = A.diagonal(), x = m_factor.solve(b, m_options.threads);
-    return (A * x - b).norm() < 1e-13 * b.cwiseAbs().maxCoeff() * x.norm();
+    return (A * x - b).norm() < loss * b.cwiseAbs().maxCoeff() * x.norm();
   }
 
   // --- the Krylov space ---
@@ -442,8 +492,9 @@ private:
     const double rate = std::log(last_worst / worst) / double(distance);
     if(!(rate > 0.))
       return 2 * panel_width;
-    const double way = 0.6 * std::log(worst / m_options.tolerance) / rate;
-    return rounded_up(static_cast<Index>((std::min)(way, 6. * panel_width)) + 1);
+    const double way = 0.6 * std::log(worst / m_options.tolerance) / rate,
+                 furthest = (std::max)(6. * panel_width, 0.125 * double(dimension()));
+    return rounded_up(static_cast<Index>((std::min)(way, furthest)) + 1);
   }
 
   // Eigenpairs of T: the wanted ones in the order of their lambda, then those with the largest
@@ -512,35 +563,6 @@ private:
   Eigen::VectorXd lambda() const
   {
     return (m_sigma + m_problem.shift() * m_theta.head(m_K).array().inverse()).matrix();
-  }
-
-  Eigen::VectorXd values() const { return lambda().cwiseMax(0.); }
-
-  // Ritz vectors X in the order of the mesh, orthonormal in B instead of s B. The basis is lost.
-  // Each becomes S X / theta = X + W link / theta (Ericsson and Ruhe 1980): L would enlarge what X
-  // has of the highest modes.
-  Eigenpairs pairs()
-  {
-    const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
-    Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
-    make_orthonormal(C);
-    compress(rounded_up(m_K));
-    m_basis.erase(m_basis.begin() + m_panels,
-                  m_basis.end()); // before memory for the result is taken
-    for(Index k = 0; k < m_K; k += panel_width) {
-      const Index columns = (std::min)(m_K - k, Index(panel_width));
-      Eigen::MatrixXd minus_C = Eigen::MatrixXd::Zero(panel_width, panel_width);
-      minus_C.leftCols(columns) = -C.middleCols(k, columns);
-      m_space.subtract(m_basis[k / panel_width], m_W, minus_C);
-    }
-    Eigenpairs result{lambda(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", m_complete};
-    const double scale = std::sqrt(m_problem.shift());
-    for_each_task(static_cast<int>(m_K), m_options.threads, [&](int k) {
-      const Panel& panel = m_basis[k / panel_width];
-      for(Index i = 0; i < m_space.size(); ++i)
-        result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
-    });
-    return result;
   }
 
   // Y and C times (I + C^T C)^-1/2 = I - C^T F C.

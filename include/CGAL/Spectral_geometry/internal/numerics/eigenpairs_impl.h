@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Block_lanczos.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Spectrum_slices.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
@@ -137,19 +138,22 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
     return "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
   };
   const bool dense = is_dense(problem.size(), K, options.method);
-  if(!dense) {
+  const auto solved_by = [&](auto solver) {
     try {
-      Block_lanczos lanczos(problem, K, options);
-      result = lanczos.compute();
+      result = solver.compute();
       if(have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
-           refine(problem, lanczos.factor_below(), options.threads, range, pairs);
+           refine(problem, solver.factor_below(), options.threads, range, pairs);
          }))
-        return result;
+        return true;
       reason = left();
     } catch(const Not_converged& error) {
       reason = error.what();
     }
-  }
+    return false;
+  };
+  if((is_sliced(problem.size(), K, options) && solved_by(Spectrum_slices(problem, K, options))) ||
+     (!dense && solved_by(Block_lanczos(problem, K, options))))
+    return result;
   if(dense || (options.method == Eigenpairs_method::automatic && problem.size() <= largest_dense)) {
     result = dense_eigenpairs(problem, K);
     have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
