@@ -9,12 +9,15 @@
 
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
+#include <CGAL/Spectral_toolbox/curvature_coefficients.h>
+#include <CGAL/Spectral_toolbox/internal/vertex_rings.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 #include <vector>
 
 namespace test_high_degree {
@@ -193,6 +196,39 @@ TEST_CASE("Triangles around a vertex that cross are found, few or many")
   }
   CHECK(crossing > 0);
   CHECK(apart > 0);
+}
+
+TEST_CASE("curvature_coefficients: neighbours of a hub do not have all of its vertices each")
+{
+  const auto work = [](const int degree) {
+    const shapes::Matrices disc = shapes::disc_matrices(degree);
+    const auto neighbors = SG::internal::vertex_neighbors(disc.T, disc.V.rows());
+    std::vector<char> seen(std::size_t(disc.V.rows()), 0);
+    std::size_t result = 0;
+    for(int v = 0; v < int(disc.V.rows()); ++v) {
+      const std::vector<int> ring = SG::internal::rings_of(neighbors, v, 16, seen);
+      CHECK(ring.front() == v);
+      CHECK(std::set<int>(ring.begin(), ring.end()).size() == ring.size());
+      CHECK(ring.size() >= 16);
+      result += ring.size();
+    }
+    return double(result);
+  };
+  CHECK(work(4000) < 4.2 * work(1000));
+}
+
+TEST_CASE("curvature_coefficients can be cancelled")
+{
+  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(4);
+  std::vector<double> fractions;
+  SG::curvature_coefficients(mesh.V, mesh.T, 1., [&](double f) {
+    fractions.push_back(f);
+    return true;
+  });
+  CHECK(fractions.size() > 2);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK_THROWS_AS(SG::curvature_coefficients(mesh.V, mesh.T, 1., [](double f) { return f < 0.3; }),
+                  SG::Cancelled);
 }
 
 } // namespace test_high_degree

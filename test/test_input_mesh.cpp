@@ -86,7 +86,7 @@ TEST_CASE("Isolated vertices are left out, and the others keep their numbers")
           (Eigen::RowVectorXd(6) << 0, 0.25, 0, 0, 0.75, 0).finished());
     CHECK(input.numbering.map_of_file(Indices({7, 5, 7, 7}), no_vertex) ==
           Indices({no_vertex, 7, 5, 7, 7, no_vertex}));
-    CHECK(input.numbering.vertices_of_mesh({4, 1}, "keep") == Indices({3, 0}));
+    CHECK(input.numbering.vertices_of_mesh({4, 1, 4}, "keep") == Indices({3, 0}));
     CHECK_THROWS_WITH(input.numbering.vertices_of_mesh({4, 5}, "keep"),
                       ContainsSubstring("'keep' names the vertex 5"));
   }

@@ -354,8 +354,10 @@ inline Eigen::MatrixXd curvature_coefficients(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const double anisotropy = a.number("anisotropy", 0, true, 1e6);
-  const py::gil_scoped_release no_gil;
-  return SG::curvature_coefficients(mesh.V, mesh.T, anisotropy);
+  return interruptible([&] {
+    return SG::curvature_coefficients(mesh.V, mesh.T, anisotropy,
+                                      [](double) { return check_signals(), true; });
+  });
 }
 
 inline Eigen::MatrixXd functional_map(const Arguments& a)

@@ -5,6 +5,7 @@
 #include "operator_reader.h"
 
 #include "npy_reader.h"
+#include "program.h"
 
 #include <CGAL/Spectral_toolbox/curvature_coefficients.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
@@ -70,7 +71,8 @@ SG::Operator_coefficients operator_coefficients(const Operator_word& word, const
         read_coefficients(word.file, numbering.number_of_file_vertices()));
   if(word.kind == "anisotropic") {
     const SG::Mesh_matrices matrices = SG::mesh_matrices(mesh);
-    return SG::curvature_coefficients(matrices.V, matrices.T, word.anisotropy);
+    return SG::curvature_coefficients(matrices.V, matrices.T, word.anisotropy,
+                                      [](double) { return !interrupted; });
   }
   return {};
 }

@@ -9,7 +9,6 @@
 
 #include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -115,12 +114,15 @@ public:
                                             const std::string& path) const
   {
     std::vector<std::size_t> result;
+    std::vector<char> named(number_of_mesh_vertices(), 0);
     for(const std::size_t v : vertices) {
       if(m_mesh_vertices[v] == no_vertex)
         throw std::runtime_error("'" + path + "' names the vertex " + std::to_string(v) +
                                  ", which no face uses: name another.");
-      if(std::find(result.begin(), result.end(), m_mesh_vertices[v]) == result.end())
+      if(char& before = named[m_mesh_vertices[v]]; !before) {
         result.push_back(m_mesh_vertices[v]);
+        before = 1;
+      }
     }
     return result;
   }

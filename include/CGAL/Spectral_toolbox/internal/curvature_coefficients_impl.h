@@ -11,62 +11,23 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_toolbox/curvature_coefficients.h>
+#include <CGAL/Spectral_toolbox/internal/vertex_rings.h>
+#include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace CGAL::Spectral_geometry {
 
-namespace internal {
-
-/// The neighbours of each vertex.
-inline std::vector<std::vector<int>> vertex_neighbors(const Eigen::MatrixXi& T,
-                                                      const Eigen::Index n)
-{
-  std::vector<std::vector<int>> result(static_cast<std::size_t>(n));
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    for(int k = 0; k < 3; ++k)
-      for(const int l : {1, 2})
-        result[std::size_t(T(f, k))].push_back(T(f, (k + l) % 3));
-  for(std::vector<int>& row : result) {
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-  }
-  return result;
-}
-
-/// Whole rings of v, v first, until there are so many vertices. `seen` has been zero everywhere,
-/// and is again.
-inline std::vector<int> rings_of(const std::vector<std::vector<int>>& neighbors, const int v,
-                                 const std::size_t wanted, std::vector<char>& seen)
-{
-  std::vector<int> result = {v};
-  seen[std::size_t(v)] = 1;
-  for(std::size_t first = 0; first < result.size() && result.size() < wanted;) {
-    const std::size_t last = result.size();
-    for(; first < last; ++first)
-      for(const int w : neighbors[std::size_t(result[first])])
-        if(!seen[std::size_t(w)]) {
-          seen[std::size_t(w)] = 1;
-          result.push_back(w);
-        }
-  }
-  for(const int w : result)
-    seen[std::size_t(w)] = 0;
-  return result;
-}
-
-} // namespace internal
-
-CGAL_SPECTRAL_TOOLBOX_INLINE Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V,
-                                                                          const Eigen::MatrixXi& T,
-                                                                          const double alpha)
+CGAL_SPECTRAL_TOOLBOX_INLINE Operator_coefficients
+curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const double alpha,
+                       const std::function<bool(double)>& progress)
 {
   using Kernel = CGAL::Cartesian<double>;
   using Point = Kernel::Point_3;
@@ -84,6 +45,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Operator_coefficients curvature_coefficients(const 
   Eigen::MatrixXd D =
       weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>(); // the identity
   for(Eigen::Index v = 0; v < V.rows() && alpha > 0; ++v) {
+    if(progress && v % 1024 == 0 && !progress(double(v) / double(V.rows())))
+      throw Cancelled();
     points.clear();
     for(const int w : internal::rings_of(neighbors, int(v), wanted, seen)) {
       const Eigen::Vector3d x = (V.row(w) - V.row(v)) / radius;
