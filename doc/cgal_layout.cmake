@@ -399,6 +399,16 @@ if(manual MATCHES "\\*/")
   message(FATAL_ERROR "A page of doc/ contains the end of a C comment; reword it.")
 endif()
 string(APPEND manual "\n## ")
+include("${texts}/formulas.cmake")
+# Prose in the words of CGAL's manuals: figures, one line for each paragraph, formulas in TeX.
+function(prose result prefix text)
+  string(REGEX REPLACE "!\\[([^]]*)\\]\\(fig/([a-z_]+)\\.([a-z]+)\\)\n\n\\*Figure [0-9]+\\. ([^*]*)\\*\n"
+                       "\\\\cgalFigureBegin{${prefix}\\2,\\2.\\3}\n\n\\1 \\4\n\n\\\\cgalFigureEnd\n" all "${text}")
+  string(REGEX REPLACE "([^\n])\n *([^-|\\\n ])" "\\1 \\2" all "${all}")
+  string(REGEX REPLACE "(cgalFigureBegin[^\n]*\n)\n([^\n]*\n)\n" "\\1\\2" all "${all}")
+  in_words_of_cgal()
+  set(${result} "${all}" PARENT_SCOPE)
+endfunction()
 function(manual_sections result figures prefix)
   set(all "")
   foreach(title IN LISTS ARGN)
@@ -423,8 +433,6 @@ function(manual_sections result figures prefix)
   endif()
   string(REGEX REPLACE "```math\n([^`]*)```" "\\\\f[ \\1\\\\f]" all "${all}")
   string(REGEX MATCHALL "fig/[a-z_]+\\.(png|svg)" shown "${all}")
-  string(REGEX REPLACE "!\\[([^]]*)\\]\\(fig/([a-z_]+)\\.([a-z]+)\\)\n\n\\*Figure [0-9]+\\. ([^*]*)\\*\n"
-                       "\\\\cgalFigureBegin{${prefix}\\2,\\2.\\3}\n\\1 \\4\n\\\\cgalFigureEnd\n" all "${all}")
   # Pages that stay behind: in parentheses, at the start of a sentence, and within one.
   string(REGEX REPLACE " \\(\\[[^]]*\\]\\([a-z_/.]*\\.md(#[a-z-]*)?\\)\\)" "" all "${all}")
   string(REGEX REPLACE "([.:]|\n)[ \n]\\[[^]]*\\]\\([a-z_/.]*\\.md(#[a-z-]*)?\\)[^.\n]*\\." "\\1" all "${all}")
@@ -438,11 +446,12 @@ function(manual_sections result figures prefix)
   string(REGEX REPLACE "[ \n]+Or[ \n]+fit[ \n]+operators[ \n]+with[^%]*%\\." "" all "${all}")
   string(REGEX REPLACE "\n[^\n]*Fitted operators[^\n]*\n[^\n]*\n" "\n" all "${all}")
   string(REGEX REPLACE "\n- A fitted mass[^\n]*\n" "\n" all "${all}")
+  prose(all "${prefix}" "${all}")
   set(${result} "${all}" PARENT_SCOPE)
   set(${figures} ${shown} PARENT_SCOPE)
 endfunction()
 
-set(titles_Spectral_geometry "Which mass, and why" "References")
+set(titles_Spectral_geometry "Which mass, and why")
 set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them" "Results"
     "Choosing K and N" "Why a few random mixtures are enough" "Placements" "Relocation" "Control over a run" "What is guaranteed")
 # The others are about the programs, Python, the toolbox and figures, or doc/cgal says it in fewer words.
@@ -451,6 +460,7 @@ set(titles_left
     "What it is for" "Install" "Simplify a mesh" "Use it in Python" "Use it in C++" "Where to go from here"
     # reference.md
     "Where to find what" "Options" "Errors and warnings" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators"
+    "References"
     # measurements.md
     "Norms over the number of vertices" "Mixtures" "Eigenvalue goals" "Other operators, measured" "Fitted operators, measured" "Error bounds"
     "Performance" "Large meshes")
@@ -462,8 +472,10 @@ endforeach()
 manual_sections(sections_Spectral_geometry figures_Spectral_geometry sec_SG_ ${titles_Spectral_geometry})
 manual_sections(sections_Surface_mesh_simplification figures_Surface_mesh_simplification sec_SMS_spectral_
                 ${titles_Surface_mesh_simplification})
+string(REGEX MATCH "<!-- cgal: begin -->(.*)<!-- cgal: end -->" found "${manual}")
+prose(performance sec_SMS_spectral_ "${CMAKE_MATCH_1}")
 list(APPEND figures_Spectral_geometry fig/operators.png fig/functional_maps.svg)
-list(APPEND figures_Surface_mesh_simplification fig/teaser.svg)
+list(APPEND figures_Surface_mesh_simplification fig/teaser.svg fig/scaling.svg)
 foreach(package IN LISTS packages)
   foreach(figure IN LISTS figures_${package})
     file(COPY "${root}/doc/${figure}" DESTINATION "${output}/${package}/doc/${package}/fig")
