@@ -150,6 +150,15 @@ foreach(package IN LISTS packages)
     string(REPLACE "${own_head}" "${head}" text "${text}")
     string(REGEX REPLACE "(#ifndef [A-Z0-9_]+\n#define [A-Z0-9_]+\n)\n*" "\\1\n#include <CGAL/license/${package}.h>\n\n" text "${text}")
     string(REGEX REPLACE "PkgSpectralMeshSimplification([A-Za-z]+)" "${group_${package}}" text "${text}")
+    # What is internal has no name in the reference.
+    string(REGEX REPLACE "\n( *template <class [A-Za-z, ]*= )internal::[A-Za-z_]+>\n"
+                         "\n#ifdef DOXYGEN_RUNNING\n\\1unspecified_type>\n#else\\0#endif\n" text "${text}")
+    string(REGEX REPLACE "\n( *using [A-Za-z_]+ = )internal::[^\n]+;([^\n]*)\n"
+                         "\n#ifdef DOXYGEN_RUNNING\n\\1unspecified_type;\\2\n#else\\0#endif\n" text "${text}")
+    string(REGEX REPLACE "\n(class [A-Za-z_]+) : public internal::[^\n]+\n" "\n#ifdef DOXYGEN_RUNNING\n\\1\n#else\\0#endif\n" text "${text}")
+    string(REGEX REPLACE "\n( *|  *const )internal::Spectral_optional<([^\n]*)\n"
+                         "\n#ifdef DOXYGEN_RUNNING\n\\1std::optional<\\2\n#else\\0#endif\n" text "${text}")
+    string(REGEX REPLACE "\n  : public internal::[^\n]+\n" "\n#ifndef DOXYGEN_RUNNING\\0#endif\n" text "${text}")
     file(WRITE "${output}/${package}/include/${header}" "${text}")
   endforeach()
 endforeach()

@@ -154,9 +154,33 @@ struct Quadric_edge_collapse_result
  * that may be collapsed, there are more
  * @param progress called with the fraction that is done; returns false to cancel, until the mesh
  * changes. May be empty
- * @param np named parameters: `vertex_point_map`, `geom_traits`, `edge_is_constrained_map` (the
- *        ends of these edges stay) and `vertex_is_constrained_map` (vertices that stay). The others
- *        of `edge_collapse()` do not compile
+ * @param np an optional sequence of named parameters among those below; the others of
+ * `edge_collapse()` do not compile
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{the positions of the vertices}
+ *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
+ *     \cgalParamDefault{the mesh's own map}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{geom_traits}
+ *     \cgalParamDescription{the kernel}
+ *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
+ *     \cgalParamDefault{that of the points}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{edge_is_constrained_map}
+ *     \cgalParamDescription{edges whose ends stay}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from edges to `bool`}
+ *     \cgalParamDefault{no edge is constrained}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{vertex_is_constrained_map}
+ *     \cgalParamDescription{vertices that stay}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
+ *     \cgalParamDefault{no vertex is}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
+ *
+ * \pre `CGAL::is_triangle_mesh(mesh)`
  *
  * @return P, the vertex map, the log
  *

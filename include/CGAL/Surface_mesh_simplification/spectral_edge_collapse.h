@@ -378,6 +378,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  * other named parameters of `edge_collapse()` do not compile: cost, placement and order are those
  * of the metric, and indices are its own.
  *
+ * \pre `CGAL::is_triangle_mesh(mesh)`
+ *
  * @return P, the vertex map, the log of all collapses, why it stopped, counts and times
  *
  * @throws std::invalid_argument for a mesh or an option that cannot be used, before anything is

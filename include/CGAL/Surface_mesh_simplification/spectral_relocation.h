@@ -215,8 +215,32 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
  * mass `averaged`: with a lumped one the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
- * @param np    named parameters: `vertex_point_map`, `geom_traits`, `vertex_is_constrained_map` and
- *        `edge_is_constrained_map` (both ends stay where they are)
+ * @param np    an optional sequence of named parameters among those below
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_point_map}
+ *     \cgalParamDescription{the positions of the vertices}
+ *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
+ *     \cgalParamDefault{the mesh's own map}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{geom_traits}
+ *     \cgalParamDescription{the kernel}
+ *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
+ *     \cgalParamDefault{that of the points}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{vertex_is_constrained_map}
+ *     \cgalParamDescription{vertices that stay where they are}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
+ *     \cgalParamDefault{no vertex is}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{edge_is_constrained_map}
+ *     \cgalParamDescription{edges whose ends stay where they are}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from edges to `bool`}
+ *     \cgalParamDefault{no edge is constrained}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
+ *
+ * \pre `CGAL::is_triangle_mesh(mesh)`
  *
  * @return what was done, and the restriction to use from now on
  *
@@ -259,8 +283,20 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
  * @param policies after the collapses
  * @param options  as above; `modes` is replaced, and a `progress` that is empty by that of the
  * policies
- * @param np `edge_is_constrained_map` and `vertex_is_constrained_map`, of `mesh` as it is: further
- * vertices that stay
+ * @param np an optional sequence of named parameters among those below, of `mesh` as it is
+ *
+ * \cgalNamedParamsBegin
+ *   \cgalParamNBegin{vertex_is_constrained_map}
+ *     \cgalParamDescription{further vertices that stay}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
+ *     \cgalParamDefault{no vertex is}
+ *   \cgalParamNEnd
+ *   \cgalParamNBegin{edge_is_constrained_map}
+ *     \cgalParamDescription{edges whose ends stay}
+ *     \cgalParamType{a model of `ReadablePropertyMap` from edges to `bool`}
+ *     \cgalParamDefault{no edge is constrained}
+ *   \cgalParamNEnd
+ * \cgalNamedParamsEnd
  *
  * @throws std::invalid_argument for another mesh, for `Spectral_options::binary` with signals that
  * are `sampled`, and where a wrapper of the placement has chosen points but nobody says which edges

@@ -208,8 +208,20 @@ public:
   /*!
    * @param mesh a copy of the input of the log, as it was before the run; must outlive this object
    * @param log is kept; move it here if it is needed no more
-   * @param np `vertex_point_map`, and `edge_is_constrained_map` if the run had one: both those of
-   * the copy
+   * @param np an optional sequence of named parameters among those below, all of the copy
+   *
+   * \cgalNamedParamsBegin
+   *   \cgalParamNBegin{vertex_point_map}
+   *     \cgalParamDescription{the positions of the vertices}
+   *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
+   *     \cgalParamDefault{the mesh's own map}
+   *   \cgalParamNEnd
+   *   \cgalParamNBegin{edge_is_constrained_map}
+   *     \cgalParamDescription{the edges that were constrained in the run}
+   *     \cgalParamType{a model of `ReadablePropertyMap` from edges to `bool`}
+   *     \cgalParamDefault{no edge is constrained}
+   *   \cgalParamNEnd
+   * \cgalNamedParamsEnd
    *
    * @throws std::invalid_argument if the mesh has another number of vertices than the input of the
    * log

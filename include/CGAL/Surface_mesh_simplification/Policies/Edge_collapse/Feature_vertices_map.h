@@ -57,7 +57,17 @@ public:
   /// @param mesh the mesh
   /// @param border whether the vertices of the border are features
   /// @param degrees the angle above 0 and up to 180; none: no edge is sharp
-  /// @param np `vertex_point_map`; coordinates go through `CGAL::to_double`
+  /// @param np an optional sequence of named parameters among those below; coordinates go through
+  /// `CGAL::to_double()`
+  ///
+  /// \cgalNamedParamsBegin
+  ///   \cgalParamNBegin{vertex_point_map}
+  ///     \cgalParamDescription{the positions of the vertices}
+  ///     \cgalParamType{a model of `ReadablePropertyMap` from vertices to points}
+  ///     \cgalParamDefault{the mesh's own map}
+  ///   \cgalParamNEnd
+  /// \cgalNamedParamsEnd
+  ///
   /// @throws std::invalid_argument for another angle
   template <class NamedParameters = parameters::Default_named_parameters>
   Feature_vertices_map(const TriangleMesh& mesh, const bool border,

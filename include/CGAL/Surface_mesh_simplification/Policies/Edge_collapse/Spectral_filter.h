@@ -26,6 +26,8 @@ namespace CGAL::Surface_mesh_simplification {
  * `Constrained_placement` takes the first end with a constrained edge, whatever is at the other.
  * `spectral_edge_collapse()` uses this filter by itself; with `edge_collapse()` pass
  * `.filter(spectral.filter())`. Made by `Spectral_policies::filter()`.
+ *
+ * \cgalModels{PlacementFilter}
  */
 template <class State, class UserFilter = internal::Dummy_filter>
 class Spectral_filter

@@ -97,11 +97,33 @@ public:
    *
    * @param mesh a triangle mesh without isolated vertices
    * @param options see `Spectral_options`
-   * @param np `vertex_point_map` and `geom_traits`, the same that `edge_collapse()` gets;
-   *        `vertex_is_constrained_map`, a readable map from vertices to `bool`: those to be kept,
-   *        in addition to `Spectral_options::kept_vertices`; `edge_is_constrained_map`, that of
-   *        `edge_collapse()`, for `spectral_relocation()` to leave both ends of these edges in
-   *        place. Both are read here and not again
+   * @param np an optional sequence of named parameters among those below. The first two are the
+   * same that `edge_collapse()` gets; the others are read here and not again
+   *
+   * \cgalNamedParamsBegin
+   *   \cgalParamNBegin{vertex_point_map}
+   *     \cgalParamDescription{the positions of the vertices}
+   *     \cgalParamType{a model of `ReadWritePropertyMap` from vertices to points}
+   *     \cgalParamDefault{the mesh's own map}
+   *   \cgalParamNEnd
+   *   \cgalParamNBegin{geom_traits}
+   *     \cgalParamDescription{the kernel}
+   *     \cgalParamType{one whose numbers `CGAL::to_double()` reads}
+   *     \cgalParamDefault{that of the points}
+   *   \cgalParamNEnd
+   *   \cgalParamNBegin{vertex_is_constrained_map}
+   *     \cgalParamDescription{vertices to keep, in addition to `Spectral_options::kept_vertices`}
+   *     \cgalParamType{a model of `ReadablePropertyMap` from vertices to `bool`}
+   *     \cgalParamDefault{no vertex is}
+   *   \cgalParamNEnd
+   *   \cgalParamNBegin{edge_is_constrained_map}
+   *     \cgalParamDescription{edges whose ends `spectral_relocation()` leaves in place}
+   *     \cgalParamType{a model of `ReadablePropertyMap` from edges to `bool`}
+   *     \cgalParamDefault{no edge is constrained}
+   *   \cgalParamNEnd
+   * \cgalNamedParamsEnd
+   *
+   * \pre `CGAL::is_triangle_mesh(mesh)`
    *
    * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the
    * first offender
