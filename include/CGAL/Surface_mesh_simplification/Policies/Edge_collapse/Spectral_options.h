@@ -149,13 +149,12 @@ struct Spectral_options
   double largest_loss = 10;
 
   /// No collapse puts a face through another, unless one that it replaces went through that one
-  /// already. Where the placement found would, the ends and the middle of the edge are tried, at no
-  /// more than 16 times its cost or that of the collapses of late, and then the edge stays until a
-  /// collapse beside it. Beside faces that cross already, as in scans, this holds until a twentieth
-  /// as many points as the input has vertices were refused for it, in each run of the loop: more of
-  /// them would hold up a run that cannot mend the input. Placements of a wrapper are looked at by
-  /// `Spectral_filter` alone. Of collapses by quadrics it holds for the mesh that they end with,
-  /// and an edge whose collapse would waits.
+  /// already. If the chosen position would do so, both endpoints and the midpoint are tried,
+  /// provided that they cost at most 16 times as much as that position or as recent collapses;
+  /// otherwise the edge is postponed until an adjacent edge collapses. Where faces of the input
+  /// cross already, as in scans, the check is given up after n/20 refusals in a run of the loop, n
+  /// being the number of input vertices. Positions of a wrapped placement are checked by
+  /// `Spectral_filter` alone. With quadrics the promise holds for the mesh that they end with.
   bool keep_free_of_self_intersections = true;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's;
@@ -230,9 +229,9 @@ struct Spectral_options
   /// what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
   std::function<bool(const Spectral_progress&)> progress;
 
-  /// Cancels as the callback does, from another thread or a signal handler, when it becomes true;
-  /// it is looked at between two collapses, before each report, and never changed. Must outlive the
-  /// policies. Null: nobody cancels.
+  /// A flag that cancels the run as the callback does; set it from another thread or a signal
+  /// handler. It is polled between collapses and before each report, and never written. Must
+  /// outlive the policies. Null: nobody cancels.
   const std::atomic<bool>* cancel = nullptr;
 };
 

@@ -290,7 +290,7 @@ public:
 
   /// The relative error after the collapse of the selected candidate, to rounding; that of now if
   /// it cannot be collapsed. `get_placement` is the one that `edge_collapse()` has been given: the
-  /// cost in CGAL's queue may be of before some collapses nearby.
+  /// cost in CGAL's queue may be out of date.
   template <class Profile, class GetPlacement>
   double relative_error_after(const Profile& profile, const GetPlacement& get_placement)
   {

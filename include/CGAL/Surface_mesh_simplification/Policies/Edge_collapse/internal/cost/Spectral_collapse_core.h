@@ -137,7 +137,7 @@ private:
   // saves a quarter of the loop; |C|_L was 1.004 times as large (14 runs).
   static constexpr double outer_postponing_factor = 2, inner_postponing_factor = 8;
   // An edge whose placement would put a face through another may cost so many times more at another
-  // point than at that placement, or than the collapses of late. Otherwise one vertex swallows what
+  // point than at that placement, or than the latest collapses. Otherwise one vertex swallows what
   // lies around it, at a thousand times the cost of others. With 4, 8, 16, 32 and 64 |C|_L of 19
   // runs was 34.7, 34.1, 32.4, 34.8 and 36.8 in the geometric mean.
   static constexpr double crossing_factor = 16;
