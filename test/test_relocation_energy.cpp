@@ -238,7 +238,8 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
   const SG::Mesh_matrices coarse{V, Eigen::MatrixXi(0, 3)};
   const SG::internal::Surface_regions regions(coarse, fine,
                                               SG::closest_point_interpolation(V, fine));
-  SG::internal::Surface_signals signals(closest, regions, fine.T, F, Z, GENERATE(1, 3));
+  SG::internal::Followed_closest_points followed(closest, regions, std::size_t(V.rows()));
+  SG::internal::Surface_signals signals(fine, followed, F, Z, GENERATE(1, 3));
   const auto value = [&](const Positions& at) {
     Rows f, z;
     signals.evaluate(at, f, z);

@@ -10,7 +10,7 @@
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_probabilistic_plane_policies.h>
@@ -529,7 +529,7 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
     CHECK(o.source == SMS::Spectral_signal_source::eigenpairs);
   CHECK(Spectral_edge_collapse_options::fast(600).source ==
         SMS::Spectral_signal_source::filtered_noise);
-  CHECK(Spectral_edge_collapse_options::fast(600).quadrics_above == 10);
+  CHECK(Spectral_edge_collapse_options::fast(600).quadrics_above == 7);
   CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 18000);
   CHECK(Spectral_edge_collapse_options::fast(100).pre_simplify == 10000);
   CHECK(Spectral_options().shape == Spectral_options::best().shape);
@@ -579,12 +579,14 @@ TEST_CASE("A step that leaps to another sheet is told from one along the surface
       shapes::matrices({{0, 0, 0}, {0, 0, 0.1}, {1, 0, 0}}, {{0, 1, 2}});
   const SG::internal::Surface_regions regions(coarse, sheets,
                                               SG::closest_point_interpolation(coarse.V, sheets));
-  SG::internal::Sheet_guard leaps(closest, regions, 2);
+  SG::internal::Followed_closest_points followed(closest, regions, 2);
   const Eigen::Vector3d low(0.5, 0.5, 0.04), high(0.5, 0.5, 0.06);
-  CHECK(leaps(0, low, high));
-  CHECK_FALSE(leaps(0, low, {0.6, 0.52, 0.045}));
-  CHECK_FALSE(leaps(1, high, {0.5, 0.3, 0.3}));
-  CHECK(leaps(0, high, low)); // from elsewhere now
+  CHECK(followed.leaps(0, low, high));
+  CHECK_FALSE(followed.leaps(0, low, {0.6, 0.52, 0.045}));
+  CHECK_FALSE(followed.leaps(1, high, {0.5, 0.3, 0.3}));
+  CHECK(followed.leaps(0, high, low)); // from elsewhere now
+  for(const Eigen::Vector3d& p : {low, high, low, Eigen::Vector3d(0.1, 0.2, 0.03), high, low})
+    CHECK(followed(0, p).point == regions.of_coarse_vertex(closest, 0, p).point);
 }
 
 TEST_CASE("Relocation leaves no vertex of the input further behind than before, and says what held "

@@ -8,7 +8,6 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
-#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -17,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -255,46 +253,6 @@ private:
   Eigen::VectorXd m_radius, m_smallest_angle; // of each vertex; of each triangle, what is allowed
   int m_threads;
   std::vector<Eigen::Vector3d> m_normal;
-};
-
-/// Tells whether the closest point of a surface leaps: it is further from that of the start of a
-/// step than three times the step. Legs lie close to the body and some faces intersect; one vertex
-/// whose signals leap would end the descent for all.
-class Sheet_guard
-{
-public:
-  /// For so many coarse vertices. The others are kept by reference.
-  Sheet_guard(const Closest_point_query& closest, const Surface_regions& regions,
-              const std::size_t vertices)
-    : m_closest(closest)
-    , m_regions(regions)
-    , m_starts(vertices)
-  {}
-
-  bool operator()(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
-  {
-    Start& start = m_starts[std::size_t(v)];
-    if(!start.closest || start.position != from) {
-      start.closest = start.closest
-                          ? m_regions.of_coarse_vertex(m_closest, v, from, start.closest->face)
-                          : m_regions.of_coarse_vertex(m_closest, v, from);
-      start.position = from;
-    }
-    const Closest_point_query::Answer now =
-        m_regions.of_coarse_vertex(m_closest, v, to, start.closest->face);
-    return (now.point - start.closest->point).norm() > 3 * (to - from).norm();
-  }
-
-private:
-  struct Start
-  {
-    Eigen::Vector3d position;
-    std::optional<Closest_point_query::Answer> closest; // to it, once it was asked for
-  };
-
-  const Closest_point_query& m_closest;
-  const Surface_regions& m_regions;
-  std::vector<Start> m_starts; // by vertex: several may be asked about at a time
 };
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -22,12 +22,11 @@ namespace CGAL::Spectral_geometry::internal {
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K, T the fine faces. The first three are kept by reference.
-  Surface_signals(const Closest_point_query& closest, const Surface_regions& regions,
-                  const Eigen::MatrixXi& T, Rows F, Rows Z, const int threads)
-    : m_closest(closest)
-    , m_regions(regions)
-    , m_T(T)
+  /// F and Z: fine x K. The first two, of the fine surface, are kept by reference.
+  Surface_signals(const Mesh_matrices& fine, Followed_closest_points& closest, Rows F, Rows Z,
+                  const int threads)
+    : m_fine(fine)
+    , m_closest(closest)
     , m_F(std::move(F))
     , m_Z(std::move(Z))
     , m_threads(threads)
@@ -37,13 +36,11 @@ public:
   {
     F.resize(V.rows(), m_F.cols());
     Z.resize(V.rows(), m_F.cols());
-    const bool first = m_answers.size() != std::size_t(V.rows());
     m_answers.resize(std::size_t(V.rows()));
     const auto read_off = [&](const Eigen::Index w) {
       Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      a = first ? m_regions.of_coarse_vertex(m_closest, w, V.row(w))
-                : m_regions.of_coarse_vertex(m_closest, w, V.row(w), a.face);
-      const Eigen::RowVector3i t = m_T.row(a.face);
+      a = m_closest(w, V.row(w));
+      const Eigen::RowVector3i t = m_fine.T.row(a.face);
       F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) +
                  a.weights(2) * m_F.row(t(2));
       Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) +
@@ -58,7 +55,10 @@ public:
   {
     const auto add = [&](const Eigen::Index w) {
       const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      const Eigen::Matrix3d& p = m_closest.corners(a.face);
+      const Eigen::RowVector3i t = m_fine.T.row(a.face);
+      Eigen::Matrix3d p;
+      for(int k = 0; k < 3; ++k)
+        p.col(k) = m_fine.V.row(t(k));
       const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
       const double size2 = normal.squaredNorm();
       int zeros = 0, zero = 0;
@@ -71,8 +71,7 @@ public:
         return;
       Eigen::Vector3d g = Eigen::Vector3d::Zero();
       for(int k = 0; k < 3; ++k) {
-        const double slope =
-            by_F.row(w).dot(m_F.row(m_T(a.face, k))) + by_Z.row(w).dot(m_Z.row(m_T(a.face, k)));
+        const double slope = by_F.row(w).dot(m_F.row(t(k))) + by_Z.row(w).dot(m_Z.row(t(k)));
         g += slope / size2 * normal.cross(p.col((k + 2) % 3) - p.col((k + 1) % 3));
       }
       if(zeros == 1) {
@@ -85,9 +84,8 @@ public:
   }
 
 private:
-  const Closest_point_query& m_closest;
-  const Surface_regions& m_regions;
-  const Eigen::MatrixXi& m_T;
+  const Mesh_matrices& m_fine;
+  Followed_closest_points& m_closest;
   Rows m_F, m_Z;
   int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;

@@ -57,8 +57,11 @@ public:
   {
     m_timer.start();
     if(options.signals != Relocation_options::Signals::carried ||
-       std::isfinite(options.largest_distance))
+       std::isfinite(options.largest_distance)) {
       m_closest = std::make_unique<Closest_point_query>(fine);
+      m_followed =
+          std::make_unique<Followed_closest_points>(*m_closest, m_regions, std::size_t(V.rows()));
+    }
     set_guards(fixed);
     set_objective();
     if(m_options.keep_free_of_self_intersections)
@@ -172,11 +175,13 @@ private:
         m_guards.keep_on(Eigen::Index(v), own);
       }
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_guards.set_leaps(Sheet_guard(*m_closest, m_regions, on_boundary.size()));
+      m_guards.set_leaps(
+          [this](const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+            return m_followed->leaps(v, from, to);
+          });
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
-        return (m_regions.of_coarse_vertex(*m_closest, v, p).point - p).norm() <=
-               m_options.largest_distance;
+        return ((*m_followed)(v, p).point - p).norm() <= m_options.largest_distance;
       });
   }
 
@@ -187,8 +192,8 @@ private:
                    m_F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
     if(m_options.signals != Relocation_options::Signals::carried)
-      m_sampled = std::make_unique<Surface_signals>(*m_closest, m_regions, m_fine.T, m_F, m_Z,
-                                                    m_options.threads);
+      m_sampled =
+          std::make_unique<Surface_signals>(m_fine, *m_followed, m_F, m_Z, m_options.threads);
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
         m_options.signals != Relocation_options::Signals::sampled,
@@ -295,6 +300,7 @@ private:
   Mesh_matrices m_coarse; // at the start
   Surface_regions m_regions;
   std::unique_ptr<Closest_point_query> m_closest;
+  std::unique_ptr<Followed_closest_points> m_followed;
   std::unique_ptr<Surface_signals> m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
   Face_pairs m_crossing;               // at the start

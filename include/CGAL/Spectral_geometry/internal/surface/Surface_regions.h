@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -182,6 +183,55 @@ private:
   Vertex_rings m_rings;     // of the coarse vertices
   std::vector<int> m_row;   // for each fine vertex the coarse one that it goes with, or -1
   std::vector<Home> m_home; // by coarse vertex
+};
+
+/// Closest points of coarse vertices that move. A descent asks for the place where a vertex is and
+/// for the one where it may go several times each: both are remembered, and the search for the next
+/// begins at them. Different vertices may be asked about at a time.
+class Followed_closest_points
+{
+public:
+  using Answer = Closest_point_query::Answer;
+
+  /// For so many coarse vertices. The others are kept by reference.
+  Followed_closest_points(const Closest_point_query& fine, const Surface_regions& regions,
+                          const std::size_t vertices)
+    : m_fine(fine)
+    , m_regions(regions)
+    , m_places(vertices)
+  {}
+
+  Answer operator()(const Eigen::Index v, const Eigen::Vector3d& p)
+  {
+    auto& [latest, other] = m_places[std::size_t(v)];
+    if(!latest.closest || latest.position != p) {
+      std::swap(latest, other);
+      if(!latest.closest || latest.position != p)
+        latest = {p, other.closest ? m_regions.of_coarse_vertex(m_fine, v, p, other.closest->face)
+                                   : m_regions.of_coarse_vertex(m_fine, v, p)};
+    }
+    return *latest.closest;
+  }
+
+  /// Whether the closest point moves further than three times the step of the vertex. Legs lie
+  /// close to the body and some faces intersect; one vertex whose signals leap to another sheet
+  /// would end the descent for all.
+  bool leaps(const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+  {
+    const Eigen::Vector3d start = (*this)(v, from).point;
+    return ((*this)(v, to).point - start).norm() > 3 * (to - from).norm();
+  }
+
+private:
+  struct Place
+  {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    std::optional<Answer> closest; // to it, once it was asked for
+  };
+
+  const Closest_point_query& m_fine;
+  const Surface_regions& m_regions;
+  std::vector<std::pair<Place, Place>> m_places; // by vertex, the latest first
 };
 
 } // namespace CGAL::Spectral_geometry::internal
