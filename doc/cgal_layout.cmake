@@ -415,6 +415,7 @@ function(prose result prefix text)
                        "\\\\cgalFigureBegin{${prefix}\\2,\\2.\\3}\n\n\\1 \\4\n\n\\\\cgalFigureEnd\n" all "${text}")
   string(REGEX REPLACE "([^\n])\n *([^-|\\\n ])" "\\1 \\2" all "${all}")
   string(REGEX REPLACE "(cgalFigureBegin[^\n]*\n)\n([^\n]*\n)\n" "\\1\\2" all "${all}")
+  string(REGEX REPLACE "\\*\\*([^*\n]+)\\*\\*" "<B>\\1</B>" all "${all}") # asterisks that begin a line belong to the comment
   in_words_of_cgal()
   set(${result} "${all}" PARENT_SCOPE)
 endfunction()
