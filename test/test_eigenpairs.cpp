@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -625,6 +626,46 @@ TEST_CASE("Residuals are within ten times the tolerance, or are reported")
   // Rounding does not matter yet.
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));
   CHECK(SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(1e-11)).complete);
+}
+
+TEST_CASE("Two thousand random scenes: what has no small residual is reported", "[.long]")
+{
+  std::mt19937 random(1);
+  const auto below = [&](const int n) { return int(random() % unsigned(n)); };
+  int solves = 0, reported = 0;
+  double worst_residual = 0, worst_value = 0;
+  while(solves < 2000) {
+    const int subdivisions = below(3), most[] = {400, 100, 25};
+    const shapes::Matrices part = shapes::icosphere_matrices(subdivisions);
+    const int copies = 1 + below(below(2) == 0 ? 8 : most[subdivisions]);
+    const double sizes[] = {1., 1., 0.1, 10.}, theta = thetas[below(2)];
+    const shapes::Matrices mesh = turned_copies(part, copies, sizes[below(4)]);
+    const Laplace_operator op = laplace(mesh, theta);
+    const int n = int(mesh.V.rows());
+    const Eigen::Index K = below(3) == 0 ? n - below((std::min)(n, 60)) : 1 + below(n);
+    INFO(copies << " parts of " << part.V.rows() << ", K = " << K << ", theta = " << theta);
+    const Eigen::VectorXd expected = dense_values_of_parts(part, mesh, theta);
+    // The whole, and as one part: many like ones exhaust a Krylov space.
+    const SG::internal::Eigen_problem problem(op);
+    const bool whole = n > 1000 || below(4) != 0;
+    const Eigenpairs pairs =
+        whole ? SG::eigenpairs(op, K) : SG::internal::pairs_of_part(problem, K, {});
+    ++solves;
+    const double residual = problem.residuals(pairs).maxCoeff();
+    if(!pairs.complete) {
+      ++reported;
+      continue;
+    }
+    const Eigen::ArrayXd values = expected.head(K).array();
+    const double error =
+        ((pairs.values.array() - values).abs() / (values + problem.scale())).maxCoeff();
+    CHECK(residual <= 10. * SG::Eigenpairs_options().tolerance);
+    CHECK(error < 1e-8);
+    worst_residual = (std::max)(worst_residual, residual);
+    worst_value = (std::max)(worst_value, error);
+  }
+  WARN(solves << " solves, " << reported << " reported; of the others the largest residual is "
+              << worst_residual << ", the largest error of a value " << worst_value);
 }
 
 TEST_CASE("The Dirichlet problem is that of the rows off the border")

@@ -14,6 +14,7 @@
 #include "fuzz_input.h"
 #include "fuzz_main.h"
 
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Restriction_visitor.h>
 
 #include <algorithm>
@@ -130,6 +131,19 @@ bool has_mixtures(const Policies& policies, const SMS::Spectral_edge_collapse_op
          (options.number_of_mixtures != 0 && options.number_of_mixtures < K);
 }
 
+// Faces that go through each other, where none of the input do.
+std::string fault_of_crossings(const shapes::Matrices& coarse, const shapes::Matrices& fine,
+                               const SMS::Spectral_edge_collapse_options& options)
+{
+  const auto crossings = [](const shapes::Matrices& mesh) {
+    return SG::internal::self_intersecting_faces(mesh.V, mesh.T).size();
+  };
+  if(!options.keep_free_of_self_intersections || crossings(fine) != 0)
+    return "";
+  const std::size_t count = crossings(coarse);
+  return count == 0 ? "" : std::to_string(count) + " pairs of faces cross";
+}
+
 std::string fault_of_result(const Mesh& mesh, const Policies& policies,
                             const shapes::Matrices& fine,
                             const SMS::Spectral_edge_collapse_options& options)
@@ -145,6 +159,9 @@ std::string fault_of_result(const Mesh& mesh, const Policies& policies,
      !(position_error(P, fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off by " +
            std::to_string(position_error(P, fine.V, coarse.V));
+  const std::string crossings = fault_of_crossings(coarse, fine, options);
+  if(!crossings.empty())
+    return crossings;
   if(has_mixtures(policies, options)) // then E is an estimate
     return fault_of_estimate(policies.error());
   return fault_of_E(
@@ -241,6 +258,46 @@ std::string fault_of_constraints(const Mesh& mesh, const Edge_flags& flags, cons
   return "";
 }
 
+// A P that was read off at closest points.
+std::string fault_of_sampled_restriction(const Eigen::SparseMatrix<double>& P,
+                                         const std::vector<std::size_t>& map)
+{
+  const Eigen::VectorXd sums = P * Eigen::VectorXd::Ones(P.cols());
+  if(!((sums.array() - 1).abs().maxCoeff() < 1e-12))
+    return "a row of P does not sum to one";
+  for(Eigen::Index v = 0; v < P.outerSize(); ++v)
+    for(Eigen::SparseMatrix<double>::InnerIterator it(P, v); it; ++it)
+      if(!(it.value() > -1e-12 && it.value() < 1 + 1e-12))
+        return "an entry of P is " + std::to_string(it.value());
+  if(Eigen::Index(map.size()) != P.cols() ||
+     *std::max_element(map.begin(), map.end()) >= std::size_t(P.rows()))
+    return "the vertex map is not one";
+  return "";
+}
+
+// E of the second stage, whose input is what the first has left: P is the product of both, and the
+// rows of the first have no column in common.
+std::string fault_of_second_E(const shapes::Matrices& coarse, const One_call& call,
+                              const SMS::Spectral_edge_collapse_result& result, Mesh before)
+{
+  SMS::Collapse_replay<Mesh> replay(before, result.log);
+  replay.collapse_to(result.pre_simplified_vertices);
+  const Eigen::SparseMatrix<double> first = replay.restriction(), transposed = first.transpose();
+  const Eigen::VectorXd squares = first.cwiseAbs2() * Eigen::VectorXd::Ones(first.cols());
+  const Eigen::SparseMatrix<double> second =
+      result.restriction * transposed * squares.cwiseInverse().asDiagonal();
+  if(!(Eigen::SparseMatrix<double>(second * first - result.restriction).norm() < 1e-10))
+    return "P is not the product of two";
+  SMS::Spectral_edge_collapse_options options = call.options;
+  if(options.coefficients.size() != 0)
+    options.coefficients =
+        SG::Local_operator(options.mass, options.coefficients).restricted(first).coefficients;
+  return fault_of_E(
+      coarse,
+      {second, result.E, result.relative_error, result.eigenpairs.get(), result.coefficients},
+      SG::mesh_matrices(before), options);
+}
+
 std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_call& call,
                                 const SMS::Spectral_edge_collapse_result& result)
 {
@@ -257,11 +314,14 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
      reached != (result.stop_reason == Reason::target_reached))
     return "the reason for which the run ended is wrong";
   const shapes::Matrices coarse = SG::mesh_matrices(mesh);
-  const bool binary = call.options.binary && !call.pre_simplified();
-  const std::string fault =
-      result.relocation.resampled
-          ? ""
-          : fault_of_restriction(result.restriction, result.vertex_map, binary);
+  const bool binary = call.options.binary, resampled = result.relocation.resampled;
+  if(binary && resampled)
+    return "a binary P was read off at closest points";
+  std::string fault = resampled
+                          ? fault_of_sampled_restriction(result.restriction, result.vertex_map)
+                          : fault_of_restriction(result.restriction, result.vertex_map, binary);
+  if(fault.empty() && !call.has_zero_lengths())
+    fault = fault_of_crossings(coarse, call.fine, call.options);
   if(!fault.empty())
     return fault;
   if(!binary && call.options.placement != SMS::Spectral_placement_strategy::free &&
@@ -270,8 +330,9 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
      !(position_error(result.restriction, call.fine.V, coarse.V) < 1e-11))
     return "P times the fine positions is off";
   // Before the first collapse E is the rounding of 0, which a bound of 0 is below.
-  if(!(result.relative_error <= call.options.maximum_error) && result.collapses != 0 &&
-     !call.post_processed() && !call.pre_simplified() && !call.has_zero_lengths())
+  if(!(result.relative_error <= call.options.maximum_error) &&
+     result.collapses != result.quadric_collapses && !call.post_processed() &&
+     !call.has_zero_lengths())
     return "the error is " + std::to_string(result.relative_error) + ", " +
            std::to_string(result.relative_error / call.options.maximum_error) + " times the bound";
   if(SMS::internal::is_filtered(call.options))
@@ -280,7 +341,7 @@ std::string fault_of_one_result(const Mesh& mesh, const Mesh& before, const One_
      call.options.signals.size() == 0) // cancelled before the first spectral collapse
     return result.stop_reason == Reason::cancelled ? "" : "there are no eigenpairs";
   if(call.pre_simplified())
-    return fault_of_estimate(result.E);
+    return fault_of_second_E(coarse, call, result, before);
   return fault_of_E(coarse,
                     {result.restriction, result.E, result.relative_error, result.eigenpairs.get(),
                      result.coefficients},
