@@ -244,7 +244,7 @@ foreach(example IN LISTS examples)
     continue()
   endif()
   # CGAL's test suite runs the examples without arguments.
-  string(REGEX REPLACE "if\\(argc != 4 \\|\\| !CGAL::IO::read_polygon_mesh\\(argv\\[1\\], ([a-z]+)\\)\\) {\n[^\n]*\n"
+  string(REGEX REPLACE "if\\(argc != 4 \\|\\| !CGAL::IO::read_polygon_mesh\\(argv\\[1\\], ([a-z]+)\\)\\) {\n[^;]*;\n"
          "const std::string filename = (argc > 1) ? argv[1] : CGAL::data_file_path(\"meshes/elephant.off\");
   const std::string output_filename = (argc > 2) ? argv[2] : \"out.ply\";
   const std::size_t number_of_vertices = (argc > 3) ? std::strtoul(argv[3], nullptr, 10) : 400;
