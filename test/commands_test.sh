@@ -33,6 +33,16 @@ grep -q -e '--preserve-border' <<<"$("$programs/spectral_simplify" --help advanc
 "$programs/spectral_simplify" --help=everything >/dev/null 2>&1 && fail "--help=everything is taken"
 grep -q -e '--preserve-border' <<<"$("$programs/spectral_simplify" --help)" && fail "--help has advanced options"
 
+# What is said to show every option does.
+for arguments in "spectral_simplify" "spectral_simplify a b c" "shape_matching" "spectral_compare" "spectral_compare a b"; do
+  set -- $arguments
+  said=$("$programs/$@" 2>&1)
+  all=$(grep -o -e '--help advanced' <<<"$said" | head -n 1)
+  all=${all:-$(grep -o -e '--help' <<<"$said" | head -n 1)}
+  [ "$("$programs/$1" $all | grep -c '^  --')" = "$("$programs/$1" --help markdown | grep -c '^| `--')" ] ||
+    fail "'$arguments' is answered by '$said', but $all does not show every option"
+done
+
 # completes LINE WORDS: what is offered at the end of LINE.
 . "$root/examples/programs/completion.bash"
 completes()

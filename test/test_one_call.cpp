@@ -487,7 +487,7 @@ TEST_CASE("A face without area in the result is warned of where relocation was a
 TEST_CASE("Rough eigenpairs have one E, in the collapses and for matrices")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
-  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::Mass::lumped);
   const SG::Eigenpairs_options rough = SG::Eigenpairs_options::with_tolerance(0.1);
   Spectral_edge_collapse_options options = options_with(20);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op, 20, rough));

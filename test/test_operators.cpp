@@ -189,6 +189,18 @@ TEST_CASE("A mesh and its matrices give the same operators, for every mesh type 
   CHECK(Eigen::MatrixXd(SG::cotangent_laplacian(exact, SG::Mass::averaged).B).isApprox(B, 1e-14));
 }
 
+TEST_CASE("The mass is the averaged one where none is named")
+{
+  const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);
+  Surface_mesh surface_mesh;
+  shapes::make_mesh(surface_mesh, mesh);
+  const Eigen::SparseMatrix<double> B = laplace(mesh, 0.5).B;
+  REQUIRE((B - laplace(mesh, 0.).B).norm() > 0.01 * B.norm());
+  CHECK((SG::cotangent_laplacian(surface_mesh).B - B).norm() == 0);
+  CHECK((SG::laplace_operator(mesh.V, mesh.T).B - B).norm() == 0);
+  CHECK((SG::laplace_operator(mesh.V, mesh.T, SG::Local_operator()).B - B).norm() == 0);
+}
+
 TEST_CASE("Removed vertices and faces are skipped, a vertex point map is respected")
 {
   Surface_mesh mesh;

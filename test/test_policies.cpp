@@ -152,7 +152,7 @@ TEST_CASE("E bounds the commutativity norm, and is its sum over the whole coarse
   // Both meshes at the scale at which the input has unit area.
   shapes::Matrices coarse = SG::mesh_matrices(mesh);
   coarse.V /= std::sqrt(basis.area);
-  const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T);
+  const SG::Laplace_operator op = SG::laplace_operator(coarse.V, coarse.T, SG::Mass::lumped);
   const SG::Eigenpairs all = SG::eigenpairs(op, N);
   const Eigen::MatrixXd C = SG::functional_map(all.vectors, op.B, policies.restriction(), basis.F);
   const Eigen::MatrixXd commutator = C * basis.lambda.asDiagonal() - all.values.asDiagonal() * C;
@@ -239,7 +239,7 @@ TEST_CASE("Eigenpairs that do not belong to the mesh and the mass are refused")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
   Mesh mesh = make_mesh(input);
-  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::Mass::lumped);
   const SG::Eigenpairs good = SG::eigenpairs(op, 8);
   Spectral_options options = Spectral_options::paper();
   const auto refuse = [&](const SG::Eigenpairs& pairs, const std::string& text) {
@@ -337,7 +337,7 @@ TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals t
 TEST_CASE("A signal of weight zero is absent, and weights multiply what a signal costs")
 {
   const shapes::Matrices input = wavy_grid_matrices(14, 13);
-  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T, SG::Mass::lumped);
   const SG::Eigenpairs all = SG::eigenpairs(op, 10);
   SG::Eigenpairs some = all;
   some.values = all.values.head(6);

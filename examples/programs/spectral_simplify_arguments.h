@@ -80,7 +80,7 @@ inline void check(const Arguments& a)
   const auto refuse = [](const std::string& sentence) { throw std::runtime_error(sentence); };
   if(a.input.empty() || a.output.empty())
     refuse("INPUT and OUTPUT are needed: spectral_simplify INPUT OUTPUT --vertices N; --help shows "
-           "everything.");
+           "the common options, --help advanced every one.");
   if(!a.vertices && !a.faces && !a.max_error && a.level_targets.empty())
     refuse("say how far to simplify: --vertices N, --vertices P%, --faces N, --levels N1,N2,... or "
            "--max-error E.");

@@ -99,7 +99,7 @@ inline void check(const Compare_arguments& a)
 {
   const auto refuse = [](const std::string& sentence) { throw std::runtime_error(sentence); };
   if(a.mesh.empty())
-    refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows what there is.");
+    refuse("a mesh is needed: spectral_compare MESH --vertices N; --help shows every option.");
   if(a.rivals.empty() && a.vertices.empty())
     refuse("--vertices is missing: say how many vertices the simplified meshes are to have.");
   if(std::find(a.only.begin(), a.only.end(), "") != a.only.end())

@@ -215,8 +215,8 @@ private:
       throw std::runtime_error("'" + word + "' is no option, options begin with two dashes; " +
                                all_options() + " shows every one.");
     if(number >= m_arguments.size())
-      throw std::runtime_error("'" + word +
-                               "' is one argument too many; --help shows what there is.");
+      throw std::runtime_error("'" + word + "' is one argument too many; " + all_options() +
+                               " shows every option.");
     *m_arguments[number] = word;
   }
 
@@ -236,7 +236,7 @@ private:
     std::ostringstream stream;
     stream << m_usage << "\n\n" << m_about << "\n" << shown;
     if(!advanced && all_options() != "--help")
-      stream << "\n" << all_options() << " shows the other options.\n";
+      stream << "\nThese are the common options; " << all_options() << " shows every one.\n";
     return stream.str();
   }
 

@@ -165,7 +165,8 @@ inline void check(const Matching_arguments& a)
   };
   if(a.X.empty() || a.Y.empty())
     throw std::runtime_error(
-        "two meshes are needed: shape_matching X Y --output map.txt; --help shows what there is.");
+        "two meshes are needed: shape_matching X Y --output map.txt; --help shows the common "
+        "options, --help advanced every one.");
   if(a.output.empty() && a.report.empty() && a.json.empty())
     throw std::runtime_error(
         "nothing is to be written: give --output, --report, --json or several.");

@@ -191,8 +191,8 @@ laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
 ///
 /// \param V      n x 3 positions, in any unit of length u; B is in u^2, eigenvalues in u^-2
 /// \param T      m x 3 vertex indices, counted from 0
-/// \param op     a mass by name, the blend \f$\theta\f$ in [0, 1] (0 lumped, the default, 1/2
-/// averaged, 1 consistent), or an operator
+/// \param op     a mass by name, the blend \f$\theta\f$ in [0, 1] (0 lumped, 1/2 averaged, the
+/// default, 1 consistent), or an operator
 ///               with coefficients
 ///
 /// \throws std::invalid_argument that names the first offender: a coordinate that is not finite, an
@@ -242,12 +242,12 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm,
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm   the mesh; rows and columns follow `vertices(tm)`
-/// \param mass lumped (default), averaged or voronoi
+/// \param mass averaged (default), lumped or voronoi
 /// \param np   named parameters: `vertex_point_map`
 ///
 /// \throws std::invalid_argument as these two functions do
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
-Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::lumped,
+Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::averaged,
                                      const NamedParameters& np = parameters::default_values())
 {
   const Mesh_matrices mesh = mesh_matrices(tm, np);

@@ -69,14 +69,14 @@ problem without these rows, and its vectors are 0 there. The masses M stay what 
 */
 struct Local_operator
 {
-  double theta = 0.;    ///< weight of the consistent mass, in [0, 1]
+  double theta = 0.5;   ///< weight of the consistent mass, in [0, 1]
   bool voronoi = false; ///< mixed Voronoi shares in place of thirds; with `theta` 0 alone
   /// n x 7, or empty for the cotangent Laplacian
   Operator_coefficients coefficients;
   Boundary_condition boundary = Boundary_condition::neumann; ///< where the mesh has a border
 
   /// the cotangent Laplacian in the blend `theta`
-  Local_operator(const double theta = 0.)
+  Local_operator(const double theta = 0.5)
     : theta(theta)
   {}
 

@@ -42,7 +42,7 @@ namespace CGAL::Spectral_geometry {
 ///
 /// \param V      n x 3 positions, in any unit of length u; B is in u^2, eigenvalues in u^-2
 /// \param T      m x 3 vertex indices, counted from 0; the mesh need not be a manifold
-/// \param mass   lumped (default), averaged (\f$\theta = 1/2\f$) or voronoi
+/// \param mass   averaged (\f$\theta = 1/2\f$, default), lumped or voronoi
 ///
 /// Time: that of sorting 3 m edges, and a constant for each flip. A face is part of 10000 flips at
 /// most, for surfaces that are thinner than rounding, around which edges wind without end; meshes
@@ -52,7 +52,7 @@ namespace CGAL::Spectral_geometry {
 ///         index out of range, a face that uses a vertex twice, a needle whose cotangent is larger
 ///         than 1e12 after the flips, an isolated vertex, a vertex with only zero-area faces.
 CGAL_SPECTRAL_TOOLBOX_INLINE Laplace_operator intrinsic_delaunay_laplacian(
-    const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, Mass mass = Mass::lumped);
+    const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, Mass mass = Mass::averaged);
 
 /// @}
 
