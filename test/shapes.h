@@ -219,6 +219,28 @@ inline Matrices irregular_grid_matrices(int nx, int ny, double amount = 0.25)
   return result;
 }
 
+// A hilly island, whose coast has bays of two sizes: rings around a vertex in the middle.
+inline Matrices island_matrices(const int rings, const int around)
+{
+  std::vector<Eigen::Vector3d> points = {{0, 0, 0.3}};
+  std::vector<Eigen::Vector3i> triangles;
+  for(int r = 1; r <= rings; ++r)
+    for(int i = 0; i < around; ++i) {
+      const double phi = 2 * pi * i / around, s = double(r) / rings;
+      const double reach = s * (1 + s * s * (0.2 * std::sin(5 * phi) + 0.05 * std::sin(19 * phi)));
+      const double x = reach * std::cos(phi), y = reach * std::sin(phi);
+      points.emplace_back(x, y, 0.3 * std::cos(3 * x + 0.5) * std::cos(2.5 * y));
+      const int next = (i + 1) % around, outer = 1 + (r - 1) * around, inner = outer - around;
+      if(r == 1)
+        triangles.emplace_back(0, outer + i, outer + next);
+      else {
+        triangles.emplace_back(inner + i, outer + i, outer + next);
+        triangles.emplace_back(inner + i, outer + next, inner + next);
+      }
+    }
+  return matrices(points, triangles);
+}
+
 // An equilateral triangle of side 1 in the plane z = 0, cut into n^2 equilateral triangles.
 inline Matrices equilateral_matrices(int n)
 {

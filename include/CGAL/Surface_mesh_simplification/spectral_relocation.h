@@ -11,6 +11,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
@@ -24,8 +25,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -110,48 +109,26 @@ inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
                                        const Spectral_geometry::Mesh_matrices& fine,
                                        const Spectral_geometry::Mesh_matrices& coarse)
 {
-  using namespace Spectral_geometry::internal;
-  const auto segments = boundary_edges(fine.T);
-  if(segments.empty())
+  const Spectral_geometry::internal::Border_polyline border(fine);
+  if(border.is_empty())
     return;
-  const auto joined = [&](const auto& join) {
-    for(const auto& [i, j] : segments)
-      join(i, j);
-  };
-  const std::vector<Eigen::Index> loop = connected_components(fine.V.rows(), joined);
-  std::map<Eigen::Index, std::vector<std::pair<int, int>>> segments_of_loop;
-  for(const auto& [i, j] : segments)
-    segments_of_loop[loop[std::size_t(i)]].emplace_back(i, j);
-  const std::vector<char> fine_border = border_vertices(fine.T, fine.V.rows());
-  std::vector<char> on_border = border_vertices(coarse.T, coarse.V.rows());
-  std::vector<std::set<Eigen::Index>> own(std::size_t(coarse.V.rows())); // loops
-  for(Eigen::Index j = 0; j < carried.cols(); ++j)
-    for(Eigen::SparseMatrix<double>::InnerIterator it(carried, j); it; ++it)
-      if(fine_border[std::size_t(j)] && it.value() > 0)
-        own[std::size_t(it.row())].insert(loop[std::size_t(j)]);
+  std::vector<char> on_border =
+      Spectral_geometry::internal::border_vertices(coarse.T, coarse.V.rows());
+  const std::vector<std::set<Eigen::Index>> own = border.loops_of_rows(carried);
   std::vector<Eigen::Triplet<double>> entries;
   for(std::size_t w = 0; w < own.size(); ++w) {
     on_border[w] = on_border[w] && !own[w].empty();
     if(!on_border[w])
       continue;
-    const Eigen::Vector3d p = coarse.V.row(Eigen::Index(w));
-    double least = std::numeric_limits<double>::infinity(), weight = 0;
-    std::pair<int, int> best;
-    for(const Eigen::Index of : own[w])
-      for(const auto& [i, j] : segments_of_loop[of]) {
-        const Eigen::Vector3d a = fine.V.row(i), b = fine.V.row(j);
-        const double t = projected_edge_weight(a, b, p);
-        const double distance = (a + t * (b - a) - p).squaredNorm();
-        if(distance < least) {
-          least = distance;
-          weight = t;
-          best = {i, j};
-        }
-      }
-    if(weight < 1)
-      entries.emplace_back(int(w), best.first, 1 - weight);
-    if(weight > 0)
-      entries.emplace_back(int(w), best.second, weight);
+    const auto point =
+        border.closest(coarse.V.row(Eigen::Index(w)), [&](const std::size_t segment) {
+          return own[w].count(border.loop(segment)) != 0;
+        });
+    const auto [i, j] = border.segment(point.segment);
+    if(point.weight < 1)
+      entries.emplace_back(int(w), i, 1 - point.weight);
+    if(point.weight > 0)
+      entries.emplace_back(int(w), j, point.weight);
   }
   Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
   rows.setFromTriplets(entries.begin(), entries.end());

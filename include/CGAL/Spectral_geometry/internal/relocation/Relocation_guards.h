@@ -91,6 +91,10 @@ public:
       fix(v);
   }
 
+  /// The middle and the radius of the ball in which a vertex stays.
+  Eigen::Vector3d anchor(const Eigen::Index v) const { return m_anchors.row(v); }
+  double radius(const Eigen::Index v) const { return m_radius(v); }
+
   bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[std::size_t(v)].empty(); }
 
   /// A further condition on the position of a vertex: a distance to a surface.
@@ -177,6 +181,8 @@ private:
         return;
       }
       to.row(v) = (0.6 * from.row(v) + 0.4 * to.row(v)).eval();
+      if(is_on_boundary(v))
+        to.row(v) = nearest_allowed(v, from.row(v), to.row(v)).transpose();
     }
   }
 

@@ -12,6 +12,7 @@
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
@@ -43,17 +44,19 @@ public:
              const Relocation_limits& limits)
     : m_options(options)
     , m_limits(limits)
-    , m_start(V)
+    , m_given(V)
     , m_T(T)
     , m_fine(fine)
     , m_P(P)
     , m_F(F)
     , m_Z(Z)
     , m_op(op)
+    , m_border(fine)
+    , m_coarse{V, T}
+    , m_regions(m_coarse, fine, P)
+    , m_start(on_border(fixed))
     , m_guards(m_start, T, Positions(P * fine.V), limits, options.threads)
     , m_size(T, m_start, fine, limits.size_tolerance)
-    , m_coarse{m_start, T}
-    , m_regions(m_coarse, fine, P)
   {
     m_timer.start();
     if(options.signals != Relocation_options::Signals::carried ||
@@ -75,7 +78,7 @@ public:
     check_areas("relocation: ", "coarse", m_start, m_T);
     Guarded_descent<Relocation_objective, Relocation_guards> descent(
         *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
-    result.E_before = m_objective->E(m_start);
+    result.E_before = m_objective->E(m_given);
     Positions V = m_start;
     m_guards.admit(m_start, V); // boundary vertices go to the boundary
     descent.start(V);
@@ -116,12 +119,16 @@ public:
     V = repaired(descent.positions());
     result.resampled = m_options.signals == Relocation_options::Signals::sampled;
     result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
-    result.norm_before = norm(m_start, m_P);
+    result.norm_before = norm(m_given, m_P);
     result.norm_after = norm(V, result.restriction);
     if(result.norm_after > result.norm_before) {
-      V = m_start;
       result.stop_reason = Reason::no_gain;
-      result.norm_after = result.norm_before;
+      V = m_start;
+      result.norm_after = m_start == m_given ? result.norm_before : norm(V, m_P);
+      if(result.norm_after > result.norm_before) {
+        V = m_given;
+        result.norm_after = result.norm_before;
+      }
       result.resampled = false;
       result.restriction = m_P;
     }
@@ -130,7 +137,7 @@ public:
     result.held.fixed -= m_reverted;
     result.E_after = m_objective->E(V);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
-      result.moved_vertices += V.row(v) != m_start.row(v);
+      result.moved_vertices += V.row(v) != m_given.row(v);
     result.seconds = m_timer.time();
     return V;
   }
@@ -157,21 +164,77 @@ private:
            (std::max)(C.norm(), (std::numeric_limits<double>::min)());
   }
 
+  bool is_near_border(const int v, const std::size_t s) const
+  {
+    const auto [i, j] = m_border.segment(s);
+    return m_regions.are_near(v, i) || m_regions.are_near(v, j);
+  }
+
+  // The positions that were given, those of boundary vertices on the boundary of the fine mesh:
+  // collapses leave them on chords of it. A vertex stays where a triangle would turn over or become
+  // a needle, or would go through another one; it may get there with the first step.
+  Positions on_border(const std::vector<bool>& fixed) const
+  {
+    Positions V = m_given;
+    const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
+    if(m_options.fix_boundary || m_border.is_empty())
+      return V;
+    const auto loops = m_border.loops_of_rows(m_P);
+    for(Eigen::Index v = 0; v < V.rows(); ++v) {
+      if(!on_boundary[std::size_t(v)] || (!fixed.empty() && fixed[std::size_t(v)]))
+        continue;
+      Border_polyline::Point point = m_border.closest(
+          V.row(v), [&](const std::size_t s) { return is_near_border(int(v), s); });
+      if(!point.exists())
+        point = m_border.closest(V.row(v), [&](const std::size_t s) {
+          return loops[std::size_t(v)].count(m_border.loop(s)) != 0;
+        });
+      if(point.exists())
+        V.row(v) = point.position.transpose();
+    }
+    Relocation_limits wide;
+    wide.smallest_angle_ratio = 0.1;
+    const Relocation_guards shapes(m_given, m_T, m_given, wide, m_options.threads);
+    Face_pairs crossing;
+    if(m_options.keep_free_of_self_intersections)
+      crossing = self_intersecting_faces(m_given, m_T);
+    for(bool back = true; back;) { // fewer vertices are elsewhere in each round
+      back = false;
+      const auto go_back = [&](const Eigen::Index f) {
+        for(int k = 0; k < 3; ++k)
+          if(const int v = m_T(f, k); V.row(v) != m_given.row(v)) {
+            V.row(v) = m_given.row(v);
+            back = true;
+          }
+      };
+      for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+        if(!shapes.legal(f, V))
+          go_back(f);
+      if(!back && m_options.keep_free_of_self_intersections)
+        for(const auto& pair : self_intersecting_faces(V, m_T))
+          if(!std::binary_search(crossing.begin(), crossing.end(), pair)) {
+            go_back(pair.first);
+            go_back(pair.second);
+          }
+    }
+    return V;
+  }
+
   void set_guards(const std::vector<bool>& fixed)
   {
     for(std::size_t v = 0; v < fixed.size(); ++v)
       if(fixed[v])
         m_guards.fix(Eigen::Index(v));
-    const std::vector<std::pair<int, int>> boundary = boundary_edges(m_fine.T);
     const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
     for(std::size_t v = 0; v < on_boundary.size(); ++v)
       if(on_boundary[v] && m_options.fix_boundary)
         m_guards.fix(Eigen::Index(v));
       else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v))) {
         std::vector<Boundary_segment> own;
-        for(const auto& [i, j] : boundary)
-          if(m_regions.are_near(int(v), i) || m_regions.are_near(int(v), j))
-            own.push_back({m_fine.V.row(i), m_fine.V.row(j)});
+        for(const std::size_t s :
+            m_border.near(m_guards.anchor(Eigen::Index(v)), 2 * m_guards.radius(Eigen::Index(v))))
+          if(is_near_border(int(v), s))
+            own.push_back({m_border.end(s, 0), m_border.end(s, 1)});
         m_guards.keep_on(Eigen::Index(v), own);
       }
     if(m_options.signals != Relocation_options::Signals::carried)
@@ -288,17 +351,19 @@ private:
 
   Relocation_options m_options;
   Relocation_limits m_limits;
-  Positions m_start;
+  Positions m_given;
   Eigen::MatrixXi m_T;
   const Mesh_matrices& m_fine;
   const Eigen::SparseMatrix<double>& m_P;
   const Eigen::MatrixXd &m_F, &m_Z;
   Local_operator m_op;
   Real_timer m_timer;
+  Border_polyline m_border; // of the fine mesh
+  Mesh_matrices m_coarse;   // as given
+  Surface_regions m_regions;
+  Positions m_start; // where the descent begins
   Relocation_guards m_guards;
   Size_bounds m_size;
-  Mesh_matrices m_coarse; // at the start
-  Surface_regions m_regions;
   std::unique_ptr<Closest_point_query> m_closest;
   std::unique_ptr<Followed_closest_points> m_followed;
   std::unique_ptr<Surface_signals> m_sampled;
