@@ -49,7 +49,10 @@ for variant in "" "--preset paper" "--preset paper --mass averaged" "--placement
   runs "simplification $variant" shape.off coarse.off --vertices 250 --eigenvectors 25 $all $variant
   "$check" . shape.off coarse.off || fail "outputs of '$variant'"
   grep -q '|C|_L' said || fail "no table with '$variant'"
+  grep -q 'unit area  scale of input' said || fail "no scales with '$variant'"
+  grep -q '^  P: ' said || fail "nothing said of P with '$variant'"
 done
+grep -q 'collapses by quadrics' said && fail "quadrics are said where there are none"
 
 norm_of() { awk -F'[:,]' '/"norm_L":/ { print $2 }' out.json; }
 runs "relocation by both signals" shape.off coarse.off --vertices 250 --eigenvectors 25 --relocate carried_and_sampled $all
@@ -183,7 +186,7 @@ grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)
 grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
 runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json
 grep -q "\"quadric_collapses\": $(($(sed -n 2p shape.off | cut -d ' ' -f 1) - 300))," ahead.json || fail "quadrics end at 3 N: $(grep quadric ahead.json)"
-grep -q "pre-simplification" said || fail "the time of quadrics is not said"
+grep -q "^  collapses by quadrics  *[0-9.]* s\$" said || fail "the time of quadrics is not said"
 refuses "quadrics to less than N" "--quadrics-above is 0.5, it must be 1 or more" shape.off out.off --vertices 200 --quadrics-above 0.5
 refuses "quadrics in the paper's metric" "--quadrics-above goes with" shape.off out.off --vertices 200 --quadrics-above 3 --preset paper
 refuses "pre-simplification below N" "--pre-simplify is 150" shape.off out.off --vertices 200 --eigenvectors 20 --pre-simplify 150

@@ -60,7 +60,7 @@ runs "signals of INPUT's vertices" broken.off signals.off $options --signals pai
 
 # Each of the phases has its line.
 runs "the table" shape.off table.off --vertices 200 --eigenvectors 20 --pre-simplify 1000
-for phase in "reading and checking" "pre-simplification" "eigenpairs" "collapses" "relocation" "writing" "total"; do
+for phase in "reading and checking" "collapses by quadrics" "eigenpairs" "collapses" "relocation" "writing" "total"; do
   grep -q "^  $phase  *[0-9.]* s\$" said || fail "'$phase' has no line in: $(cat said)"
 done
 

@@ -262,6 +262,18 @@ class Results(Shapes):
         self.close(e.C_L, np.linalg.norm(e.C @ np.diag(e.values) - lambda_c @ e.C) / np.linalg.norm(e.C))
         self.close(e.C_D, np.linalg.norm(e.C.T @ e.C - np.eye(50)))
         self.close(e.eigenvalue_error, np.mean(abs(e.coarse_values[1:50] / e.values[1:] - 1)))
+        at = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs, scale="mesh")
+        self.assertEqual((e.scale, at.scale), ("unit", "mesh"))
+        self.close(at.C, C[:50], 1e-6)
+        self.close(at.values, run.eigenpairs.values)
+        self.close(at.coarse_values[:50], coarse.values[:50], 1e-6)
+        lambda_c = np.diag(at.coarse_values[:50])
+        self.close(at.C_L, np.linalg.norm(at.C @ np.diag(at.values) - lambda_c @ at.C) / np.linalg.norm(at.C))
+        self.close(at.C_D, np.linalg.norm(at.C.T @ at.C - np.eye(50)))
+        self.close(at.eigenvalue_error, np.mean(abs(coarse.values[1:50] / run.eigenpairs.values[1:] - 1)), 1e-6)
+        self.close(at.eigenvalue_error_max, np.max(abs(coarse.values[1:50] / run.eigenpairs.values[1:] - 1)), 1e-6)
+        self.refused(ValueError, "scale is 'input', it must be 'unit' or 'mesh'", ss.evaluate, self.V, self.F, run.V, run.F,
+                     run.P, 50, scale="input")
 
     def test_an_operator_with_coefficients(self):
         V, F = sheet(20)

@@ -260,6 +260,40 @@ TEST_CASE("The page holds every number, escapes names and needs nothing else")
   CHECK(count(html, "nan") == 0);
 }
 
+TEST_CASE("The page of one run is no comparison, and explains what it has alone")
+{
+  const Two_meshes meshes;
+  Simplified run;
+  run.simplifier = "spectral";
+  run.placement = "free";
+  run.requested_vertices = run.vertices = 162;
+  run.faces = 320;
+  Comparison c = single_run(meshes.evaluation, run);
+  c.mesh = "x.off";
+  c.restriction = "closest points of the input";
+  c.times = {{"collapses by quadrics", 1.25}, {"relocation", 0.75}, {"total", 3.09}};
+  const std::string html = html_report(c);
+  CHECK(count(html, "<h1>Spectral simplification: x.off</h1>") == 1);
+  CHECK(count(html, "omparison") == 0);
+  CHECK(count(html, "closest points of the input") == 2);
+  for(const char* absent : {"remesher", "Distances", "Aspect", "Self-inter", "Bold", "closest P<",
+                            "<i>metric</i>", "over output size", "nan", "<tbody>\n</tbody>"}) {
+    CAPTURE(absent);
+    CHECK(count(html, absent) == 0);
+  }
+  for(const auto& [what, seconds] : c.times)
+    CHECK(count(html, what + "</td><td>" + formatted(seconds)) == 1);
+  const Judgement& j = c.results[0].judgements[0];
+  for(const double x : {j.norms().norm_L, j.norms().norm_L_common_scale, j.floor_norm_L})
+    CHECK(count(html, "<td>" + formatted(x) + "</td>") >= 1);
+  for(const double x : {j.error_mean, j.error_input_scale_mean, j.error_input_scale_max})
+    CHECK(count(html, "<td>" + formatted(100 * x) + "</td>") >= 1);
+  CHECK(j.error_input_scale_mean > j.error_mean + 0.1); // 1.5 times as large
+  CHECK(count(html, "<figure class='large'>") == 1);
+  CHECK(count(html, "<polyline") == 4); // eigenvalues and their ratios, fine and coarse
+  CHECK(count(html, "points=''") == 0);
+}
+
 TEST_CASE("The page holds both meshes and the functions on them")
 {
   const Two_meshes meshes;

@@ -386,8 +386,6 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
   run.shape_term = report.options.shape;
   run.requested_vertices = run.vertices = result.output_vertices;
   run.faces = mesh.number_of_faces();
-  run.seconds = result.seconds_collapse;
-  run.seconds_eigenpairs = result.seconds_eigenpairs;
   run.note = result.explanation;
   Comparison comparison = single_run(*report.evaluation, run);
   if(report.fitted) {
@@ -395,6 +393,8 @@ std::string page(const Arguments& a, const Mesh& mesh, const Both_meshes& meshes
     comparison.results.push_back(
         single_run(report.fitted->evaluation, std::move(run)).results.front());
   }
+  comparison.restriction = restriction_in_words(result, report.options);
+  comparison.times = times(report);
   comparison.command = a.command;
   comparison.mesh = std::filesystem::path(a.input).filename().string();
   comparison.vertices = result.input_vertices;

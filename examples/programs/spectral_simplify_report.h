@@ -10,6 +10,7 @@
 #include "io/text_lines.h"
 #include "io/attributes.h"
 #include "option_words.h"
+#include "report/judgement.h"
 #include "report/run_json.h"
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
@@ -24,6 +25,7 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // What spectral_simplify says about a run: a table for people, JSON for programs.
@@ -55,12 +57,14 @@ struct Simplification_report
   std::vector<std::size_t> levels; // those that were written
 };
 
-// `floor`: what good linear elements of the same number have; 0 when no estimate is known.
-inline void print_norm(const char* name, double norm, double floor)
+// A figure at unit area and at the scale of the meshes, and what good linear elements of the same
+// number have, or 0 when no estimate is known.
+inline void print_figure(const char* name, const double unit, const double input, const char* after,
+                         const double floor = 0)
 {
-  std::printf("  %-25s %8.2f", name, norm);
+  std::printf("  %-25s %8.2f%s %12.2f%s", name, unit, after, input, after);
   if(floor > 0)
-    std::printf("   (ideal linear elements: about %.2f)", floor);
+    std::printf("%s(ideal linear elements: about %.2f)", *after == 0 ? "     " : "   ", floor);
   std::printf("\n");
 }
 
@@ -72,15 +76,44 @@ inline const char* mass_pattern_name(const CGAL::Spectral_geometry::Operator_fit
              : "edges";
 }
 
-inline void print_errors(const CGAL::Spectral_geometry::Spectral_evaluation& e)
+inline void print_evaluation(const CGAL::Spectral_geometry::Spectral_evaluation& e,
+                             const bool floors)
 {
   if(e.errors.modes > 0) {
-    std::printf("  eigenvalue error, mean    %8.2f %%\n", 100 * e.errors.mean);
-    std::printf("  eigenvalue error, largest %8.2f %%\n", 100 * e.errors.max);
+  print_figure("|C|_L", e.norm_L, e.norm_L_common_scale, "  ", floors ? e.floor_norm_L : 0);
+  print_figure("|C|_D", e.norm_D, e.norm_D_input_scale, "  ", floors ? e.floor_norm_D : 0);
+    print_figure("eigenvalue error, mean", 100 * e.errors.mean, 100 * e.errors_input_scale.mean,
+                 " %");
+    print_figure("eigenvalue error, largest", 100 * e.errors.max, 100 * e.errors_input_scale.max,
+                 " %");
   }
   if(e.errors_low.modes > 0)
-    std::printf("  the same, modes 2 to %-4d %8.2f %%   (mean)\n",
-                static_cast<int>(e.judged_modes / 5), 100 * e.errors_low.mean);
+    print_figure(("the same, modes 2 to " + std::to_string(e.judged_modes / 5) + ", mean").c_str(),
+                 100 * e.errors_low.mean, 100 * low_errors_at_input_scale(e).mean, " %");
+}
+
+// What took how many seconds, in the words of the table and of the page.
+inline std::vector<std::pair<std::string, double>> times(const Simplification_report& r)
+{
+  using Source = CGAL::Surface_mesh_simplification::Spectral_signal_source;
+  std::vector<std::pair<std::string, double>> result = {
+      {"reading and checking", r.seconds_reading}};
+  if(r.result.quadric_collapses != 0)
+    result.emplace_back("collapses by quadrics", r.result.seconds_pre_simplification);
+  result.emplace_back(r.options.source == Source::filtered_noise && r.options.signals.size() == 0
+                          ? "filtered signals"
+                          : "eigenpairs",
+                      r.result.seconds_eigenpairs);
+  result.emplace_back("collapses", r.result.seconds_collapse);
+  if(r.options.relocate)
+    result.emplace_back("relocation", r.result.seconds_relocation);
+  result.emplace_back("writing", r.seconds_writing);
+  result.emplace_back("total", r.seconds_reading + r.result.seconds_total + r.seconds_writing);
+  if(r.evaluation)
+    result.emplace_back("evaluation, not in total", r.seconds_evaluation);
+  if(r.fitted)
+    result.emplace_back("operator fit, likewise", r.fitted->seconds);
+  return result;
 }
 
 inline void print_table(const Simplification_report& r)
@@ -93,11 +126,10 @@ inline void print_table(const Simplification_report& r)
     std::string of = r.operator_word == "cotangent" ? "" : " of " + printable(r.operator_word);
     if(r.options.boundary != CGAL::Spectral_geometry::Boundary_condition::neumann)
       of += std::string(", ") + word_of(boundary_words, r.options.boundary);
-    std::printf("  %d eigenvectors%s, %s mass, unit area\n", static_cast<int>(e.judged_modes),
-                of.c_str(), e.mass.c_str());
-    print_norm("|C|_L", e.norm_L, e.floor_norm_L);
-    print_norm("|C|_D", e.norm_D, e.floor_norm_D);
-    print_errors(e);
+    const std::string what =
+        std::to_string(e.judged_modes) + " eigenvectors" + of + ", " + e.mass + " mass";
+    std::printf("  %-25s   unit area  scale of input\n", what.c_str());
+    print_evaluation(e, true);
     std::printf("  rows off their part       %8zu\n", r.rows_off_their_part);
     std::printf("  %s of output / input    %8.4f\n\n",
                 r.options.coefficients.rows() == 0 ? "area" : "mass", e.area_ratio);
@@ -106,12 +138,11 @@ inline void print_table(const Simplification_report& r)
     const auto& options = r.fitted->options;
     std::printf("  fitted operators, %d ring%s, mass: %s\n", options.rings,
                 options.rings == 1 ? "" : "s", mass_pattern_name(options));
-    print_norm("|C|_L", r.fitted->evaluation.norm_L, 0);
-    print_norm("|C|_D", r.fitted->evaluation.norm_D, 0);
-    print_errors(r.fitted->evaluation);
+    print_evaluation(r.fitted->evaluation, false);
     std::printf("\n");
   }
   std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
+  std::printf("  P: %s\n\n", restriction_in_words(r.result, r.options).c_str());
               r.result.relative_error);
   if(r.options.relocate)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
@@ -121,20 +152,8 @@ inline void print_table(const Simplification_report& r)
     std::printf("  kept edges of seams       %8zu\n\n", *r.seam_edges);
   if(!r.attributes.empty())
     std::printf("  carried attributes        %s\n\n", printable(joined(r.attributes)).c_str());
-  std::printf("  reading and checking      %8.2f s\n", r.seconds_reading);
-  if(r.result.quadric_collapses != 0)
-    std::printf("  pre-simplification        %8.2f s\n", r.result.seconds_pre_simplification);
-  std::printf("  eigenpairs                %8.2f s\n", r.result.seconds_eigenpairs);
-  std::printf("  collapses                 %8.2f s\n", r.result.seconds_collapse);
-  if(r.options.relocate)
-    std::printf("  relocation                %8.2f s\n", r.result.seconds_relocation);
-  std::printf("  writing                   %8.2f s\n", r.seconds_writing);
-  std::printf("  total                     %8.2f s\n",
-              r.seconds_reading + r.result.seconds_total + r.seconds_writing);
-  if(r.evaluation)
-    std::printf("  evaluation, not in total  %8.2f s\n", r.seconds_evaluation);
-  if(r.fitted)
-    std::printf("  operator fit, likewise    %8.2f s\n", r.fitted->seconds);
+  for(const auto& [what, seconds] : times(r))
+    std::printf("  %-25s %8.2f s\n", what.c_str(), seconds);
 }
 
 // All of them null where nothing was evaluated.
@@ -150,6 +169,8 @@ evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
           {"norm_D", number(e.norm_D)},
           {"norm_L_input_scale", number(e.norm_L_input_scale)},
           {"norm_D_extended", number(e.norm_D_extended)},
+          {"norm_L_common_scale", number(e.norm_L_common_scale)},
+          {"norm_D_input_scale", number(e.norm_D_input_scale)},
           {"floor_norm_L", number(e.floor_norm_L)},
           {"floor_norm_D", number(e.floor_norm_D)},
           {"eigenvalue_error_mean", number(e.errors.mean)},
@@ -157,6 +178,9 @@ evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
           {"eigenvalue_error_low_mean", number(e.errors_low.mean)},
           {"eigenvalue_error_input_scale_mean", number(e.errors_input_scale.mean)},
           {"area_ratio", number(e.area_ratio)}};
+          {"eigenvalue_error_input_scale_max", number(e.errors_input_scale.max)},
+          {"eigenvalue_error_input_scale_low_mean",
+           number(evaluation != nullptr ? low_errors_at_input_scale(e).mean : 0)},
 }
 
 inline nlohmann::json to_json(const Simplification_report& r)

@@ -236,6 +236,7 @@ inline py::dict evaluate(const Arguments& a)
 {
   const SG::Mesh_matrices fine = a.mesh("V", "F"), coarse = a.mesh("Vc", "Fc");
   const Index n = fine.V.rows(), N = coarse.V.rows(), k = a.integer("k", 1, n);
+  const std::string scale = a.word("scale", {"unit", "mesh"});
   const Eigen::SparseMatrix<double> P = a.sparse("P", N, n);
   // P is what it is, but the positions that it carries show whether its rows belong to Vc.
   double area = 0;
@@ -291,16 +292,24 @@ inline py::dict evaluate(const Arguments& a)
     return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
   });
   py::dict result;
-  result["C"] = e.C;
-  result["C_L"] = e.norm_L;
-  result["C_D"] = e.norm_D;
-  result["floor_C_L"] = e.floor_norm_L;
+  const bool unit = scale == "unit";
+  const double fine_area = unit ? 1 : e.fine_area, coarse_area = unit ? 1 : e.coarse_area;
+  const Eigen::VectorXd values = e.fine_values / fine_area,
+                        coarse_values = e.coarse_values / coarse_area;
+  const auto errors = [&](const Index first, const Index last) {
+    return SG::eigenvalue_errors(values, coarse_values, first, last, e.fine_zeros);
+  };
+  result["scale"] = scale;
+  result["C"] = Eigen::MatrixXd(std::sqrt(coarse_area / fine_area) * e.C);
+  result["C_L"] = unit ? e.norm_L : e.norm_L_input_scale;
+  result["C_D"] = unit ? e.norm_D : e.norm_D_input_scale;
+  result["floor_C_L"] = e.floor_norm_L / fine_area;
   result["floor_C_D"] = e.floor_norm_D;
-  result["eigenvalue_error"] = e.errors.mean;
-  result["eigenvalue_error_max"] = e.errors.max;
-  result["eigenvalue_error_low"] = e.errors_low.mean;
-  result["values"] = e.fine_values;
-  result["coarse_values"] = e.coarse_values;
+  result["eigenvalue_error"] = errors(0, e.judged_modes).mean;
+  result["eigenvalue_error_max"] = errors(0, e.judged_modes).max;
+  result["eigenvalue_error_low"] = errors(1, e.judged_modes / 5).mean;
+  result["values"] = values;
+  result["coarse_values"] = coarse_values;
   result["judged_modes"] = e.judged_modes;
   result["area_ratio"] = e.area_ratio;
   return result;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // What a comparison found: plain data, filled by the programs, written as a table, JSON or a page.
@@ -44,7 +45,8 @@ struct Judgement
   double error_mean = not_computed, error_max = not_computed;               // eigenvalues 1..K
   double error_low_mean = not_computed;                                     // 2..K/5
   double error_beyond_mean = not_computed, error_beyond_max = not_computed; // K+1..1.5K
-  double error_input_scale_mean = not_computed;
+  double error_input_scale_mean = not_computed, error_input_scale_max = not_computed,
+         error_input_scale_low_mean = not_computed;
   Distance_errors distances;
   std::string distances_by;      // "carried" or "closest point": the P of the errors of distances
   Eigen::VectorXd coarse_values; // at unit area
@@ -137,6 +139,11 @@ struct Comparison
   std::vector<Simplified> results; // ordered by size, then simplifier
   std::vector<Refused> refused;    // rivals
   std::vector<std::string> notes;  // what was left out, and why
+
+  // Of one run, whose page is not a comparison:
+  bool is_run = false;
+  std::string restriction;                           // what P is, a clause
+  std::vector<std::pair<std::string, double>> times; // what took how many seconds
 };
 
 #endif // SPECTRAL_EXAMPLES_REPORT_COMPARISON_H

@@ -71,6 +71,8 @@ inline nlohmann::json row(const Simplified& s, const Judgement& j)
           {"eigenvalue_error_beyond_mean", number_json(j.error_beyond_mean)},
           {"eigenvalue_error_beyond_max", number_json(j.error_beyond_max)},
           {"eigenvalue_error_input_scale_mean", number_json(j.error_input_scale_mean)},
+          {"eigenvalue_error_input_scale_max", number_json(j.error_input_scale_max)},
+          {"eigenvalue_error_input_scale_low_mean", number_json(j.error_input_scale_low_mean)},
           {"distance_errors", distance_errors(j.distances)},
           {"distance_errors_by", j.distances_by},
           {"smallest_angle_degrees", number_json(m.smallest_angle)},

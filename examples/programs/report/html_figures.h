@@ -144,7 +144,8 @@ inline std::string functional_maps(const Comparison& c, const std::string& mass)
   for(const std::size_t N : sizes(c)) {
     html += "<div class='figures'>\n";
     for(const auto& [s, j] : judged(c, N, mass))
-      html += "<figure><img alt='|C| of " + escaped(s->name()) + "' src='" + matrix_image(j->C) +
+      html += std::string("<figure") + (c.results.size() < 3 ? " class='large'" : "") +
+              "><img alt='|C| of " + escaped(s->name()) + "' src='" + matrix_image(j->C) +
               "'><figcaption>" + escaped(s->name()) + ", N = " + std::to_string(s->vertices) +
               ": |C|<sub>L</sub> " + formatted(j->norms().norm_L) + ", |C|<sub>D</sub> " +
               formatted(j->norms().norm_D) + "</figcaption></figure>\n";
@@ -185,8 +186,10 @@ inline std::string eigenvalue_plots(const Comparison& c, const Fine_spectrum& fi
         ratio.x.push_back(static_cast<double>(k + 1));
         ratio.y.push_back(j->coarse_values(k) / fine.values(k));
       }
-      values.curves.push_back(curve);
-      ratios.curves.push_back(ratio);
+      if(!curve.x.empty())
+        values.curves.push_back(curve);
+      if(!ratio.x.empty())
+        ratios.curves.push_back(ratio);
     }
     html += "<div class='figures'>" + svg(values) + svg(ratios) + "</div>\n";
   }
@@ -207,7 +210,8 @@ Plot plot_over_sizes(const Comparison& c, const std::string& mass, const X& x, c
           curve.x.push_back(x(*s));
           curve.y.push_back(y(*s, *j));
         }
-    plot.curves.push_back(curve);
+    if(!curve.x.empty()) // else it was not judged in this mass
+      plot.curves.push_back(curve);
   }
   return plot;
 }
@@ -215,24 +219,18 @@ Plot plot_over_sizes(const Comparison& c, const std::string& mass, const X& x, c
 inline std::string size_plots(const Comparison& c, const std::string& mass)
 {
   std::string html = "<div class='figures'>";
-  for(const bool over_ratio : {false, true})
-    for(const bool norm_L : {true, false}) {
-      Plot plot = plot_over_sizes(
-          c, mass,
-          [&](const Simplified& s) {
-            return over_ratio ? static_cast<double>(c.K) / static_cast<double>(s.vertices)
-                              : static_cast<double>(s.vertices);
-          },
-          [&](const Simplified&, const Judgement& j) {
-            return norm_L ? j.norms().norm_L : j.norms().norm_D;
-          });
-      plot.title = std::string(norm_L ? "|C|_L" : "|C|_D") + " over " +
-                   (over_ratio ? "K/N" : "output size") + ", " + mass + " mass";
-      plot.x_label = over_ratio ? "K/N, eigenvectors per vertex" : "N, vertices";
-      plot.y_label = std::string(norm_L ? "|C|_L" : "|C|_D") + " (unit area)";
-      plot.width = 600;
-      html += svg(plot);
-    }
+  for(const bool norm_L : {true, false}) {
+    Plot plot = plot_over_sizes(
+        c, mass, [](const Simplified& s) { return static_cast<double>(s.vertices); },
+        [&](const Simplified&, const Judgement& j) {
+          return norm_L ? j.norms().norm_L : j.norms().norm_D;
+        });
+    plot.title = std::string(norm_L ? "|C|_L" : "|C|_D") + " over output size, " + mass + " mass";
+    plot.x_label = "N, vertices";
+    plot.y_label = std::string(norm_L ? "|C|_L" : "|C|_D") + " (unit area)";
+    plot.width = 600;
+    html += svg(plot);
+  }
   return html + "</div>\n";
 }
 

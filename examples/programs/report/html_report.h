@@ -39,7 +39,8 @@ inline const char* style()
          "figcaption{font-size:12.5px;line-height:1.35}"
          "figure img{width:188px;height:188px;border:1px solid "
          "#999;image-rendering:pixelated;display:block}"
-         "figure.wide{width:460px}"
+         "figure.wide,figure.large{width:460px}"
+         "figure.large img{box-sizing:border-box;width:100%;height:auto}"
          "figure.wide img{box-sizing:border-box;width:100%;height:auto;image-rendering:auto}"
          ".legend{max-width:none;columns:3;column-gap:2em;font-size:13px;list-style:none;padding:0;"
          "margin:."
@@ -66,6 +67,8 @@ inline const char* style()
          "linear-gradient(90deg,#0000,#0003) 100% 0/12px 100% no-repeat scroll}"
          "td.n{white-space:normal;min-width:8em}"
          "td.n,th.l:first-child{position:sticky;left:0;background:#fff}"
+         "table.facts{display:table;background:none}table.facts td{white-space:normal;"
+         "overflow-wrap:anywhere}table.facts td:first-child{min-width:7em}"
          "svg[role=img]{font-size:17px;overflow:visible}.bars>svg[role=img]{max-width:none;flex:"
          "none;font-"
          "size:12px}"
@@ -231,9 +234,57 @@ inline std::string shape_table(const Comparison& c)
                });
 }
 
+// The figures of one run, a row for each, so that a narrow screen shows all of them.
+inline std::string run_table(const Simplified& s, const Judgement& j)
+{
+  struct Row
+  {
+    const char* name;
+    double unit, input, ideal;
+    bool in_percent;
+  };
+  const Map_norms& n = j.norms();
+  const Row rows[] = {
+      {"|C|<sub>L</sub>", n.norm_L, n.norm_L_common_scale, j.floor_norm_L, false},
+      {"|C|<sub>D</sub>", n.norm_D, n.norm_D_input_scale, j.floor_norm_D, false},
+      {"|C|<sub>D</sub>, 1.1 K", n.norm_D_extended, not_computed, not_computed, false},
+      {"λ<sub>1..K</sub>, mean error, %", j.error_mean, j.error_input_scale_mean, not_computed,
+       true},
+      {"λ<sub>1..K</sub>, largest error, %", j.error_max, j.error_input_scale_max, not_computed,
+       true},
+      {"λ<sub>2..K/5</sub>, mean error, %", j.error_low_mean, j.error_input_scale_low_mean,
+       not_computed, true},
+      {"λ<sub>K+1..1.5K</sub>, mean error, %", j.error_beyond_mean, not_computed, not_computed,
+       true},
+      {"area of output / input", s.shape.area_ratio, not_computed, not_computed, false}};
+  const bool ideal = j.floor_norm_L > 0 || j.floor_norm_D > 0;
+  std::vector<std::string> names = {escaped(s.name()), "unit area", "scale of input"};
+  if(ideal)
+    names.push_back("ideal linear elements");
+  std::string html = "<table>\n<thead>" + heading_row(names, 1) + "</thead>\n<tbody>\n";
+  for(const Row& row : rows) {
+    if(!std::isfinite(row.unit))
+      continue;
+    const auto shown = [&](const double x) {
+      return std::isfinite(x) ? row.in_percent ? percent(x) : formatted(x) : std::string();
+    };
+    html += "<tr>" + cell(row.name, "td", "l n") + cell(shown(row.unit)) + cell(shown(row.input)) +
+            (ideal ? cell(row.ideal > 0 ? shown(row.ideal) : "") : "") + "</tr>\n";
+  }
+  return html + "</tbody>\n</table>\n";
+}
+
+inline std::string times_table(const Comparison& c)
+{
+  std::string html = "<table>\n" + heading_row({"stage", "seconds"}, 1);
+  for(const auto& [what, seconds] : c.times)
+    html += "<tr>" + cell(what, "td", "l") + cell(formatted(seconds)) + "</tr>\n";
+  return html + "</table>\n";
+}
+
 inline std::string facts(const Comparison& c)
 {
-  std::string html = "<table>\n";
+  std::string html = "<table class='facts'>\n";
   const auto fact = [&](const std::string& name, const std::string& value) {
     html += "<tr>" + cell(name, "td", "l") + cell(value, "td", "l") + "</tr>\n";
   };
@@ -243,6 +294,14 @@ inline std::string facts(const Comparison& c)
        escaped(c.mesh) + ", " + std::to_string(c.vertices) + " vertices, " +
            std::to_string(c.faces) + " triangles" +
            (c.components == 0 ? "" : ", " + components + (c.closed ? "closed" : "with boundary")));
+  if(c.is_run) {
+    const Simplified& s = c.results.front();
+    fact("Coarse mesh",
+         std::to_string(s.vertices) + " vertices, " + std::to_string(s.faces) + " triangles");
+    fact("Simplifier", escaped(s.name()));
+    fact("P, the restriction", escaped(c.restriction));
+    fact("Mass of the figures", escaped(c.fine.front().mass));
+  }
   fact("Area", formatted(c.area) + " u² (u: the unit of the file)");
   if(std::isfinite(c.diagonal))
     fact("Diagonal of its box", formatted(c.diagonal) + " u");
@@ -254,58 +313,102 @@ inline std::string facts(const Comparison& c)
                " s, largest residual " + formatted(f.largest_residual));
   if(c.sources > 0)
     fact("Distances", std::to_string(c.sources) + " sources, seed " + std::to_string(c.seed));
-  fact("Threads for the spectral costs", std::to_string(c.threads));
+  fact(c.is_run ? "Threads" : "Threads for the spectral costs", std::to_string(c.threads));
   if(!c.cgal_version.empty())
     fact("CGAL, compiler", escaped(c.cgal_version) + ", " + escaped(c.compiler));
   fact("Command", "<code>" + escaped(c.command) + "</code>");
   return html + "</table>\n";
 }
 
-inline const char* explanation()
+// Explains what is on the page, and nothing else.
+inline std::string explanation(const Comparison& c)
 {
-  return R"(<ul>
-<li><b>C</b> = Φ<sub>c</sub>ᵀ M<sub>c</sub> P Φ (c: coarse) maps the coefficients of a function on
-the fine mesh to those of its restriction. |C|<sub>L</sub> = |CΛ − Λ<sub>c</sub>C| / |C| (unit: that
-of the eigenvalues) and |C|<sub>D</sub> = |CᵀC − I| (no unit), Frobenius norms, not squared; both
-are 0 if and only if the eigenpairs are kept exactly. Meshes are scaled to unit area each; <i>input
-scale</i> is without that.</li>
-<li><b>P</b> is the restriction that the simplifier carries along; for remeshers, which have none,
-that of the closest points of the fine surface. <i>closest P</i> is the latter for all.</li>
-<li><b>Lumped</b> and <b>averaged</b> mass are two discretisations: compare within one.
-<i>metric</i> is the mass that the simplifier itself works with, the heading names the one that it
-is judged in.</li>
-<li><b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were exchanged
-at the cut, not lost.</li>
-<li><b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on equilateral
-triangles that only sample the surface. A mesh that fits the spectrum on purpose can be below.</li>
-<li><b>Distances</b> (squared, but for the wave kernel's) and signatures: Σ M<sub>c</sub> |coarse −
-P fine| / Σ M<sub>c</sub> |P fine|, mean over the sources, times or energies; times and energies are
-those of the fine mesh.</li>
-<li><b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, computed
-once for all sizes. Remeshing is timed at the edge length that was found, without the search.</li>
-<li><b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral.
-<b>Self-intersections</b> counts pairs of triangles. Bold: the smallest of its column and size.</li>
-</ul>
-)";
+  const auto any = [&c](const auto& has) {
+    for(const Simplified& s : c.results)
+      for(const Judgement& j : s.judgements)
+        if(has(s, j))
+          return true;
+    return false;
+  };
+  std::string html = "<ul>\n";
+  const auto item = [&html](const bool is_there, const std::string& text) {
+    if(is_there)
+      html += "<li>" + text + "</li>\n";
+  };
+  item(true, "<b>C</b> = Φ<sub>c</sub>ᵀ M<sub>c</sub> P Φ (c: coarse) maps the coefficients of a "
+             "function on the fine mesh to those of its restriction. |C|<sub>L</sub> = |CΛ − "
+             "Λ<sub>c</sub>C| / |C| (unit: that of the eigenvalues) and |C|<sub>D</sub> = |CᵀC − "
+             "I| (no unit), Frobenius norms, not squared; both are 0 if and only if the "
+             "eigenpairs are kept exactly. Meshes are scaled to unit area each" +
+                 std::string(c.is_run ? ". <i>Scale of input</i>: both by the factor that gives "
+                                        "the input unit area; where the area has shrunk "
+                                        "eigenvalues are larger there."
+                                      : "; <i>input scale</i> is without that."));
+  item(c.is_run,
+       "<b>P</b>, by which functions come to the coarse mesh: " + escaped(c.restriction) + ".");
+  item(!c.is_run, "<b>P</b> is the restriction that the simplifier carries along, after "
+                  "relocation by sampled functions that of closest points; for remeshers, which "
+                  "have none, that of the closest points of the fine surface." +
+                      std::string(any([](const Simplified&, const Judgement& j) {
+                        return j.closest.has_value();
+                      })
+                                      ? " <i>closest P</i> is the latter for all."
+                                      : ""));
+  item(!c.is_run, "<b>Lumped</b> and <b>averaged</b> mass are two discretisations: compare within "
+                  "one. <i>metric</i> is the mass that the simplifier itself works with, the "
+                  "heading names the one that it is judged in.");
+  item(any([](const Simplified&, const Judgement& j) {
+         return std::isfinite(j.norms().norm_D_extended);
+       }),
+       "<b>1.1 K</b>: with a tenth more coarse modes. Where this is much smaller, modes were "
+       "exchanged at the cut, not lost.");
+  item(any([](const Simplified&, const Judgement& j) {
+         return j.floor_norm_L > 0 || j.floor_norm_D > 0;
+       }),
+       "<b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on "
+       "equilateral triangles that only sample the surface. A mesh that fits the spectrum on "
+       "purpose can be below.");
+  item(any([](const Simplified&, const Judgement& j) {
+         const Distance_errors& d = j.distances;
+         return std::isfinite(d.diffusion) || std::isfinite(d.biharmonic) ||
+                std::isfinite(d.commute_time) || std::isfinite(d.wave_kernel) ||
+                std::isfinite(d.heat_kernel_signature) || std::isfinite(d.wave_kernel_signature);
+       }),
+       "<b>Distances</b> (squared, but for the wave kernel's) and signatures: Σ M<sub>c</sub> "
+       "|coarse − P fine| / Σ M<sub>c</sub> |P fine|, mean over the sources, times or energies; "
+       "times and energies are those of the fine mesh.");
+  item(!c.is_run &&
+           any([](const Simplified& s, const Judgement&) { return std::isfinite(s.seconds); }),
+       "<b>Time</b> of the spectral simplifier includes the eigenvectors of its own metric, "
+       "computed once for all sizes. Remeshing is timed at the edge length that was found, "
+       "without the search.");
+  item(!c.is_run && any([](const Simplified& s, const Judgement&) {
+    return std::isfinite(s.shape.largest_aspect_ratio);
+  }),
+       "<b>Aspect ratio</b>: longest edge over shortest height, 1.15 when equilateral.");
+  item(!c.is_run && any([](const Simplified& s, const Judgement&) {
+    return std::isfinite(s.shape.self_intersections);
+  }),
+       "<b>Self-intersections</b> counts pairs of triangles.");
+  item(!c.is_run && c.results.size() > sizes(c).size(),
+       "Bold: the smallest of its column and size.");
+  return html + "</ul>\n";
 }
 
-} // namespace html_internal
-
-// The page; `introduction` comes before the tables.
-inline std::string html_report(const Comparison& c, const std::string& introduction = "")
+inline std::string figures_of_run(const Comparison& c)
 {
-  using namespace html_internal;
-  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
-                     "<meta name='viewport' content='width=device-width'><title>" +
-                     escaped(c.mesh) + " – spectral comparison</title>\n<style>" + style() +
-                     "</style></head><body>\n";
-  html +=
-      "<h1>Spectral comparison of simplifications: " + escaped(c.mesh) + "</h1>\n" + introduction;
-  html += facts(c);
-  if(!c.refused.empty())
-    html += refused_rivals(c);
-  for(const std::string& note : all_notes(c))
-    html += "<p class='note'>" + escaped(note) + "</p>\n";
+  std::string html = "<h2>How well the spectrum was kept</h2>\n";
+  for(const Simplified& s : c.results)
+    html += run_table(s, s.judgements.front());
+  html += "<h3>Functional map</h3>\n" + functional_maps(c, c.fine.front().mass);
+  html += "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) +
+          eigenvalue_plots(c, c.fine.front());
+  return html + "<h2>Time</h2>\n" + times_table(c);
+}
+
+inline std::string figures_of_comparison(const Comparison& c)
+{
+  std::string html;
   for(const Fine_spectrum& f : c.fine) {
     html += "<h2>Judged in the " + escaped(f.mass) + " mass</h2>\n" + spectrum_tables(c, f.mass);
     if(c.results.size() > 1)
@@ -314,13 +417,36 @@ inline std::string html_report(const Comparison& c, const std::string& introduct
     html +=
         "<h3>Eigenvalues, coarse against fine</h3>\n" + legend(c, false) + eigenvalue_plots(c, f);
     if(sizes(c).size() > 1)
-      html += "<h3>Norms over output size and over K/N</h3>\n" + legend(c, true) +
-              size_plots(c, f.mass);
+      html += "<h3>Norms over output size</h3>\n" + legend(c, true) + size_plots(c, f.mass);
   }
   html += "<h2>Time and shape</h2>\n" + shape_table(c);
   if(sizes(c).size() > 1)
     html += legend(c, true) + time_plot(c);
-  html += "<h2>How to read this page</h2>\n" + std::string(explanation());
+  return html;
+}
+
+} // namespace html_internal
+
+// The page; `introduction` comes before the tables.
+inline std::string html_report(const Comparison& c, const std::string& introduction = "")
+{
+  using namespace html_internal;
+  const std::string what = c.is_run               ? "Spectral simplification"
+                           : c.results.size() > 1 ? "Spectral comparison of simplifications"
+                                                  : "A simplification and its spectrum";
+  std::string html = "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
+                     "<meta name='viewport' content='width=device-width'><title>" +
+                     escaped(c.mesh) + " – " +
+                     (c.is_run ? "spectral simplification" : "spectral comparison") +
+                     "</title>\n<style>" + style() + "</style></head><body>\n";
+  html += "<h1>" + what + ": " + escaped(c.mesh) + "</h1>\n" + introduction;
+  html += facts(c);
+  if(!c.refused.empty())
+    html += refused_rivals(c);
+  for(const std::string& note : all_notes(c))
+    html += "<p class='note'>" + escaped(note) + "</p>\n";
+  html += c.is_run ? figures_of_run(c) : figures_of_comparison(c);
+  html += "<h2>How to read this page</h2>\n" + explanation(c);
   return html + "</body></html>\n";
 }
 

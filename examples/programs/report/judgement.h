@@ -12,6 +12,15 @@
 
 #include <utility>
 
+// Those of modes 2 to K/5 of the meshes as they are.
+inline CGAL::Spectral_geometry::Eigenvalue_errors
+low_errors_at_input_scale(const CGAL::Spectral_geometry::Spectral_evaluation& e)
+{
+  return CGAL::Spectral_geometry::eigenvalue_errors(e.fine_values / e.fine_area,
+                                                    e.coarse_values / e.coarse_area, 1,
+                                                    e.judged_modes / 5, e.fine_zeros);
+}
+
 // Takes over what an evaluation says of the spectrum, and its norms as those of the carried P or of
 // the closest points.
 inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral_evaluation& e,
@@ -31,6 +40,8 @@ inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral
   j.error_beyond_mean = e.errors_beyond.mean;
   j.error_beyond_max = e.errors_beyond.max;
   j.error_input_scale_mean = e.errors_input_scale.mean;
+  j.error_input_scale_max = e.errors_input_scale.max;
+  j.error_input_scale_low_mean = low_errors_at_input_scale(e).mean;
   j.coarse_values = e.coarse_values;
 }
 
@@ -46,6 +57,7 @@ inline Comparison single_run(const CGAL::Spectral_geometry::Spectral_evaluation&
   run.judgements = {j};
 
   Comparison c;
+  c.is_run = true;
   c.area = e.fine_area;
   c.K = e.requested_modes;
   c.fine.push_back({e.mass, e.fine_values, e.fine_zeros, not_computed, not_computed});

@@ -43,6 +43,30 @@ relocation_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
           {"seconds", x.seconds}};
 }
 
+// Whether P is that of closest points, or what the collapses carried.
+inline const char*
+restriction_word(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result& result)
+{
+  return result.relocation.resampled ? "closest_points" : "carried";
+}
+
+// What P is, a clause.
+inline std::string restriction_in_words(
+    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result& result,
+    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
+{
+  const std::string first =
+      result.pre_simplified_vertices != 0 && result.pre_simplified_vertices < result.input_vertices
+          ? "the mesh of " + std::to_string(result.pre_simplified_vertices) +
+                " vertices that pre-simplification left, after its own merges"
+          : "";
+  if(result.relocation.resampled)
+    return "closest points of " + (first.empty() ? "the input" : first) +
+           ", found anew after relocation";
+  return options.binary ? "one vertex of the input for each of the output, as the collapses chose"
+                        : "the merges of the collapses, weighted by where the points were placed";
+}
+
 // `options`: what the preset became.
 inline nlohmann::json
 run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result& result,
@@ -65,6 +89,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"max_error", number_json(options.maximum_error)},
           {"kept_vertices", options.kept_vertices.size()},
           {"signals", options.signals.cols()},
+          {"restriction", restriction_word(result)},
           {"relocation", relocation_json(result, options)},
           {"relative_error", number_json(result.relative_error)},
           {"stop_reason", result.stop_reason_name()},

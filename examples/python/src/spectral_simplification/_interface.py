@@ -333,10 +333,11 @@ def evaluate(
     progress: Progress | None = None,
 ) -> Evaluation:
     """How well a coarse mesh keeps the first k eigenpairs of a fine one, whoever made it. Figures
-    are for both meshes at unit area; compare figures of one mass only.
+    are for both meshes at unit area unless scale says otherwise; compare figures of one mass only.
 
     Parameters
     ----------
+    scale: str = 'unit',
     V, F : array
         the fine mesh
     Vc, Fc : array
@@ -364,6 +365,9 @@ def evaluate(
     Evaluation
         C, C_L, C_D, eigenvalue_error.
 
+    scale : str
+        'unit': both meshes at unit area; 'mesh': as they are, where the eigenvalues of a mesh that
+        has shrunk are larger, C_L and values in the inverse of its unit of area
     Raises
     ------
     ValueError, TypeError

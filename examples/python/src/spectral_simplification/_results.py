@@ -906,10 +906,12 @@ def _part_of(V, F, used):
 
 
 class Evaluation(_Result):
-    """What evaluate() returns, for both meshes at unit area. 0 is perfect.
+    """What evaluate() returns. 0 is perfect.
 
     Attributes
     ----------
+    scale : str
+        'unit': both meshes at unit area; 'mesh': as they are.
     C : (k, k) array
         Functional map, rows are coarse modes.
     C_L : float
@@ -929,6 +931,7 @@ class Evaluation(_Result):
         Coarse over fine.
     """
 
+    scale: str = "unit"
     C: numpy.ndarray
     C_L: float
     C_D: float
@@ -944,8 +947,10 @@ class Evaluation(_Result):
 
     def __repr__(self) -> str:
         error = 100 * self.eigenvalue_error
+        scale = "unit area" if self.scale == "unit" else "scale of the meshes"
         return (
-            f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {error:.6f} %>"
+            f"<Evaluation: C_L {self.C_L:.6f}, C_D {self.C_D:.6f}, eigenvalue error {error:.6f} %, "
+            f"{scale}>"
         )
 
 
