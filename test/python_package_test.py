@@ -267,6 +267,31 @@ class Meshes(Case):
         np.testing.assert_allclose(run.average(np.ones(643)), 1)
         np.testing.assert_array_equal(run.levels(300).P.shape, (300, 643))
 
+    def test_debris(self):
+        crumb = 1e-3 * V + [5, 0, 0]
+        both, faces = np.vstack([crumb, V]), np.vstack([F, F + len(V)])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            run = ss.simplify(both, faces, 120, 30, drop_debris=0.01)
+            alone = ss.simplify(V, F, 120, 30)
+            whole = ss.simplify(both, faces, 120, 30, drop_debris=1e-7)
+        self.assertEqual(run.report["left_out"], [0])
+        self.assertEqual(whole.report["left_out"], [])
+        self.assertTrue((run.V == alone.V).all())
+        self.assertTrue((run.vertex_map[: len(V)] == -1).all())
+        self.assertTrue((run.vertex_map[len(V) :] == alone.vertex_map).all())
+        self.assertFalse(run.P[:, : len(V)].nnz)
+        for share, said in (
+            (0, "in .0, 1."),
+            (True, "in .0, 1."),
+            ("1%", "in .0, 1."),
+            (0.9999999999, "lower it"),
+        ):
+            with self.assertRaisesRegex(ValueError, said):
+                ss.simplify(both, faces, 120, 30, drop_debris=share)
+        with self.assertRaisesRegex(ValueError, "F.0, 0. is 99999"):
+            ss.simplify(V, F + 99999, 120, 30, drop_debris=0.1)
+
     def test_a_mask(self):
         mask = V[:, 2] < 0.55
         run = ss.simplify(V, F, 120, 30, mask=mask)

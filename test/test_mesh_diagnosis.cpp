@@ -288,11 +288,44 @@ TEST_CASE("K and N are judged by the components")
   REQUIRE(d.warnings(42, 100).size() == 1);
   CHECK_THAT(d.warnings(42, 100)[0], ContainsSubstring("has 42 vertices"));
   CHECK(soup_of(shapes::bumpy_icosphere_matrices(1)).diagnosis().warnings(1, 20).empty());
-  CHECK_THAT(d.too_small(12), ContainsSubstring("3 components need at least 12 vertices"));
-  CHECK(d.too_small(13) == "");
+  CHECK_THAT(d.too_small(12, 1), ContainsSubstring("3 components need at least 12 vertices"));
+  CHECK(d.too_small(13, 1) == "");
+  CHECK_THAT(d.too_small(17, 21), ContainsSubstring("ask for 21 or more"));
+  CHECK(d.too_small(21, 21) == "");
   const SG::Mesh_diagnosis torus = soup_of(shapes::torus_matrices(8, 6)).diagnosis();
-  CHECK_THAT(torus.too_small(6), ContainsSubstring("1 component needs at least 7 vertices"));
-  CHECK(torus.too_small(7) == "");
+  CHECK_THAT(torus.too_small(6, 40), ContainsSubstring("1 component needs at least 7 vertices"));
+  CHECK(torus.too_small(7, 40) == "");
+}
+
+TEST_CASE("A target that crumbs or handles use up is refused with the number to ask for")
+{
+  const shapes::Matrices body = shapes::bumpy_icosphere_matrices(3),
+                         crumb = shapes::icosphere_matrices(0);
+  const Eigen::Index n = body.V.rows(), m = body.T.rows();
+  shapes::Matrices both = body;
+  both.V.conservativeResize(n + 60 * 12, 3);
+  both.T.conservativeResize(m + 60 * 20, 3);
+  for(int c = 0; c < 60; ++c) {
+    both.V.middleRows(n + 12 * c, 12) =
+        (0.02 * crumb.V).rowwise() + Eigen::RowVector3d(3 + 0.1 * c, 0, 0);
+    both.T.middleRows(m + 20 * c, 20) = crumb.T.array() + int(n + 12 * c);
+  }
+  const SG::Mesh_diagnosis d = soup_of(both).diagnosis();
+  REQUIRE(d.components.size() == 61);
+  CHECK(d.components[0].area > 100 * d.components[1].area);
+  // 60 tetrahedra, and as many vertices as the body has modes
+  CHECK(d.useful_vertices(80) >= 240 + 19);
+  CHECK(d.useful_vertices(80) <= 240 + 20);
+  CHECK(d.too_small(260, 80) == "");
+  CHECK_THAT(d.too_small(250, 80),
+             ContainsSubstring("ask for " + std::to_string(d.useful_vertices(80))) &&
+                 ContainsSubstring("leave out the 60 components of 12 vertices") &&
+                 ContainsSubstring("% of the area"));
+  const SG::Mesh_diagnosis torus = soup_of(shapes::torus_matrices(8, 6)).diagnosis();
+  CHECK(torus.components[0].vertices_of_shape() == 7);
+  const SG::Mesh_diagnosis sphere = soup_of(body).diagnosis();
+  CHECK(sphere.components[0].vertices_of_shape() == 4);
+  CHECK(sphere.too_small(4, 100) == "");
 }
 
 TEST_CASE("A mesh is examined in the order of its vertices and faces, through its point map")

@@ -702,7 +702,8 @@ int run(Arguments a)
   CGAL::Real_timer timer;
   timer.start();
   bar.show("reading", 0);
-  Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair), !a.no_attributes);
+  Input_mesh input =
+      read_input_mesh(a.input, mending(a.strict, a.repair), !a.no_attributes, a.drop_debris);
   const std::string lost_edges = lost_seams(a, input);
   const std::optional<Texture_seams> seams = seams_of(a, input);
   if(seams) // at corners instead
@@ -750,6 +751,7 @@ int run(Arguments a)
       input.diagnosis.warnings(static_cast<std::size_t>(a.eigenvectors), target);
   report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
   report.repairs = input.changes;
+  report.left_out = input.left_out;
   report.input = a.input;
   report.output = a.output;
   report.preset = a.preset;

@@ -51,12 +51,14 @@ struct Arguments
   std::string fit_mass;         // empty: as the mass has it
   std::optional<int> fit_rings; // the same
   std::string signals, on_interrupt = "discard";
+  double drop_debris = 0; // a share of the area
   Kept kept;
   std::vector<std::string> labels; // attributes whose numbers are labels
   std::string command;             // as it was typed
   std::string help;                // the text, if it was asked for
 
-  std::string vertices_word, faces_word, levels_word, keep, labels_word; // as they were typed
+  // as they were typed
+  std::string vertices_word, faces_word, levels_word, keep, labels_word, drop_debris_word;
   std::vector<Vertex_target> level_targets;
 
   bool wants_matrices() const
@@ -73,6 +75,18 @@ inline std::string shown(const double number)
   std::ostringstream text;
   text << number;
   return text.str();
+}
+
+// P% between 0 and 100, as a share.
+inline double parsed_share(const std::string& option, const std::string& word)
+{
+  char* end = nullptr;
+  const double percent = std::strtod(word.c_str(), &end);
+  if(word.empty() || end == word.c_str() || std::string(end) != "%" ||
+     !(percent > 0 && percent < 100))
+    throw std::runtime_error(option + " is '" + word +
+                             "', it must be a percentage above 0 and below 100, such as 0.1%.");
+  return percent / 100;
 }
 
 inline void check(const Arguments& a)
@@ -152,6 +166,8 @@ inline Arguments understood(Arguments a)
     a.vertices = parsed_vertex_target("--vertices", a.vertices_word);
   if(!a.faces_word.empty())
     a.faces = parsed_vertex_target("--faces", a.faces_word, "faces");
+  if(!a.drop_debris_word.empty())
+    a.drop_debris = arguments_internal::parsed_share("--drop-debris", a.drop_debris_word);
   if(!a.keep.empty())
     a.kept = parsed_keep(a.keep);
   std::istringstream labels(a.labels_word);
@@ -202,7 +218,9 @@ inline std::size_t resolve_sizes(Arguments& a,
     throw std::runtime_error("OUTPUT is to have " + std::to_string(target) +
                              " vertices, but --keep keeps " + std::to_string(kept) +
                              ": ask for more, or keep fewer.");
-  if(const std::string reason = diagnosis.too_small(static_cast<std::size_t>(target));
+  if(const std::string reason =
+         diagnosis.too_small(static_cast<std::size_t>(target),
+                             a.no_evaluation ? 1 : static_cast<std::size_t>(a.eigenvectors));
      !reason.empty() && static_cast<std::size_t>(target) < n)
     throw std::runtime_error("OUTPUT is to have " + std::to_string(target) + " vertices, but " +
                              reason + ".");

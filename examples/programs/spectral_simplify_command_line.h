@@ -51,6 +51,9 @@ inline Command_line described(Arguments& a)
   line.group("Input");
   line.flag("repair", a.repair,
             "make INPUT an oriented manifold of triangles and say what was changed");
+  line.option("drop-debris", a.drop_debris_word, "S%",
+              "leave out components of less than this share of the area, such as 0.1%, and say "
+              "which; they take vertices from the others");
   line.option("keep", a.keep, "LIST",
               "vertices that stay where they are, words separated by commas: border; sharp:ANGLE, "
               "edges where the normals of both faces are ANGLE degrees apart, and corners of the "

@@ -52,9 +52,10 @@ struct Simplification_report
   std::vector<std::string> attributes;   // names of those that were carried
   std::optional<std::size_t> seam_edges; // kept ones of the texture
   CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
-      options;                     // what the preset became
-  std::vector<Repair> repairs;     // what was changed in the input, and how often
-  std::vector<std::size_t> levels; // those that were written
+      options;                       // what the preset became
+  std::vector<Repair> repairs;       // what was changed in the input, and how often
+  std::vector<std::size_t> left_out; // first vertices of components that were
+  std::vector<std::size_t> levels;   // those that were written
 };
 
 // A figure at unit area and at the scale of the meshes, and what good linear elements of the same
@@ -79,9 +80,9 @@ inline const char* mass_pattern_name(const CGAL::Spectral_geometry::Operator_fit
 inline void print_evaluation(const CGAL::Spectral_geometry::Spectral_evaluation& e,
                              const bool floors)
 {
-  if(e.errors.modes > 0) {
   print_figure("|C|_L", e.norm_L, e.norm_L_common_scale, "  ", floors ? e.floor_norm_L : 0);
   print_figure("|C|_D", e.norm_D, e.norm_D_input_scale, "  ", floors ? e.floor_norm_D : 0);
+  if(e.errors.modes > 0) {
     print_figure("eigenvalue error, mean", 100 * e.errors.mean, 100 * e.errors_input_scale.mean,
                  " %");
     print_figure("eigenvalue error, largest", 100 * e.errors.max, 100 * e.errors_input_scale.max,
@@ -141,8 +142,8 @@ inline void print_table(const Simplification_report& r)
     print_evaluation(r.fitted->evaluation, false);
     std::printf("\n");
   }
-  std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
   std::printf("  P: %s\n\n", restriction_in_words(r.result, r.options).c_str());
+  std::printf("  relative error            %8.4f   (sqrt of E / sum lambda^2, see --max-error)\n\n",
               r.result.relative_error);
   if(r.options.relocate)
     std::printf("  relocated vertices        %8zu   (%d steps, ended by: %s)\n\n",
@@ -168,19 +169,19 @@ evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
   return {{"norm_L", number(e.norm_L)},
           {"norm_D", number(e.norm_D)},
           {"norm_L_input_scale", number(e.norm_L_input_scale)},
-          {"norm_D_extended", number(e.norm_D_extended)},
           {"norm_L_common_scale", number(e.norm_L_common_scale)},
           {"norm_D_input_scale", number(e.norm_D_input_scale)},
+          {"norm_D_extended", number(e.norm_D_extended)},
           {"floor_norm_L", number(e.floor_norm_L)},
           {"floor_norm_D", number(e.floor_norm_D)},
           {"eigenvalue_error_mean", number(e.errors.mean)},
           {"eigenvalue_error_max", number(e.errors.max)},
           {"eigenvalue_error_low_mean", number(e.errors_low.mean)},
           {"eigenvalue_error_input_scale_mean", number(e.errors_input_scale.mean)},
-          {"area_ratio", number(e.area_ratio)}};
           {"eigenvalue_error_input_scale_max", number(e.errors_input_scale.max)},
           {"eigenvalue_error_input_scale_low_mean",
            number(evaluation != nullptr ? low_errors_at_input_scale(e).mean : 0)},
+          {"area_ratio", number(e.area_ratio)}};
 }
 
 inline nlohmann::json to_json(const Simplification_report& r)
@@ -192,6 +193,7 @@ inline nlohmann::json to_json(const Simplification_report& r)
                {"seam_edges", r.seam_edges ? nlohmann::json(*r.seam_edges) : nlohmann::json()},
                {"seconds_reading", r.seconds_reading},
                {"seconds_writing", r.seconds_writing},
+               {"left_out", r.left_out},
                {"repairs", nlohmann::json::object()}});
   for(const Repair& repair : r.repairs)
     json["repairs"][repair.many] = repair.count; // one key whatever the count

@@ -253,7 +253,8 @@ py::dict simplify(const Arguments& a)
   options.kept_vertices.erase(
       std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
       options.kept_vertices.end());
-  if(const std::string reason = diagnosis.too_small(std::size_t(n));
+  if(const std::string reason =
+         diagnosis.too_small(std::size_t(n), std::size_t(options.number_of_eigenvectors));
      !reason.empty() && n < vertices)
     refuse("n is " + to_string(n) + ", but " + reason + ".");
   Watch watch(a);

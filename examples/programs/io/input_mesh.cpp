@@ -200,6 +200,44 @@ std::string help_with(const Mesh_diagnosis& diagnosis, const Mending mending)
   return mending == Mending::full ? ", which --repair could not do" : ", or add --repair";
 }
 
+// Leaves out the faces of components of less than a share of the area; their vertices are then
+// isolated.
+void drop_debris(Input_mesh& input, Polygon_soup& soup, const std::vector<std::size_t>& origin,
+                 const double share)
+{
+  using CGAL::Spectral_geometry::Mesh_component;
+  const std::vector<Mesh_component>& components = input.diagnosis.components;
+  double area = 0;
+  for(const Mesh_component& c : components)
+    area += c.area;
+  boost::disjoint_sets_with_storage<> sets(soup.points.size());
+  for(const auto& p : soup.polygons)
+    for(const std::size_t v : p)
+      sets.union_set(p[0], v);
+  std::vector<char> is_debris(soup.points.size(), 0); // by representatives
+  for(const Mesh_component& c : components)
+    if(c.area < share * area) {
+      is_debris[sets.find_set(c.first)] = 1;
+      input.left_out.push_back(origin[c.first]);
+    }
+  const std::size_t left_out = input.left_out.size();
+  if(left_out == 0)
+    return;
+  if(left_out == components.size())
+    throw std::runtime_error("no component has the share of the area that --drop-debris asks for: "
+                             "lower it.");
+  soup.polygons.erase(
+      std::remove_if(soup.polygons.begin(), soup.polygons.end(),
+                     [&](const auto& p) { return is_debris[sets.find_set(p[0])] != 0; }),
+      soup.polygons.end());
+  const bool is_cut = !input.diagnosis.cracks.empty();
+  input.diagnosis = diagnose(soup);
+  input.diagnosis.isolated_vertices = {};
+  if(!is_cut)
+    input.diagnosis.cracks.clear();
+  input.changes.push_back({"component left out", "components left out", left_out});
+}
+
 // Makes the mesh of a soup without what `diagnosis` calls isolated vertices. `vertex` says which
 // vertex of the soup stands for each vertex of the file, or is `no_vertex`; `origin` says where
 // each vertex of the soup is in the file.
@@ -365,17 +403,25 @@ std::string Input_mesh::changes_of(const std::string& path) const
   std::string list;
   for(const Repair& change : changes)
     list += (list.empty() ? " " : ", ") + std::to_string(change.count) + " " + change.what();
-  return list.empty() ? "" : "'" + path + "':" + list + ".";
+  if(list.empty())
+    return "";
+  std::string debris;
+  for(std::size_t i = 0; i < (std::min)(left_out.size(), std::size_t(10)); ++i)
+    debris +=
+        (i == 0 ? " The components left out begin at vertex " : ", ") + std::to_string(left_out[i]);
+  if(!left_out.empty())
+    debris += std::string(left_out.size() > 10 ? " and so on" : "") + ", counted from 0.";
+  return "'" + path + "':" + list + "." + debris;
 }
 
 Input_mesh read_input_mesh(const std::string& path, const Mending mending,
-                           const bool with_attributes)
+                           const bool with_attributes, const double debris)
 {
-  return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes);
+  return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes, debris);
 }
 
 Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending mending,
-                      const bool with_attributes)
+                      const bool with_attributes, const double debris)
 {
   Input_mesh input;
   const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
@@ -446,6 +492,8 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
     }
   }
   input.changes = log.changes();
+  if(debris > 0 && input.diagnosis.usable())
+    drop_debris(input, soup, origin, debris);
   build(input, name, mending, std::move(soup), vertex, origin);
   if(!texture.empty())
     set_texture(input, polygons, texture);

@@ -22,7 +22,8 @@ struct Input_mesh
   Vertex_numbering numbering;
   CGAL::Spectral_geometry::Mesh_diagnosis diagnosis; // its components begin at vertices of the file
   std::vector<Repair> changes;
-  std::string still_cut; // what a full repair had to leave cut, a sentence, or nothing
+  std::vector<std::size_t> left_out; // the first vertices of the file of components left out
+  std::string still_cut;             // what a full repair had to leave cut, a sentence, or nothing
   // Where they are asked for:
   Attributes attributes;      // of the vertices of the file
   Attributes face_attributes; // of the faces of the mesh
@@ -50,11 +51,12 @@ inline Mending mending(const bool strict, const bool repair)
 
 // Reads a triangle mesh, its vertices in the order of the file (of first appearance for STL).
 // Throws with the first obstacle that is left. `with_attributes`: keeps what vertices and corners
-// have beside positions.
-Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false);
+// have beside positions. Leaves out components of less than the share `debris` of the area.
+Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false,
+                           double debris = 0);
 
 // A mesh that has been read, or was never in a file; `name` begins what is said of it.
 Input_mesh input_mesh(Polygon_soup soup, const std::string& name, Mending mending,
-                      bool with_attributes = false);
+                      bool with_attributes = false, double debris = 0);
 
 #endif // SPECTRAL_EXAMPLES_IO_INPUT_MESH_H

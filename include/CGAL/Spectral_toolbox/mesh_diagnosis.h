@@ -47,9 +47,13 @@ struct Mesh_component
   std::size_t faces = 0;    ///< how many it has
   bool closed = true;       ///< no edge of it has one face only
   std::size_t first = 0;    ///< its first vertex
+  double area = 0;          ///< of its faces that are sound and finite
   /// what no collapse of a triangle mesh goes below: 3 vertices, and if closed as many as its
   /// handles need, 4 without any (Heawood's bound, by Euler's formula)
   CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t least_vertices() const;
+  /// with how many vertices a little of the shape is left: 3 for each handle of a closed component
+  /// beside 4, where collapses of a lattice of 81 handles end a little earlier
+  CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t vertices_of_shape() const;
 };
 
 /// \brief what `diagnose_polygon_soup()` and `diagnose_mesh()` found, counted, with the first
@@ -118,10 +122,14 @@ struct Mesh_diagnosis
   /// than was meant.
   std::vector<std::string> warnings(std::size_t K, std::size_t N) const;
 
+  /// \brief the least target that is of use for `K` eigenvectors: each component has
+  /// `Mesh_component::vertices_of_shape()`, and as many vertices as it has modes, which go by area
+  /// beside one for each. Among many small components a large one ends as a tetrahedron below.
+  CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t useful_vertices(std::size_t K) const;
+
   /// \brief why a target of `N` vertices would leave nothing of the shape, and what to do: a
-  /// clause; or nothing. That is so below `least_vertices()`, and where there are several
-  /// components there, too: the largest one would end as a tetrahedron.
-  CGAL_SPECTRAL_TOOLBOX_INLINE std::string too_small(std::size_t N) const;
+  /// clause; or nothing. With several components or handles that is so below `useful_vertices()`.
+  CGAL_SPECTRAL_TOOLBOX_INLINE std::string too_small(std::size_t N, std::size_t K) const;
 
   /// \brief a lower bound of the number of vertices that collapses lead to, summed over the
   /// components

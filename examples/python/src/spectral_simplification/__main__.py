@@ -76,6 +76,11 @@ def _arguments() -> argparse.ArgumentParser:
     add("--binary", action="store_true", help="a restriction of ones and zeros")
     add("--preserve-border", action="store_true")
     add("--repair", action="store_true", help="make IN an oriented manifold of triangles")
+    add(
+        "--drop-debris",
+        metavar="S%",
+        help="leave out components of less than this share of the area, such as 0.1%%",
+    )
     add("--restriction", metavar="P.mtx", help="the matrix that carries functions to OUT")
     add("--prolongation", metavar="Q.mtx", help="the matrix that carries them back")
     add(
@@ -106,6 +111,20 @@ def _number(word: str, n: int) -> int:
         raise ValueError(
             f"--vertices is {word}, it must be a number such as 600 or a percentage such as 3%."
         ) from None
+
+
+def _share(word: str | None) -> float | None:
+    if word is None:
+        return None
+    try:
+        share = float(word[:-1]) / 100 if word.endswith("%") else 0
+    except ValueError:
+        share = 0
+    if not 0 < share < 1:
+        raise ValueError(
+            f"--drop-debris is {word}, it must be a percentage above 0 and below 100, such as 0.1%."
+        )
+    return share
 
 
 def _kept(words: str | None) -> list | None:
@@ -166,6 +185,7 @@ def _run(a: argparse.Namespace) -> None:
     options.update(
         k=a.eigenvectors,
         keep=_kept(a.keep),
+        drop_debris=_share(a.drop_debris),
         signals=None if a.signals is None else _numbers(a.signals, float),
     )
     if a.mask is not None:

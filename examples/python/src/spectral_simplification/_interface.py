@@ -14,7 +14,7 @@ import numpy
 import scipy.sparse
 
 from . import _core
-from ._meshes import used_part
+from ._meshes import used_part, without_debris
 from ._results import Eigenpairs, Evaluation, Fitted_operators, Match, Progress, Simplification
 
 
@@ -43,6 +43,7 @@ def simplify(
     relocate: str | None = None,
     keep: str | Sequence | numpy.ndarray | None = None,
     mask: numpy.ndarray | None = None,
+    drop_debris: float | None = None,
     binary: bool = False,
     preserve_border: bool = False,
     signals: numpy.ndarray | None = None,
@@ -97,6 +98,9 @@ def simplify(
         (v,), True for the vertices of V that take part, such as a cortex without its medial wall:
         faces stay where all their corners do. The result is numbered as V, columns of P are empty
         elsewhere
+    drop_debris : float, optional
+        leaves out components of less than this share of the area, in (0, 1): among many crumbs a
+        body ends as a tetrahedron. report['left_out'] has their first vertices
     binary : bool
         P of ones and zeros, it picks vertices of V. Not with relocate='sampled'
     preserve_border : bool
@@ -159,6 +163,9 @@ def simplify(
     used = None
     fine_V, fine_F = _core.arrays(dict(V=V, F=F))
     part = used_part(fine_V, fine_F, mask)
+    left_out = numpy.empty(0, numpy.int64)
+    if drop_debris is not None:
+        part, left_out = without_debris(fine_V, fine_F, part, drop_debris)
     values["features"], keep = _features(keep)
     if keep is not None:
         named = [_core.kept(dict(keep=part, v=len(fine_V))) for part in keep]
@@ -192,6 +199,7 @@ def simplify(
         if eigenpairs is not None
         else core["eigenpairs"] and Eigenpairs(core["eigenpairs"])
     )
+    core["report"]["left_out"] = left_out.tolist()
     kept = core["vertex_map"][core["kept"]]
     asked = dict(
         boundary=boundary,
@@ -329,6 +337,7 @@ def evaluate(
     coarse_coefficients: numpy.ndarray | None = None,
     boundary: str = 'neumann',
     intrinsic_delaunay: bool = False,
+    scale: str = 'unit',
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Evaluation:
@@ -337,7 +346,6 @@ def evaluate(
 
     Parameters
     ----------
-    scale: str = 'unit',
     V, F : array
         the fine mesh
     Vc, Fc : array
@@ -357,6 +365,9 @@ def evaluate(
     coarse_coefficients : array, optional
         those of the coarse mesh, (vc, 7), coefficients of a Simplification; P @ coefficients
         where None
+    scale : str
+        'unit': both meshes at unit area; 'mesh': as they are, where the eigenvalues of a mesh that
+        has shrunk are larger, C_L and values in the inverse of its unit of area
     boundary, intrinsic_delaunay, threads, progress : str
         as of simplify()
 
@@ -365,9 +376,6 @@ def evaluate(
     Evaluation
         C, C_L, C_D, eigenvalue_error.
 
-    scale : str
-        'unit': both meshes at unit area; 'mesh': as they are, where the eigenvalues of a mesh that
-        has shrunk are larger, C_L and values in the inverse of its unit of area
     Raises
     ------
     ValueError, TypeError

@@ -15,6 +15,8 @@ import zlib
 from typing import Any
 
 import numpy
+import scipy.sparse
+import scipy.sparse.csgraph
 
 from . import _core
 from ._results import _Result
@@ -120,20 +122,26 @@ def diagnose(V: numpy.ndarray, F: numpy.ndarray) -> Diagnosis:
     return Diagnosis._from_state(_core.diagnose(locals()))
 
 
+def _is_mesh(V: numpy.ndarray, F: numpy.ndarray) -> bool:
+    return (
+        V.ndim == 2
+        and V.shape[1] == 3
+        and V.dtype.kind in "fiu"
+        and F.ndim == 2
+        and F.shape[1] == 3
+        and F.dtype.kind in "iu"
+        and F.size != 0
+        and F.min() >= 0
+        and F.max() < len(V)
+    )
+
+
 def used_part(
     V: numpy.ndarray, F: numpy.ndarray, mask: Any
 ) -> tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None:
     """The vertices that faces use, within the mask, and these faces numbered by all vertices and
     by those; None where these are all, or V and F are no mesh, which is for others to say."""
-    if (
-        V.ndim != 2
-        or F.ndim != 2
-        or F.shape[1] != 3
-        or F.dtype.kind not in "iu"
-        or F.size == 0
-        or F.min() < 0
-        or F.max() >= len(V)
-    ):
+    if not _is_mesh(V, F):
         return None
     if mask is not None:
         mask = numpy.asarray(mask)
@@ -155,6 +163,45 @@ def used_part(
     if is_used.all():
         return None
     return numpy.flatnonzero(is_used), F, (numpy.cumsum(is_used) - 1)[F]
+
+
+def without_debris(
+    V: numpy.ndarray, F: numpy.ndarray, part: Any, share: float
+) -> tuple[tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None, numpy.ndarray]:
+    """What used_part() returned, without components of less than a share of the area, and the
+    first vertices of these."""
+    if not isinstance(share, (int, float)) or isinstance(share, bool) or not 0 < share < 1:
+        raise ValueError(f"drop_debris is {share!r}, it must be a share of the area in (0, 1).")
+    if not _is_mesh(V, F):
+        return part, numpy.empty(0, numpy.int64)
+    faces = F if part is None else part[1]
+    a, b, c = (V[faces[:, i]] for i in range(3))
+    areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2
+    sides = scipy.sparse.coo_matrix(
+        (
+            numpy.ones(2 * len(faces)),
+            (numpy.repeat(faces[:, 0], 2), faces[:, 1:].ravel()),
+        ),
+        shape=(len(V), len(V)),
+    )
+    of_vertex = scipy.sparse.csgraph.connected_components(sides, directed=False)[1]
+    area = numpy.bincount(of_vertex[faces[:, 0]], areas, minlength=of_vertex.max() + 1)
+    stays = area[of_vertex[faces[:, 0]]] >= share * areas.sum()
+    if stays.all():
+        return part, numpy.empty(0, numpy.int64)
+    if not stays.any():
+        raise ValueError(
+            f"no component has the share {share} of the area, which drop_debris asks for: lower it."
+        )
+    lost = numpy.unique(faces[~stays])
+    first = lost[numpy.unique(of_vertex[lost], return_index=True)[1]]
+    faces = faces[stays]
+    is_used = numpy.zeros(len(V), bool)
+    is_used[faces] = True
+    return (
+        (numpy.flatnonzero(is_used), faces, (numpy.cumsum(is_used) - 1)[faces]),
+        numpy.sort(first),
+    )
 
 
 # Files. The compiled module reads what the programs read; nibabel, meshio and a few lines here

@@ -18,6 +18,8 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <sstream>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -324,11 +326,26 @@ private:
       all[i].closed = all[i].closed && !m_border[v];
     }
     for(std::size_t f = 0; f < m_polygons.size(); ++f)
-      if(m_sound[f])
-        ++all[std::size_t(component[m_polygons[f][0]])].faces;
+      if(m_sound[f]) {
+        Mesh_component& c = all[std::size_t(component[m_polygons[f][0]])];
+        ++c.faces;
+        if(const double area = fan_area(m_polygons[f]); std::isfinite(area))
+          c.area += area;
+      }
     for(const Mesh_component& c : all)
       if(c.faces != 0) // else an isolated vertex
         m_result.components.push_back(c);
+  }
+
+  double fan_area(const std::vector<std::size_t>& p) const
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const auto at = [&](const std::size_t i) {
+      return Eigen::Vector3d(m_V.row(Eigen::Index(p[i])));
+    };
+    for(std::size_t i = 2; i < p.size(); ++i)
+      sum += (at(i - 1) - at(0)).cross(at(i) - at(0));
+    return sum.norm() / 2;
   }
 
   // The smallest counts as the first where they do not come in their order.
@@ -356,6 +373,15 @@ inline const Mesh_component& smallest_component(const std::vector<Mesh_component
 {
   return *std::min_element(all.begin(), all.end(),
                            [](auto& a, auto& b) { return a.vertices < b.vertices; });
+}
+
+/// A share as a percentage of two digits, never less than it is.
+inline std::string rounded_up(const double share)
+{
+  const double unit = std::pow(10., std::floor(std::log10((std::max)(100 * share, 1e-9))) - 1);
+  std::ostringstream text;
+  text << std::ceil(100 * share / unit - 1e-9) * unit << " %";
+  return text.str();
 }
 
 /// Adds what was found, if anything: "3 of 17 faces have zero area, the first is face 4 (counted
@@ -468,26 +494,64 @@ CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_component::least_vertices() const
       std::ceil((7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2 - 1e-9));
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE std::string Mesh_diagnosis::too_small(const std::size_t N) const
+CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_component::vertices_of_shape() const
 {
-  const std::size_t least = least_vertices();
-  if(N > least || (N == least && components.size() < 2))
+  if(!closed)
+    return least_vertices();
+  const double genus = 1 - (double(vertices) - double(faces) / 2) / 2;
+  return (std::max)(least_vertices(), std::size_t(4 + 3 * (std::max)(std::round(genus), 0.)));
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_diagnosis::useful_vertices(const std::size_t K) const
+{
+  double area = 0;
+  for(const Mesh_component& c : components)
+    area += c.area;
+  const std::size_t more = K > components.size() ? K - components.size() : 0;
+  std::size_t sum = 0;
+  for(const Mesh_component& c : components) {
+    const double modes = 1 + (area > 0 ? double(more) * c.area / area : 0.);
+    sum += (std::min)(c.vertices, (std::max)(c.vertices_of_shape(), std::size_t(modes)));
+  }
+  return sum;
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE std::string Mesh_diagnosis::too_small(const std::size_t N,
+                                                                   const std::size_t K) const
+{
+  const bool plain = components.size() == 1 &&
+                     components.front().vertices_of_shape() == components.front().least_vertices();
+  const std::size_t least = least_vertices(),
+                    useful = plain
+                                 ? least
+                                 : (std::max)(useful_vertices(K), least + (components.size() > 1));
+  if(N >= useful)
     return "";
   std::string result = internal::counted(components.size(), "component needs", "components need") +
-                       " at least " + std::to_string(least) + " vertices, with which nothing of " +
-                       (components.size() == 1 ? "its shape" : "their shapes") +
-                       " is left: ask for many more";
+                       " at least " + std::to_string(least) + " vertices";
+  if(useful > least)
+    result += ", and " + std::to_string(useful) + " for something of " +
+              (components.size() == 1 ? "its handles" : "their shapes") + " to be left with " +
+              internal::counted(K, "eigenvector", "eigenvectors");
+  result += ": ask for " + std::to_string(useful) + " or more";
   std::size_t most = 0, small = 0, largest_small = 0;
-  for(const Mesh_component& c : components)
+  double area = 0, largest_area = 0;
+  for(const Mesh_component& c : components) {
     most = (std::max)(most, c.vertices);
+    area += c.area;
+  }
   for(const Mesh_component& c : components)
     if(10 * c.vertices < most) {
       ++small;
       largest_small = (std::max)(largest_small, c.vertices);
+      largest_area = (std::max)(largest_area, c.area);
     }
   if(small != 0)
-    result += ", or take away the " + internal::counted(small, "component", "components") + " of " +
-              std::to_string(largest_small) + " vertices or fewer";
+    result += ", or leave out the " + internal::counted(small, "component", "components") + " of " +
+              std::to_string(largest_small) + " vertices or fewer" +
+              (area > 0 ? ", none of which has more than " +
+                              internal::rounded_up(largest_area / area) + " of the area"
+                        : "");
   return result;
 }
 
