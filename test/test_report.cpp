@@ -6,6 +6,7 @@
 
 #include "../examples/programs/compare/mode_alignment.h"
 #include "../examples/programs/report/html_report.h"
+#include "../examples/programs/report/judgement.h"
 #include "../examples/programs/report/plain_words.h"
 #include "../examples/programs/report/png_image.h"
 #include "../examples/programs/report/shape_view.h"

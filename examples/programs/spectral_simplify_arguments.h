@@ -140,6 +140,9 @@ inline void check(const Arguments& a)
         "--keep seams writes a texture, --no-attributes leaves it behind: leave one of them out.");
   if(!a.labels.empty() && a.no_attributes)
     refuse("--labels names attributes, --no-attributes leaves them behind: leave one of them out.");
+  if(a.strict && a.drop_debris > 0)
+    refuse("--strict changes nothing of a mesh, --drop-debris leaves components out: give one of "
+           "them.");
   if(!a.repaired.empty() && !a.repair)
     refuse("--repaired writes what --repair makes: add --repair.");
   if(!a.repaired.empty())
