@@ -140,7 +140,7 @@ struct Comparison
   std::vector<Refused> refused;    // rivals
   std::vector<std::string> notes;  // what was left out, and why
 
-  // Of one run, whose page is not a comparison:
+  // What one run has, whose page is not a comparison:
   bool is_run = false;
   std::string restriction;                           // what P is, a clause
   std::vector<std::pair<std::string, double>> times; // what took how many seconds

@@ -12,7 +12,7 @@
 
 #include <utility>
 
-// Those of modes 2 to K/5 of the meshes as they are.
+// Errors of the modes 2 to K/5 of the meshes as they are.
 inline CGAL::Spectral_geometry::Eigenvalue_errors
 low_errors_at_input_scale(const CGAL::Spectral_geometry::Spectral_evaluation& e)
 {
