@@ -345,7 +345,8 @@ TEST_CASE("after a run the border lies on that of the input, wherever the collap
             .empty());
   options.relocate = false;
   SMS::spectral_edge_collapse(collapsed, N, options);
-  CHECK(furthest(collapsed) > 1e-4); // on chords
+  if(!options.preserve_border)
+    CHECK(furthest(collapsed) > 1e-4); // on chords
 }
 
 TEST_CASE("the closest point of a border is that of a search through all of it")

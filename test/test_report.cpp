@@ -252,7 +252,7 @@ TEST_CASE("The page holds every number, escapes names and needs nothing else")
   CHECK(count(html, "a&lt;b&gt;&amp;c.off") >= 2);
   CHECK(count(html, "<img ") == 4);
   CHECK(count(html, "<svg ") == count(html, "</svg>"));
-  CHECK(count(html, "<table>") == count(html, "</table>"));
+  CHECK(count(html, "<table") == count(html, "</table>"));
   CHECK(count(html, "<tr") == count(html, "</tr>"));
   CHECK(count(html, "<script") == 0);
   CHECK(count(html, "<link") == 0);
@@ -278,7 +278,7 @@ TEST_CASE("The page of one run is no comparison, and explains what it has alone"
   CHECK(count(html, "omparison") == 0);
   CHECK(count(html, "closest points of the input") == 2);
   for(const char* absent : {"remesher", "Distances", "Aspect", "Self-inter", "Bold", "closest P<",
-                            "<i>metric</i>", "over output size", "nan", "<tbody>\n</tbody>"}) {
+                            "<i>metric</i>", "over output size", ">nan", "<tbody>\n</tbody>"}) {
     CAPTURE(absent);
     CHECK(count(html, absent) == 0);
   }

@@ -57,10 +57,11 @@ public:
     , m_radius(V.rows())
     , m_smallest_angle(T.rows())
     , m_threads(threads)
+    , m_normal(std::size_t(T.rows()))
   {
     Eigen::VectorXd length = Eigen::VectorXd::Zero(V.rows()),
                     count = Eigen::VectorXd::Zero(V.rows());
-    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f)
       for(int k = 0; k < 3; ++k) {
         const int i = m_T(f, k), j = m_T(f, (k + 1) % 3);
         const double l = (V.row(i) - V.row(j)).norm();
@@ -69,12 +70,19 @@ public:
           count(v) += 1;
         }
       }
-      m_normal.push_back(normal_of(f, V).normalized());
-      m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
-    }
+    refer_to(V, limits);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
       m_radius(v) = (std::max)(limits.trust_radius * length(v) / (std::max)(count(v), 1.),
                                (V.row(v) - m_anchors.row(v)).norm());
+  }
+
+  /// Compares triangles with what they are at `V`, which may be elsewhere.
+  void refer_to(const Positions& V, const Relocation_limits& limits)
+  {
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      m_normal[std::size_t(f)] = normal_of(f, V).normalized();
+      m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+    }
   }
 
   void fix(const Eigen::Index v) { m_fixed[std::size_t(v)] = true; }

@@ -59,6 +59,7 @@ public:
     , m_size(T, m_start, fine, limits.size_tolerance)
   {
     m_timer.start();
+    m_guards.refer_to(m_given, limits);
     if(options.signals != Relocation_options::Signals::carried ||
        std::isfinite(options.largest_distance)) {
       m_closest = std::make_unique<Closest_point_query>(fine);
@@ -192,9 +193,7 @@ private:
       if(point.exists())
         V.row(v) = point.position.transpose();
     }
-    Relocation_limits wide;
-    wide.smallest_angle_ratio = 0.1;
-    const Relocation_guards shapes(m_given, m_T, m_given, wide, m_options.threads);
+    const Relocation_guards shapes(m_given, m_T, m_given, m_limits, m_options.threads);
     Face_pairs crossing;
     if(m_options.keep_free_of_self_intersections)
       crossing = self_intersecting_faces(m_given, m_T);
