@@ -89,7 +89,7 @@ inline void print_evaluation(const CGAL::Spectral_geometry::Spectral_evaluation&
                  " %");
   }
   if(e.errors_low.modes > 0)
-    print_figure(("the same, modes 2 to " + std::to_string(e.judged_modes / 5) + ", mean").c_str(),
+    print_figure(("its mean, modes 2 to " + std::to_string(e.judged_modes / 5)).c_str(),
                  100 * e.errors_low.mean, 100 * low_errors_at_input_scale(e).mean, " %");
 }
 
