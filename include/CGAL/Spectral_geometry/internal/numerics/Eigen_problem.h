@@ -187,7 +187,10 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
           "Eigenpairs: B is not positive definite; pass a mass matrix.");
   require(negative(s * problem.B() - problem.L()) != 0,
           "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
-  const Eigen::Index count = negative(problem.shifted(-1e-8 * s));
+  // Beside needles rounding in L is larger than its low eigenvalues.
+  const double highest =
+      problem.L().diagonal().cwiseQuotient(problem.B().diagonal()).cwiseAbs().maxCoeff();
+  const Eigen::Index count = negative(problem.shifted(-(std::max)(1e-8 * s, 1e-13 * highest)));
   require(count <= 0, "Eigenpairs: L is not positive semidefinite, ", count,
           " of its eigenvalues are negative; add a multiple of B to it.");
 }

@@ -301,7 +301,9 @@ private:
     Eigen::Vector3d x = m_mesh.fixed[at(u)] ? p : m_mesh.fixed[at(v)] ? q : sum.minimiser();
     if(!x.allFinite())
       x = (p + q) / 2;
-    if(m_mesh.border_is_apart && (is_border_vertex(u) || is_border_vertex(v)))
+    // A fixed end is exactly there: p + (q - p) rounds.
+    if(m_mesh.border_is_apart && !m_mesh.fixed[at(u)] && !m_mesh.fixed[at(v)] &&
+       (is_border_vertex(u) || is_border_vertex(v)))
       x = !is_border_vertex(v)   ? p
           : !is_border_vertex(u) ? q
                                  : Eigen::Vector3d(p + projected_edge_weight(p, q, x) * (q - p));
