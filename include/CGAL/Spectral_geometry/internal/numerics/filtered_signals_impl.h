@@ -78,7 +78,7 @@ public:
 
   const double* operator()(int u, int v) const
   {
-    const auto [low, high] = std::minmax(std::uint64_t(u), std::uint64_t(v));
+    const auto [low, high] = std::minmax({std::uint64_t(u), std::uint64_t(v)});
     return m_rows[mixed(m_key ^ (high << 32 | low)) >> m_shift & 255];
   }
 
