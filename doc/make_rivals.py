@@ -39,6 +39,8 @@ COLUMNS = [
     ("C_D", lambda r: (r["closest_point_P"] or norms(r))["norm_D"], 2, 1),
     ("λ %", lambda r: r["eigenvalue_error_mean"], 2, 100),
     ("λ 2..K/5 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100),
+    ("λ max %", lambda r: r["eigenvalue_error_max"], 1, 100),
+    ("λ K+1..1.5K %", lambda r: r["eigenvalue_error_beyond_mean"], 2, 100),
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
     ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100),
     ("s", lambda r: r["seconds_total"], 2, 1),
@@ -182,7 +184,8 @@ def pages(output):
     with contextlib.redirect_stdout(page):
         tables(output)
     replace(os.path.join(here, "rivals.md"), "tables", page.getvalue())
-    titles = [r"\|C\|_L", r"\|C\|_D", "eigenvalues, %", "eigenvalues 2 to 20, %", "biharmonic distance, %", "Hausdorff, %"]
+    titles = [r"\|C\|_L", r"\|C\|_D", "eigenvalues, %", "eigenvalues 2 to 20, %", "largest error, %",
+              "eigenvalues 101 to 150, %", "biharmonic distance, %", "Hausdorff, %"]
     columns = [(title, *column[1:]) for title, column in zip(titles, COLUMNS)]
     replace(os.path.join(here, "..", "README.md"), "summary", means(results_in(output), "averaged", columns, SUMMARY))
     return 0
