@@ -76,7 +76,7 @@ grep -q '"output_vertices": 40' late.json || fail "pairs on a full disk: no JSON
 [ "$(wc -l <complained)" -eq 1 ] || fail "pairs on a full disk: not one line: $(cat complained)"
 grep -q "^spectral_simplify: 'late.off' is written, but its evaluation failed: cannot write 'late/.*\.\$\|full?\$" complained ||
   fail "pairs on a full disk: $(cat complained)"
-"$program" --help | tr '\n' ' ' | grep -q "3 OUTPUT is, but the evaluation failed" || fail "--help does not explain the exit status"
+"$program" --help | tr '\n' ' ' | grep -q "3 if OUTPUT was written but its evaluation failed" || fail "--help does not explain the exit status"
 
 # More threads than any machine has.
 "$program" shape.off threads.off $options --threads 1000000 --no-evaluation >said 2>complained ||

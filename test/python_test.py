@@ -272,8 +272,8 @@ class Results(Shapes):
         self.close(at.C_D, np.linalg.norm(at.C.T @ at.C - np.eye(50)))
         self.close(at.eigenvalue_error, np.mean(abs(coarse.values[1:50] / run.eigenpairs.values[1:] - 1)), 1e-6)
         self.close(at.eigenvalue_error_max, np.max(abs(coarse.values[1:50] / run.eigenpairs.values[1:] - 1)), 1e-6)
-        self.refused(ValueError, "scale is 'input', it must be 'unit' or 'mesh'", ss.evaluate, self.V, self.F, run.V, run.F,
-                     run.P, 50, scale="input")
+        with self.assertRaisesRegex(ValueError, "scale is 'input', it must be 'unit' or 'mesh'"):
+            ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, scale="input")
 
     def test_an_operator_with_coefficients(self):
         V, F = sheet(20)
