@@ -75,7 +75,7 @@ TABLES = {"‖C‖_L, averaged, best": [f"over_n.averaged.best.{N}.L" for N in (
           "‖C‖_D, averaged, best": [f"over_n.averaged.best.{N}.D" for N in (100, 200, 300, 600, 1400)],
           "mean eigenvalue error, averaged, best": [f"over_n.averaged.best.{N}.percent" for N in (100, 200, 300, 600, 1400)],
           "‖C‖_L, lumped, not relocated": [f"over_n.lumped.policies.{N}.L" for N in (100, 200, 300, 600, 1400)]}
-for title, key in (("from file to file", "seconds"), ("eigenpairs", "seconds_eigenpairs"), ("collapses", "seconds_collapse"),
+for title, key in (("from file to file", "seconds"), ("eigenpairs or filtered signals", "seconds_eigenpairs"), ("collapses", "seconds_collapse"),
                    ("relocation", "seconds_relocation")):
     TABLES[title] = [f"measured.nefertiti.{preset}.{key}" for preset in PRESETS]
 
