@@ -28,7 +28,7 @@ namespace CGAL::Surface_mesh_simplification {
 struct Spectral_edge_collapse_options : Spectral_options
 {
   /// `Spectral_options::best()` for the collapses, then relocation with the signals at the closest
-  /// points. It takes a quarter of the run, and with the P that it brings |C|_L is less than half;
+  /// points. It takes a third of the run, and with the P that it brings |C|_L is less than half;
   /// that P no longer follows the vertex map, and levels that are replayed from the log end before
   /// it.
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
