@@ -256,10 +256,10 @@ def says_what_is_wrong(driver):
 
 
 def refuses_what_is_too_large(driver):
-    """By the estimate, before it starts: a dense solve of nearly all eigenvectors."""
-    drop(driver, shape(13000))
+    """By the estimate, before it starts: one matrix of the eigenvectors is beyond 4 GB."""
+    drop(driver, shape(24000))
     wait_for(driver, "Ready.")
-    fill(driver, 12000, 12000, "best", ".ply")
+    fill(driver, 23000, 23000, "best", ".ply")
     begin = time.monotonic()
     press(driver, "simplify")
     wait_until(lambda: "of memory, but this machine has" in text(driver, "sentences"), "refusal")
