@@ -30,8 +30,8 @@ PRESETS = ("best", "fast", "paper")
 QUOTED = [
     ("../README.md", r"makes a shape of ([\d,]+) vertices, simplifies it to ([\d,]+), prints",
      ("measured.demo.input_vertices", "measured.demo.output_vertices")),
-    ("../README.md", r"\|C\|_L +([\d.]+) \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_L", "measured.demo.floor_norm_L")),
-    ("../README.md", r"\|C\|_D +([\d.]+) \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_D", "measured.demo.floor_norm_D")),
+    ("../README.md", r"\|C\|_L +([\d.]+) [\d.]+ \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_L", "measured.demo.floor_norm_L")),
+    ("../README.md", r"\|C\|_D +([\d.]+) [\d.]+ \(ideal linear elements: about ([\d.]+)\)", ("measured.demo.norm_D", "measured.demo.floor_norm_D")),
     ("../README.md", r"eigenvalue error, mean +([\d.]+) %", ("measured.demo.eigenvalue_error_percent",)),
     ("../README.md", r"Two cores take nefertiti\.obj, ([\d,]+) vertices, to 1,000 in ([\d.]+) s with best, ([\d.]+) s with fast, ([\d.]+) s with paper",
      ("measured.nefertiti.vertices", "measured.nefertiti.best.seconds", "measured.nefertiti.fast.seconds", "measured.nefertiti.paper.seconds")),
