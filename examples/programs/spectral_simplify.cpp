@@ -249,12 +249,16 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
       options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
   const double needed = SMS::estimated_memory(n, K, options, !a.fit_operators.empty()),
                available = available_memory();
+  const std::size_t intermediate = 100000;
   if(available > 0 && needed > available)
     throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " +
                              std::to_string(K) + " eigenvectors takes about " +
                              formatted_memory(needed) + " of memory, but this machine has " +
-                             formatted_memory(available) +
-                             " left: add --pre-simplify 100000, or lower --eigenvectors.");
+                             formatted_memory(available) + " left: " +
+                             (n > intermediate && options.pre_simplify == 0
+                                  ? "add --pre-simplify " + std::to_string(intermediate) + ", or "
+                                  : std::string()) +
+                             "lower --eigenvectors.");
   const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
   const bool pairs_are_known = options.signals.size() == 0 && !reduced;
   const double judging =
