@@ -209,6 +209,27 @@ inline bool identical(const Mesh& a, const Mesh& b)
   return std::equal(a.faces().begin(), a.faces().end(), b.faces().begin());
 }
 
+using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
+
+// Constrains every so many edges of a mesh, or with 0 none.
+inline Constraints constrain_every(const int step, Mesh& mesh)
+{
+  const Constraints result =
+      mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
+  for(const auto e : edges(mesh))
+    result[e] = step != 0 && e.idx() % Mesh::size_type(step) == 0;
+  return result;
+}
+
+inline std::set<Kernel::Point_3> ends(const Mesh& mesh, const Constraints& constraints)
+{
+  std::set<Kernel::Point_3> result;
+  for(const auto e : edges(mesh))
+    if(constraints[e])
+      result.insert({mesh.point(source(e, mesh)), mesh.point(target(e, mesh))});
+  return result;
+}
+
 } // namespace spectral_test
 
 #endif // SPECTRAL_TEST_COLLAPSE_HELPERS_H

@@ -48,7 +48,6 @@ namespace test_composition {
 
 namespace {
 
-using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
 
 // The ends of the constrained edges.
 std::set<std::pair<Point, Point>> constrained_segments(const Mesh& mesh,

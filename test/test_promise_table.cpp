@@ -37,7 +37,6 @@ namespace test_promise_table {
 
 using namespace spectral_test;
 using Policies = SMS::Spectral_policies<Mesh>;
-using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
 using Matrix = Eigen::SparseMatrix<double>;
 using One_call_options = SMS::Spectral_edge_collapse_options;
 
@@ -65,24 +64,6 @@ struct Outcome
   bool cancelled = false, thrown = false;
 };
 
-std::set<Kernel::Point_3> ends(const Mesh& mesh, const Constraints& constraints)
-{
-  std::set<Kernel::Point_3> result;
-  for(const auto e : edges(mesh))
-    if(constraints[e])
-      result.insert({mesh.point(source(e, mesh)), mesh.point(target(e, mesh))});
-  return result;
-}
-
-Constraints constrain(Mesh& mesh, const int step)
-{
-  const Constraints result =
-      mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
-  for(const auto e : edges(mesh))
-    result[e] = step != 0 && e.idx() % Mesh::size_type(step) == 0;
-  return result;
-}
-
 void set(SMS::Spectral_options& options, const Trial& trial)
 {
   options.number_of_eigenvectors = 20;
@@ -102,7 +83,7 @@ Outcome by_policies(const Trial& trial, const Way way)
 {
   Outcome result;
   Mesh& mesh = result.mesh = make_mesh(trial.input);
-  const Constraints constraints = constrain(mesh, trial.constrained);
+  const Constraints constraints = constrain_every(trial.constrained, mesh);
   result.constrained_before = ends(mesh, constraints);
   SMS::Spectral_options options;
   set(options, trial);
@@ -155,7 +136,7 @@ Outcome by_one_call(const Trial& trial, One_call_options options)
 {
   Outcome result;
   Mesh& mesh = result.mesh = make_mesh(trial.input);
-  const Constraints constraints = constrain(mesh, trial.constrained);
+  const Constraints constraints = constrain_every(trial.constrained, mesh);
   result.constrained_before = ends(mesh, constraints);
   set(options, trial);
   const auto take = [&](const SMS::Spectral_edge_collapse_result& run) {

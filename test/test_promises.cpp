@@ -35,26 +35,7 @@ using namespace spectral_test;
 namespace {
 
 using Policies = SMS::Spectral_policies<Mesh>;
-using Constraints = Mesh::Property_map<Mesh::Edge_index, bool>;
 using Signals = SG::Relocation_options::Signals;
-
-Constraints constrain_every(const int step, Mesh& mesh)
-{
-  const Constraints result =
-      mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
-  for(const auto e : edges(mesh))
-    result[e] = e.idx() % Mesh::size_type(step) == 0;
-  return result;
-}
-
-std::set<Kernel::Point_3> ends(const Mesh& mesh, const Constraints& constraints)
-{
-  std::set<Kernel::Point_3> result;
-  for(const auto e : edges(mesh))
-    if(constraints[e])
-      result.insert({mesh.point(source(e, mesh)), mesh.point(target(e, mesh))});
-  return result;
-}
 
 std::size_t crossings(const Mesh& mesh)
 {

@@ -36,9 +36,9 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// `best()` without an eigensolver. Collapses by quadrics reduce the mesh first to 30 times the
   /// target, but not below 10,000 vertices, and signals of filtered noise are made there; quadrics
   /// go on to 7 times the target. Relocation sees 64 of the signals and takes 40 steps at most: on
-  /// twelve meshes 10 times and 60 steps gave 0.92 times the |C|_L, and both stages took 1.4 times
-  /// as long. E and the relative error are estimates; signals or eigenpairs cannot be given, and it
-  /// takes neither filter nor visitor.
+  /// twelve meshes 10 times and 60 steps gave 0.92 times the |C|_L, and collapses and relocation
+  /// took 1.4 times as long. E and the relative error are estimates; signals or eigenpairs cannot
+  /// be given, and it takes neither filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
