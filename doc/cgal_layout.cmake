@@ -484,7 +484,7 @@ manual_sections(sections_Surface_mesh_simplification figures_Surface_mesh_simpli
                 ${titles_Surface_mesh_simplification})
 string(REGEX MATCH "<!-- cgal: begin -->(.*)<!-- cgal: end -->" found "${manual}")
 prose(performance sec_SMS_spectral_ "${CMAKE_MATCH_1}")
-list(APPEND figures_Spectral_geometry fig/operators.png fig/functional_maps.svg)
+list(APPEND figures_Spectral_geometry fig/operators.svg fig/functional_maps.svg)
 list(APPEND figures_Surface_mesh_simplification fig/teaser.svg fig/scaling.svg)
 foreach(package IN LISTS packages)
   foreach(figure IN LISTS figures_${package})

@@ -10,7 +10,7 @@
 # the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md, reference.md and measurements.md quote wrongly.
 #
 #   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
-#              what make_operators.py does
+#              what pictures.py does
 #   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
 #   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
 #              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; pair/ with cat-pose.off of TOSCA, the lion

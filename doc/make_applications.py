@@ -13,9 +13,8 @@
 # of operators fitted and the meshes' own, --pairs those of proxies and matchers, on shapes in other triangles and on other pairs: with the file of the true map, `same` for the identity, or X itself
 # against its bent shape in other triangles; all three write into the page. RIVALS is a folder as for run_rivals.sh, whose programs make proxies.
 # Where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
-# Needs nothing but Python 3.
+# Needs what pictures.py does.
 
-import base64
 import collections
 import glob
 import json
@@ -24,14 +23,16 @@ import os
 import random
 import re
 import shlex
-import struct
 import subprocess
 import sys
-import zlib
 
-from make_figures import Image
+import numpy as np
+from matplotlib.colors import Normalize
+
 from make_results import replace
 from make_spectra import machine
+from pictures import (COLOURS, ERRORS, WIDTH, Picture, box_of, colour_bar, package, plt, save, seen,
+                      show)
 
 PAIRS = [("walk", "walk.off", "walk.txt"), ("bend", "bend.off", "bend.txt"),
          ("wave 3", "wave3.off", "same.txt"), ("walk, other triangles", "other_walk.off", "other.txt"),
@@ -127,14 +128,18 @@ def make_shapes(build, folder):
 def run_all(build, folder):
     make_shapes(build, folder)
     for name, Y, truth in PAIRS:
-        report = report_name(name)
-        run(build, folder, f"{report}.out", "shape_matching", "stand.off", Y, "--operators", "mesh", "--proxy", "spectral,garland_heckbert",
-            "--ground-truth", truth, "--report", f"{report}.html")
-    run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--operators", "mesh", "--vertices", "1000", "--report", "distances.html")
+        run(build, folder, f"{report_name(name)}.out", "shape_matching", "stand.off", Y, "--operators", "mesh",
+            "--proxy", "spectral,garland_heckbert", "--ground-truth", truth)
+    run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--operators", "mesh",
+        "--vertices", "1000")
     # Runs again with fitted operators, which the programs have as their default.
     run(build, folder, "fitted_distances.out", "spectral_distances_on_proxy", "stand.off", "--vertices", "1000")
     for name, Y, truth in PAIRS:
-        run(build, folder, f"fitted_{report_name(name)}.out", "shape_matching", "stand.off", Y, "--ground-truth", truth, "--output", "map.txt")
+        run(build, folder, f"fitted_{report_name(name)}.out", "shape_matching", "stand.off", Y,
+            "--ground-truth", truth, "--output", f"map_{report_name(name)}.txt")
+    # The map of a pair without the last step.
+    run(build, folder, "unbent.txt", "shape_matching", "stand.off", "other_bend.off", "--fine-iterations", "0",
+        "--output", "unbent.txt", "--quiet")
 
 
 # --- two scans of a million vertices -----------------------------------------------------------------------------------
@@ -329,55 +334,91 @@ def distances(build, folder, meshes):
     write("animals", [machine() + ".", "", *lines])
 
 
-# --- pictures out of the reports -------------------------------------------------------------------------------------
+# --- pictures -------------------------------------------------------------------------------------
 
 
-# Images as the reports hold them: 8 bits, red, green and blue, lines as they are or as differences to the pixel on the left.
-def read_png(data):
-    width, height = struct.unpack(">2I", data[16:24])
-    compressed, at = b"", 8
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IDAT":
-            compressed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    raw, row = zlib.decompress(compressed), 3 * width + 1
-    image = Image(width, height)
-    image.pixels = bytearray()
-    for y in range(height):
-        line = bytearray(raw[y * row + 1:(y + 1) * row])
-        if raw[y * row] > 1:
-            sys.exit(f"a line of an image in a report has the filter {raw[y * row]}, which read_png() does not know")
-        for k in range(3, len(line) if raw[y * row] == 1 else 0):
-            line[k] = (line[k] + line[k - 3]) % 256
-        image.pixels += line
-    return image
+# Vertices of X in the colours of the vertices of Y that they are sent to, and how far these are from
+# the true ones.
+def matching_picture(ss, folder):
+    (X, FX), (Y, FY) = (
+        ss.read_mesh(os.path.join(folder, mesh)) for mesh in ("stand.off", "other_bend.off")
+    )
+    truth, unbent, bent = (
+        np.loadtxt(os.path.join(folder, path), int)
+        for path in ("other.txt", "unbent.txt", "map_bend_other.txt")
+    )
+    seen_Y = seen(Y)
+    box, scale, errors = (
+        box_of(seen(X), seen_Y),
+        Normalize(*np.percentile(seen_Y[:, 0], (0, 100))),
+        Normalize(0, 3),
+    )
+    figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 2.8), constrained_layout=True)
+    drawn = Picture(seen(X), FX, box, 350)
+    show(
+        axes[0],
+        Picture(seen_Y, FY, box, 350).painted(
+            seen_Y[:, 0], COLOURS, scale, lines=0.15, lines_of=seen_Y[:, 1]
+        ),
+        "Y, bent",
+        f"{len(Y):,} vertices",
+    )
+    show(
+        axes[1],
+        drawn.painted(seen_Y[bent, 0], COLOURS, scale, lines=0.15, lines_of=seen_Y[bent, 1]),
+        "its colours on X",
+        f"{len(X):,} vertices",
+    )
+    area = (
+        np.linalg.norm(np.cross(Y[FY[:, 1]] - Y[FY[:, 0]], Y[FY[:, 2]] - Y[FY[:, 0]]), axis=1).sum()
+        / 2
+    )
+    for a, title, found in (
+        (axes[2], "error, lifted only", unbent),
+        (axes[3], "error, bent in space", bent),
+    ):
+        error = 100 * np.linalg.norm(Y[found] - Y[truth], axis=1) / np.sqrt(area)
+        show(
+            a, drawn.painted(error, ERRORS, errors, shade=0.3), title, f"mean {error.mean():.2f} %"
+        )
+    colour_bar(figure, axes, ERRORS, errors, "% of √area", shrink=0.8, pad=0.01)
+    save(figure, "matching")
 
 
-def images(folder, report):
-    with open(os.path.join(folder, report)) as file:
-        found = re.findall(r"<img alt='[^']*' src='data:image/png;base64,([^']*)'", file.read())
-    return [read_png(base64.b64decode(data)) for data in found]
-
-
-def strip(parts, path):
-    picture = Image(sum(p.width for p in parts), max(p.height for p in parts))
-    x = 0
-    for part in parts:
-        picture.paste(part, x, 0)
-        x += part.width
-    picture.write(path)
-
-
-def curves(folder, report, path):
-    with open(os.path.join(folder, report)) as file:
-        page = file.read()
-    legend = re.findall(r"<li><svg[^>]*>(.*?)</svg>(.*?)</li>", page)
-    chart = re.search(r"<svg xmlns='[^']*' role='img'.*?</svg>", page, re.S).group(0)
-    for i, (sample, name) in enumerate(legend):
-        chart = chart.replace("</svg>", f"<g transform='translate(380,{300 + 20 * i})'>{sample}<text x='50' y='10'>{name}</text></g>\n</svg>")
-    with open(path, "w") as file:
-        file.write(chart + "\n")
+# Biharmonic distances from a vertex, and what two ways back from the proxy make of them.
+def distances_picture(ss, folder):
+    V, F = ss.read_mesh(os.path.join(folder, "stand.off"))
+    run = ss.simplify(V, F, 1000)
+    source = np.argmax(seen(V)[:, 2])
+    fine = ss.distances(run.eigenpairs, int(source), squared=False)
+    coarse = ss.distances(run.coarse_eigenpairs(100), run.Q[[source]], squared=False).ravel()
+    box, scale, errors = box_of(seen(V)), Normalize(0, fine.max()), Normalize(0, 3)
+    figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 2.8), constrained_layout=True)
+    drawn = Picture(seen(V), F, box, 350)
+    show(
+        axes[0],
+        drawn.painted(fine, COLOURS, scale, lines=fine.max() / 16),
+        "on the input",
+        f"{len(V):,} vertices",
+    )
+    show(
+        axes[1],
+        Picture(seen(run.V), run.F, box, 350).painted(
+            coarse, COLOURS, scale, lines=fine.max() / 16
+        ),
+        "on the proxy",
+        f"{len(run.V):,} vertices",
+    )
+    for a, title, back in (
+        (axes[2], "off by the vertex map", coarse[run.vertex_map]),
+        (axes[3], "off by the prolongation", run.Q @ coarse),
+    ):
+        error = 100 * np.abs(back - fine) / fine.max()
+        show(
+            a, drawn.painted(error, ERRORS, errors, shade=0.3), title, f"mean {error.mean():.2f} %"
+        )
+    colour_bar(figure, axes, ERRORS, errors, "% of the largest", shrink=0.8, pad=0.01)
+    save(figure, "distances")
 
 
 def main():
@@ -397,11 +438,9 @@ def main():
         large(words[0], folder)
         return
     run_all(words[0], folder)
-    output = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fig")
-    strip(images(folder, "bend_other.html")[:2], os.path.join(output, "matching.png"))
-    curves(folder, "bend_other.html", os.path.join(output, "matching_errors.svg"))
-    # Pictures of the biharmonic distance: fine, coarse, brought back by prolongation.
-    strip(images(folder, "distances.html")[4:7], os.path.join(output, "distances.png"))
+    ss = package(words[0])
+    matching_picture(ss, folder)
+    distances_picture(ss, folder)
     for fitted in ("", "fitted_"):
         for name, _, _ in PAIRS:
             with open(os.path.join(folder, fitted + report_name(name) + ".out")) as file:

@@ -3,58 +3,82 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Makes the figures of the manual from runs of the example programs on the shape of the demonstration and on a terrain, and from the tables
-# of times in doc/:
+# Makes the figures of the manual from runs of the example programs on the shape of the
+# demonstration and on a terrain, and from the tables of times in doc/:
 #   doc/make_figures.py BUILD [FOLDER]
-# BUILD is where the programs were built; what they write goes to FOLDER (BUILD/figures) and is used again when it is
-# there. What the manual quotes of it goes to doc/figures.json. Needs nothing but Python 3.
+# BUILD is where the programs and the Python module were built. What they write goes to FOLDER
+# (BUILD/figures) and is used again when it is there. What the manual quotes of it goes to
+# doc/figures.json. Needs what pictures.py does.
 
-import base64
 import csv
 import json
 import math
 import os
 import re
-import struct
 import subprocess
 import sys
-import zlib
+import warnings
 
-from charts import GREY, Axis, Curve, legend, panel, svg, text
-from make_results import commit, name, norms
+import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
+
+from make_results import commit, name
+from pictures import (BLUE, ERRORS, GREEN, GREY, MODES, ORANGE, PINK, RED, WIDTH, Judged, Picture,
+                      box_of, colour_bar, package, plt, save, seen, show)
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 K = 100
 SIZES = [100, 150, 200, 300, 450, 600, 900, 1400, 2000]
-FLANK = (-0.6, -0.35, 0.2, 0.45) # of the demonstration shape as it is seen
+FLANK = (-0.6, -0.35, 0.2, 0.45)  # of the demonstration shape as it is seen
 # The terrain's runs: what stands above the picture, and the options.
-BORDERS = {"paper": ("the paper's metric", ["--preset", "paper", "--mass", "averaged"]),
-           "preserved": ("with preserve_border", ["--preset", "paper", "--mass", "averaged", "--preserve-border"]),
-           "best": ("preset best", [])}
+BORDERS = {
+    "paper": ("the paper's metric", ["--preset", "paper", "--mass", "averaged"]),
+    "preserved": ("with preserve_border",
+                  ["--preset", "paper", "--mass", "averaged",
+                   "--preserve-border"]), "best": ("preset best", [])
+}
+# The simplifiers of all.json that are shown, by a short name: simplifier, placement, relocation.
+SHOWN = {
+    "best": ("spectral, best", "free", "sampled"),
+    "shape term": ("spectral with shape term", "free", "none"),
+    "metric": ("spectral", "free", "none"), "plane": ("Garland-Heckbert plane", "optimal", "none"),
+    "probabilistic": ("Garland-Heckbert probabilistic plane, area 20000", "optimal", "none"),
+    "isotropic": ("isotropic remeshing", "none", "none"), "edge length": ("edge length", "midpoint",
+                                                                          "none")
+}
 
 
 def run(build, folder, output, program, *arguments):
     if not os.path.exists(os.path.join(folder, output)):
-        subprocess.run([os.path.abspath(os.path.join(build, "examples", program)), *arguments], check=True, cwd=folder)
+        subprocess.run([os.path.abspath(os.path.join(build, "examples", program)), *arguments],
+                       check=True,
+                       cwd=folder)
 
 
 def run_all(build, folder):
     os.makedirs(folder, exist_ok=True)
     run(build, folder, "shape.ply", "make_demo_shape", "shape.ply", "--vertices", "10000")
-    run(build, folder, "all.json", "spectral_compare", "shape.ply", "--vertices", "600", "--judge", "averaged",
-        "--report", "all.html", "--coloured", "col", "--json", "all.json", "--quiet")
-    sizes = ",".join(str(n) for n in SIZES)
-    run(build, folder, "curve.json", "spectral_compare", "shape.ply", "--vertices", sizes, "--only", "spectral", "--only", "isotropic",
-        "--judge", "lumped,averaged", "--json", "curve.json", "--quiet")
-    run(build, folder, "sizes.json", "spectral_compare", "shape.ply", "--vertices", "150,300,2000", "--only", "spectral, best", "--judge",
-        "averaged", "--coloured", "sizes", "--json", "sizes.json", "--quiet")
-    run(build, folder, "masses.json", "spectral_compare", "shape.ply", "--vertices", "600", "--only", "spectral, best", "--judge",
-        "lumped,averaged", "--json", "masses.json", "--quiet")
-    run(build, folder, "pairs", "spectral_simplify", "shape.ply", "coarse.off", "--vertices", "600", "--eigenpairs", "pairs", "--quiet")
+    run(build, folder, "all.json", "spectral_compare", "shape.ply", "--vertices", "600", "--judge",
+        "averaged", "--coloured", "col", "--json", "all.json", "--quiet")
+    run(build, folder, "curve.json", "spectral_compare", "shape.ply", "--vertices",
+        ",".join(map(str, SIZES)), "--only", "spectral, best", "--only", "spectral with shape term",
+        "--only", "isotropic", "--only", "probabilistic plane", "--without", "fitted", "--judge",
+        "lumped,averaged", "--json", "curve.json", "--quiet")
+    run(build, folder, "masses.json", "spectral_compare", "shape.ply", "--vertices", "600",
+        "--only", "spectral, best", "--judge", "lumped,averaged", "--json", "masses.json",
+        "--quiet")
     terrain(os.path.join(folder, "terrain.off"))
     for stem, (_, options) in BORDERS.items():
-        run(build, folder, f"border_{stem}.json", "spectral_simplify", "terrain.off", f"border_{stem}.off", "--vertices", "300", *options,
-            "--json", f"border_{stem}.json", "--quiet")
+        run(build, folder, f"border_{stem}.json", "spectral_simplify", "terrain.off",
+            f"border_{stem}.off", "--vertices", "300", *options, "--json", f"border_{stem}.json",
+            "--quiet")
+
+
+def read(folder, json_name):
+    with open(os.path.join(folder, json_name)) as file:
+        return json.load(file)
 
 
 # An island whose border has bays, of 7,651 vertices.
@@ -64,7 +88,8 @@ def terrain(path, rings=50):
         rows.append([])
         for i in range(6 * j):
             turn, r = 2 * math.pi * i / (6 * j), j / rings
-            r *= 1 + r * (0.12 * math.cos(5 * turn) + 0.06 * math.cos(11 * turn + 1) + 0.03 * math.cos(23 * turn))
+            r *= 1 + r * (0.12 * math.cos(5 * turn) + 0.06 * math.cos(11 * turn + 1) +
+                          0.03 * math.cos(23 * turn))
             rows[j].append(len(points))
             points.append((r * math.cos(turn), r * math.sin(turn)))
         for i in range(6 * j):
@@ -77,435 +102,360 @@ def terrain(path, rings=50):
     with open(path, "w") as file:
         file.write(f"OFF\n{len(points)} {len(triangles)} 0\n")
         for x, y in points:
-            file.write(f"{x:.9g} {y:.9g} {0.12 * math.sin(5 * x + 1) * math.cos(4 * y) + 0.04 * math.sin(13 * x - 9 * y):.9g}\n")
+            z = 0.12 * math.sin(5 * x + 1) * math.cos(4 * y) + 0.04 * math.sin(13 * x - 9 * y)
+            file.write(f"{x:.9g} {y:.9g} {z:.9g}\n")
         file.writelines("3 {} {} {}\n".format(*t) for t in triangles)
 
 
-# --- PNG -------------------------------------------------------------------------------------------------------------
+# --- meshes ---------------------------------------------------------------------------------------
 
 
-class Image:
-    def __init__(self, width, height):
-        self.width, self.height = width, height
-        self.pixels = bytearray(b"\xff" * (3 * width * height))
+class Shape:
+    """The demonstration shape, its eigenpairs, and simplified ones beside it."""
 
-    def set(self, x, y, colour):
-        k = 3 * (y * self.width + x)
-        self.pixels[k:k + 3] = bytes(colour)
+    def __init__(self, ss, folder):
+        self.ss, self.folder = ss, folder
+        self.V, self.F = ss.read_mesh(os.path.join(folder, "shape.ply"))
+        self.pairs = ss.eigenpairs(self.V, self.F, K + K // 5)
+        self.rows = read(folder, "all.json")["rows"]
+        self.box = box_of(seen(self.V))
+        self.picture = Picture(seen(self.V), self.F, self.box, 350)
+        self.mode = self.mode_apart()
+        self.input = {f"the input, {len(self.V):,} vertices": self.pairs}
+        self.judged = {word: self.judge(*ss.read_mesh(self.path(word))) for word in SHOWN}
 
-    def paste(self, other, x0, y0):
-        for y in range(other.height):
-            k = 3 * ((y0 + y) * self.width + x0)
-            self.pixels[k:k + 3 * other.width] = other.pixels[3 * y * other.width:3 * (y + 1) * other.width]
+    # Nearly equal modes may mix, whoever simplifies. The eigenvalue of this one is a tenth away
+    # from the others.
+    def mode_apart(self):
+        values = self.pairs.values
+        apart = [
+            k for k in range(2, 11) if all(
+                abs(values[k - 1] - values[j]) > 0.1 * values[k - 1] for j in (k - 2, k))
+        ]
+        return apart[len(apart) // 2]
 
-    def halved(self):
-        half = Image(self.width // 2, self.height // 2)
-        for y in range(half.height):
-            for x in range(half.width):
-                k = [3 * ((2 * y + j) * self.width + 2 * x + i) for j in (0, 1) for i in (0, 1)]
-                half.set(x, y, [sum(self.pixels[q + c] for q in k) // 4 for c in range(3)])
-        return half
+    def path(self, word):
+        row = next(r for r in self.rows
+                   if (r["simplifier"], r["placement"] or "none", r["relocation"]) == SHOWN[word])
+        return os.path.join(self.folder, "col",
+                            re.sub("[^A-Za-z0-9]+", "_", name(row)) + "_600.ply")
 
-    # Colours are rounded to 32 steps: a file a third of the size.
-    def write(self, path):
-        table = bytes(min(255, 8 * ((v + 4) // 8)) for v in range(256))
-        pixels = self.pixels.translate(table)
-        row = 3 * self.width
-        raw = b"".join(b"\0" + bytes(pixels[y * row:(y + 1) * row]) for y in range(self.height))
+    def judge(self, V, F):
+        return Judged(self.ss, self.V, self.F, self.pairs, V, F)
 
-        def chunk(kind, data):
-            return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    def scale(self, mode, pairs):
+        high = np.abs(pairs.vectors[:, mode - 1]).max()
+        return Normalize(-high, high)
 
-        with open(path, "wb") as file:
-            file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", self.width, self.height, 8, 2, 0, 0, 0)) +
-                       chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
-
-
-# --- meshes ----------------------------------------------------------------------------------------------------------
-
-
-def read_ply(path):
-    with open(path) as file:
-        properties, vertices, faces = [], 0, 0
-        for line in file:
-            words = line.split()
-            if words[0] == "element" and words[1] == "vertex":
-                vertices = int(words[2])
-            elif words[0] == "element":
-                faces = int(words[2])
-            elif words[0] == "property" and words[1] != "list":
-                properties.append(words[2])
-            elif words[0] == "end_header":
-                break
-        rows = [[float(x) for x in next(file).split()] for _ in range(vertices)]
-        triangles = [tuple(int(x) for x in next(file).split()[1:4]) for _ in range(faces)]
-    return rows, triangles, {name: k for k, name in enumerate(properties)}
-
-
-# From blue by white to red, t in [-1, 1].
-def diverging(t):
-    t = max(-1.0, min(1.0, t))
-    end = (178, 40, 40) if t > 0 else (1, 80, 140)
-    return [255 + (e - 255) * abs(t) for e in end]
-
-
-# Points of the demonstration shape from the side and a little from above: right, up and towards the eye.
-def seen(points):
-    turn, tilt, result = math.radians(60), math.radians(18), []
-    for x, y, z in (p[:3] for p in points):
-        a, b = math.cos(turn) * x + math.sin(turn) * y, -math.sin(turn) * x + math.cos(turn) * y
-        result.append((a, z * math.cos(tilt) + b * math.sin(tilt), -b * math.cos(tilt) + z * math.sin(tilt)))
-    return result
-
-
-# Orthographic; the light stands behind the eye. `values` has a number for each vertex.
-def render(rows, triangles, values, size, wire):
-    scale = sorted(abs(v) for v in values)[int(0.98 * len(values))]
-    points = seen(rows)
-    low = [min(p[c] for p in points) for c in (0, 1)]
-    high = [max(p[c] for p in points) for c in (0, 1)]
-    width, height = size
-    factor = min((width - 8) / (high[0] - low[0]), (height - 8) / (high[1] - low[1]))
-    points = [(width / 2 + factor * (p[0] - (low[0] + high[0]) / 2), height / 2 - factor * (p[1] - (low[1] + high[1]) / 2),
-               factor * p[2]) for p in points]
-    image, depth = Image(width, height), [-1e30] * (width * height)
-    for t in triangles:
-        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[i] for i in t)
-        ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-        n = (uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx)
-        det, length = n[2], math.sqrt(sum(c * c for c in n))
-        if abs(det) < 1e-12:
-            continue
-        light = 0.45 + 0.55 * abs(det) / length
-        va, vb, vc = (values[i] / scale for i in t)
-        for y in range(max(0, math.ceil(min(ay, by, cy))), min(height - 1, math.floor(max(ay, by, cy))) + 1):
-            for x in range(max(0, math.ceil(min(ax, bx, cx))), min(width - 1, math.floor(max(ax, bx, cx))) + 1):
-                s = ((x - ax) * vy - (y - ay) * vx) / det
-                r = (ux * (y - ay) - uy * (x - ax)) / det
-                if s < 0 or r < 0 or s + r > 1:
-                    continue
-                z = az + s * uz + r * vz
-                if z > depth[y * width + x]:
-                    depth[y * width + x] = z
-                    edge = wire and min(s * abs(det) / math.hypot(vx, vy), r * abs(det) / math.hypot(ux, uy),
-                                        (1 - s - r) * abs(det) / math.hypot(vx - ux, vy - uy)) < 0.7
-                    shade = light * (0.55 if edge else 1)
-                    image.set(x, y, [int(shade * c) for c in diverging(va + s * (vb - va) + r * (vc - va))])
-    return image.halved()
+    # A mode of an operator or two on the input, and of the last one on meshes, with the error map
+    # below; returns figure and axes.
+    def strip(self, fine, judged, errors, mode=None, rows=2, height=4.6):
+        mode = mode or self.mode
+        figure, axes = plt.subplots(rows, 4, figsize=(WIDTH, height), constrained_layout=True)
+        for a, (title, pairs) in zip(axes[0], fine.items()):
+            show(a, self.picture.painted(pairs.vectors[:, mode - 1], MODES,
+                                         self.scale(mode, pairs)), title)
+        for column, (title, j) in enumerate(judged.items(), len(fine)):
+            picture = Picture(seen(j.V), j.F, self.box, 350)
+            show(axes[0, column],
+                 picture.painted(j.mode(mode), MODES, self.scale(mode, pairs), wire=1), title)
+            show(axes[1, column],
+                 picture.painted(j.error, ERRORS, errors, wire=1, shade=0.3),
+                 below=str(j))
+        for a in axes[1:, :len(fine)].flat:
+            a.axis("off")
+        scale, bars = self.scale(
+            mode, pairs), [axes[1, 0].inset_axes([0.05, y, 0.8, 0.06]) for y in (0.75, 0.3)]
+        colour_bar(figure,
+                   None,
+                   MODES,
+                   scale,
+                   f"above: eigenfunction {mode}",
+                   cax=bars[0],
+                   orientation="horizontal",
+                   ticks=[0])
+        colour_bar(figure,
+                   None,
+                   ERRORS,
+                   errors,
+                   "right: where ‖C‖$_L$ comes from",
+                   cax=bars[1],
+                   orientation="horizontal",
+                   format="%g")
+        return figure, axes
 
 
-# The first picture of README and manual: a mode on the input and on what two simplifiers made of it, their functional maps below.
-def teaser(folder, output):
-    mode, side = modes_apart(folder)[1], 230
-    columns = [("fine", "", "the input, 10,039 vertices"),
-               ("spectral_best_free_averaged_metric_relocated_by_sampled_600", "spectral, best", "this package, 600"),
-               ("Garland_Heckbert_probabilistic_plane_area_20000_optimal_600", "Garland-Heckbert probabilistic plane, area 20000",
-                "probabilistic quadrics, 600"),
-               ("Garland_Heckbert_plane_optimal_600", "Garland-Heckbert plane", "plane quadrics, 600")]
-    maps, rows, body = images_of_maps(folder), rows_of(folder), ""
-    for i, (stem, simplifier, title) in enumerate(columns):
-        x = 10 + (side + 10) * i
-        data = pictured(os.path.join(folder, "col", stem + ".ply"), mode, side, i > 0)
-        body += text(x + side / 2, 18, title, 13) + f'<image x="{x}" y="24" width="{side}" height="{side}" xlink:href="{data}"/>\n'
-        if not simplifier:
-            body += "".join(text(x + side / 2, 24 + 1.35 * side + 18 * k, line) for k, line in enumerate(
-                (f"Above: eigenfunction {mode}, where it is", "positive red, where it is negative blue.", "",
-                 "Right: |C|, the first 100 functions of", "the input in those of the result.", "Perfect: a thin diagonal, |C|_L = 0.")))
-            continue
-        row = next(r for r in rows if r["simplifier"] == simplifier and r["placement"] != "midpoint")
-        y = 24 + side + 6
-        body += (f'<image x="{x + 15}" y="{y}" width="{side - 30}" height="{side - 30}" xlink:href="{maps[name(row)]}" '
-                 f'style="image-rendering:pixelated"/>\n<rect x="{x + 15}" y="{y}" width="{side - 30}" height="{side - 30}" '
-                 f'fill="none" stroke="#888"/>\n')
-        body += text(x + side / 2, y + side - 12, f"|C|_L {norms(row)['norm_L']:.1f}, eigenvalues {100 * row['eigenvalue_error_mean']:.2f} % off", 13)
-    with open(os.path.join(output, "teaser.svg"), "w") as file:
-        file.write(svg(10 + (side + 10) * len(columns), 34 + 2 * side, body))
+def matrix(axes, judged, title=None, below=None):
+    show(axes, np.abs(judged.C), title, below, cmap="Blues", norm=Normalize(0, 1))
 
 
-# Three modes whose eigenvalues are a tenth away from others: nearly equal ones may mix, whoever simplifies.
-def modes_apart(folder):
-    with open(os.path.join(folder, "all.json")) as file:
-        values = json.load(file)["fine"][0]["eigenvalues"]
-    apart = [k for k in range(2, 11) if all(abs(values[k - 1] - values[j]) > 0.1 * values[k - 1] for j in (k - 2, k))]
-    return apart[0], apart[len(apart) // 2], apart[-1]
-
-
-# The mesh in a PLY file with a mode of it, as data for an SVG.
-def pictured(path, mode, side, wire):
-    picture = path[:-len(".ply")] + ".png"
-    rows, triangles, column = read_ply(path)
-    render(rows, triangles, [r[column[f"eigenvector_{mode}"]] for r in rows], (2 * side, 2 * side), wire).write(picture)
-    with open(picture, "rb") as file:
-        return "data:image/png;base64," + base64.b64encode(file.read()).decode()
-
-
-# A column of a NumPy array of float64.
-def column_of(path, column):
-    with open(path, "rb") as file:
-        data = file.read()
-    length = struct.unpack("<H", data[8:10])[0]
-    header = data[10:10 + length].decode()
-    n, m = (int(x) for x in re.search(r"\((\d+), (\d+)\)", header).groups())
-    numbers = struct.unpack(f"<{n * m}d", data[10 + length:])
-    return numbers[column * n:(column + 1) * n] if "'fortran_order': True" in header else numbers[column::m]
-
-
-# Eigenfunctions of the input: how small the features are that K of them tell apart.
-def modes(folder, output):
-    rows, triangles, _ = read_ply(os.path.join(folder, "col/fine.ply"))
-    side, body = 260, ""
-    for i, k in enumerate((10, 30, 100)):
-        x, picture = 10 + (side + 10) * i, os.path.join(folder, f"mode_{k}.png")
-        render(rows, triangles, column_of(os.path.join(folder, "pairs/fine_eigenvectors.npy"), k - 1), (2 * side, 2 * side), False).write(picture)
-        with open(picture, "rb") as file:
-            data = base64.b64encode(file.read()).decode()
-        body += text(x + side / 2, 18, f"eigenfunction {k}", 13, extra='font-weight="bold"')
-        body += f'<image x="{x}" y="24" width="{side}" height="{side}" xlink:href="data:image/png;base64,{data}"/>\n'
-    with open(os.path.join(output, "modes.svg"), "w") as file:
-        file.write(svg(10 + (side + 10) * 3, side + 34, body))
-
-
-# Meshes side by side, (PLY file, what stands above it, the row of its figures or none).
-def strip(folder, output, columns):
-    mode, side, body = modes_apart(folder)[1], 200, ""
-    for i, (path, title, row) in enumerate(columns):
-        x = 10 + (side + 10) * i
-        body += text(x + side / 2, 16, title) + f'<image x="{x}" y="22" width="{side}" height="{side}" ' \
-            f'xlink:href="{pictured(os.path.join(folder, path), mode, side, i > 0)}"/>\n'
-        if row:
-            body += text(x + side / 2, side + 38, f"|C|_L {norms(row)['norm_L']:.1f}, eigenvalues {100 * row['eigenvalue_error_mean']:.1f} % off")
-    with open(output, "w") as file:
-        file.write(svg(10 + (side + 10) * len(columns), side + 48, body))
+# The first picture of README and manual: a mode on the input and on what three simplifiers made of
+# it, where they err, their functional maps.
+def teaser(shape):
+    shown = {
+        "this package, 600": shape.judged["best"],
+        "probabilistic quadrics, 600": shape.judged["probabilistic"],
+        "plane quadrics, 600": shape.judged["plane"]
+    }
+    figure, axes = shape.strip(shape.input, shown, Normalize(0, 100), rows=3, height=6.9)
+    for a, j in zip(axes[2, 1:], shown.values()):
+        matrix(a, j)
+    axes[2, 0].text(
+        0,
+        0.5,
+        "right: |C|, the first 100\neigenfunctions of the\ninput in those of the\n"
+        "result; perfect is a\nthin diagonal",
+        va="center",
+        transform=axes[2, 0].transAxes)
+    save(figure, "teaser")
 
 
 # What each step of the preset brings: the paper's metric, the shape term, relocation.
-def steps(folder, output):
-    wanted = [("spectral", "none", "the paper's metric"), ("spectral with shape term", "none", "with the shape term"),
-              ("spectral, best", "sampled", "relocated: the preset best")]
-    columns, data = [("col/fine.ply", "the input", None)], []
-    for simplifier, relocation, title in wanted:
-        row = next(r for r in rows_of(folder) if r["simplifier"] == simplifier and r["placement"] == "free" and r["relocation"] == relocation)
-        columns.append((f"col/{re.sub('[^A-Za-z0-9]+', '_', name(row))}_600.ply", title, row))
-        data.append(norms(row)["norm_L"])
-    strip(folder, os.path.join(output, "steps.svg"), columns)
-    return data
+def steps(shape):
+    shown = {
+        "the paper's metric": shape.judged["metric"],
+        "with the shape term": shape.judged["shape term"],
+        "relocated: the preset best": shape.judged["best"]
+    }
+    save(shape.strip(shape.input, shown, Normalize(0, 100))[0], "steps")
+    return [j.numbers.C_L for j in shown.values()]
 
 
 # K = 100 modes on fewer and fewer vertices.
-def sizes(folder, output):
-    with open(os.path.join(folder, "sizes.json")) as file:
-        rows = [r for r in json.load(file)["rows"] if r["simplifier"] == "spectral, best"]
-    stem = re.sub("[^A-Za-z0-9]+", "_", name(rows[0]))
-    strip(folder, os.path.join(output, "sizes.svg"), [("sizes/fine.ply", "the input", None)] + [
-        (f"sizes/{stem}_{r['vertices']}.ply", f"N = {r['vertices']}", r) for r in sorted(rows, key=lambda r: -r["vertices"])])
+def sizes(shape):
+    runs = [shape.ss.simplify(shape.V, shape.F, n, K) for n in (2000, 300, 150)]
+    shown = {f"N = {len(r.V):,}": shape.judge(r.V, r.F) for r in runs}
+    save(shape.strip(shape.input, shown, LogNorm(1, 1000))[0], "sizes")
 
 
-# --- meshes of few triangles as polygons -------------------------------------------------------------------------------
+# A mode of another operator, on a mesh that was simplified for it and on one that was not.
+def operators(shape):
+    ss, V, F = shape.ss, shape.V, shape.F
+    curvature = ss.curvature_coefficients(V, F, 1)
+    pairs = ss.eigenpairs(V, F, K + K // 5, coefficients=curvature)
+    knows, other = ss.simplify(V, F, 600, K, coefficients=curvature), ss.simplify(V, F, 600, K)
+    # Coefficients for the mesh that did not know them, by the P of its collapses.
+    carried = ss.simplify(V, F, 600, K, relocate="none").P @ curvature
+    shown = {
+        title: Judged(ss, V, F, pairs, r.V, r.F, coefficients=curvature, coarse_coefficients=c)
+        for title, r, c in (("600, made for it", knows, knows.coefficients),
+                            ("600, made for the other", other, carried))
+    }
+    fine = {
+        f"{operator}, {len(V):,}": of
+        for operator, of in (("Laplace-Beltrami", shape.pairs), ("anisotropic", pairs))
+    }
+    save(shape.strip(fine, shown, Normalize(0, 60), mode=8)[0], "operators")
+    return [j.numbers.C_L for j in shown.values()]
 
 
-def read_off(path):
-    with open(path) as file:
-        words = file.read().split()
-    n, m = int(words[1]), int(words[2])
-    numbers = [float(x) for x in words[4:4 + 3 * n]]
-    faces = [int(x) for x in words[4 + 3 * n:4 + 3 * n + 4 * m]]
-    return [tuple(numbers[3 * i:3 * i + 3]) for i in range(n)], [tuple(faces[4 * i + 1:4 * i + 4]) for i in range(m)]
+# Eigenfunctions of the input: how small the features are that K of them tell apart.
+def modes(shape):
+    figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 3.1), constrained_layout=True)
+    picture = Picture(seen(shape.V), shape.F, shape.box, 520)
+    for a, k in zip(axes, (10, 30, 100)):
+        show(a, picture.painted(shape.pairs.vectors[:, k - 1], MODES, shape.scale(k, shape.pairs)),
+             f"eigenfunction {k}")
+    save(figure, "modes")
 
 
-# The vertices of the border in order.
-def border_of(triangles):
-    edges = {(t[i], t[(i + 1) % 3]) for t in triangles for i in range(3)}
-    following = {a: b for a, b in edges if (b, a) not in edges}
-    loop = [min(following)]
-    while following[loop[-1]] != loop[0]:
-        loop.append(following[loop[-1]])
-    return loop
+def functional_maps(shape):
+    titles = {
+        "best": "spectral, best", "isotropic": "isotropic remeshing",
+        "edge length": "edge length, midpoint", "plane": "Garland-Heckbert, plane"
+    }
+    figure, axes = plt.subplots(1, 4, figsize=(WIDTH, 2.55), constrained_layout=True)
+    for a, (word, title) in zip(axes, titles.items()):
+        j = shape.judged[word]
+        matrix(a, j, title, f"‖C‖$_L$ {j.numbers.C_L:.1f}, ‖C‖$_D$ {j.numbers.C_D:.2f}")
+    colour_bar(figure, axes, plt.get_cmap("Blues"), Normalize(0, 1), "|C|", shrink=0.8, pad=0.01)
+    save(figure, "functional_maps")
 
 
-def plan_area(points, triangles):
-    return sum((points[b][0] - points[a][0]) * (points[c][1] - points[a][1]) - (points[c][0] - points[a][0]) * (points[b][1] - points[a][1])
-               for a, b, c in triangles) / 2
-
-
-# A point, seen along z, of a box in the plane within a frame (x, y, width, height) of the figure.
-def framed(point, frame, box):
-    x0, y0, width, height = frame
-    return x0 + width * (point[0] - box[0]) / (box[2] - box[0]), y0 + height * (1 - (point[1] - box[1]) / (box[3] - box[1]))
-
-
-# The vertices of the box whose triangles all face the eye, as those of a flank do.
-def front_vertices(points, triangles, box):
-    behind = {v for t in triangles for v in t if plan_area(points, [t]) <= 0}
-    return [v for v, p in enumerate(points) if v not in behind and box[0] < p[0] < box[2] and box[1] < p[1] < box[3]]
-
-
-# The triangles that are within the box and face the eye, from back to front.
-def drawing(points, triangles, frame, box):
-    faces = []
-    for t in triangles:
-        (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (points[v][:3] for v in t)
-        ux, uy, uz, vx, vy, vz = bx - ax, by - ay, bz - az, cx - ax, cy - ay, cz - az
-        n = (uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx)
-        inside = max(ax, bx, cx) > box[0] and min(ax, bx, cx) < box[2] and max(ay, by, cy) > box[1] and min(ay, by, cy) < box[3]
-        if n[2] > 0 and inside:
-            faces.append(((az + bz + cz) / 3, n[2] / math.sqrt(sum(c * c for c in n)), t))
-    x0, y0, width, height = frame
-    clip = f"clip{x0}"
-    body = f'<clipPath id="{clip}"><rect x="{x0}" y="{y0}" width="{width}" height="{height}"/></clipPath>\n'
-    body += f'<g clip-path="url(#{clip})" stroke="#444" stroke-width="0.7" stroke-linejoin="round">\n'
-    for _, light, t in sorted(faces):
-        path = " ".join("{:.1f},{:.1f}".format(*framed(points[v], frame, box)) for v in t)
-        body += f'<polygon points="{path}" fill="rgb({",".join(str(int(c * (0.5 + 0.5 * light))) for c in (214, 230, 244))})"/>\n'
-    return body + "</g>\n"
-
-
-# --- charts ----------------------------------------------------------------------------------------------------------
-
-
-# The maps as the report of spectral_compare draws them, |C| from white to dark blue.
-def images_of_maps(folder):
-    with open(os.path.join(folder, "all.html")) as file:
-        return dict(re.findall(r"<img alt='\|C\| of ([^']*)' src='(data:image/png;base64,[^']*)'", file.read()))
-
-
-def rows_of(folder):
-    with open(os.path.join(folder, "all.json")) as file:
-        return json.load(file)["rows"]
-
-
-def functional_maps(folder, output):
-    images, rows = images_of_maps(folder), rows_of(folder)
-    wanted = [("spectral, best, free, averaged metric, relocated by sampled", "spectral, best", "spectral, best"),
-              ("isotropic remeshing", "isotropic remeshing", "isotropic remeshing"),
-              ("edge length, midpoint", "edge length", "edge length, midpoint"),
-              ("Garland-Heckbert plane, optimal", "Garland-Heckbert plane", "Garland-Heckbert, plane")]
-    body = ""
-    for i, (title_of_map, simplifier, title) in enumerate(wanted):
-        row = next(r for r in rows if r["simplifier"] == simplifier and r["placement"] != "midpoint" or
-                   r["simplifier"] == simplifier == "edge length")
-        x = 10 + 205 * i
-        body += (f'<image x="{x}" y="26" width="195" height="195" xlink:href="{images[title_of_map]}" '
-                 f'style="image-rendering:pixelated"/>\n<rect x="{x}" y="26" width="195" height="195" fill="none" stroke="#888"/>\n')
-        body += text(x + 97, 18, title)
-        body += text(x + 97, 238, f"|C|_L {norms(row)['norm_L']:.1f}, |C|_D {norms(row)['norm_D']:.2f}")
-    with open(os.path.join(output, "functional_maps.svg"), "w") as file:
-        file.write(svg(830, 250, body))
-
-
-# The norms over N: for each mass and line the points (N, |C|_L, |C|_D, error of the eigenvalues in percent).
-def lines_over_n(folder):
-    lines = {}
-    with open(os.path.join(folder, "curve.json")) as file:
-        for r in json.load(file)["rows"]:
-            key = "isotropic" if r["simplifier"] == "isotropic remeshing" else "policies"
-            if key == "policies" and (r["simplifier"] not in ("spectral, best", "spectral with shape term") or
-                                      r["placement"] != "free" or r["metric_mass"] != r["judged_mass"] or
-                                      r["relocation"] not in ("none", "sampled")):
-                continue
-            line = "best" if r["relocation"] != "none" else key
-            lines.setdefault((r["judged_mass"], line), []).append(
-                (r["vertices"], norms(r)["norm_L"], norms(r)["norm_D"], 100 * r["eigenvalue_error_mean"]))
-            if line == "policies":
-                lines.setdefault((r["judged_mass"], "floor"), []).append(
-                    (r["requested_vertices"], r["floor_norm_L"], r["floor_norm_D"], None))
-    return {key: sorted(points) for key, points in lines.items()}
-
-
-def curve(folder, output):
-    lines, body = lines_over_n(folder), ""
-    names = {"policies": ("spectral, not relocated", {"style": 0}), "best": ("spectral, best", {"style": 5, "dash": "7,3"}),
-             "isotropic": ("isotropic remeshing", {"style": 1, "dash": "9,3,2,3"}),
-             "floor": ("ideal elements (estimate)", {"colour": GREY, "dash": "2,3", "marks": False})}
-    panels = [("averaged", 1, "|C|_L, averaged mass", (0.3, 1000)), ("averaged", 2, "|C|_D, averaged mass", (0.1, 20)),
-              ("averaged", 3, "eigenvalue error in %, averaged mass", (0.1, 100)), ("lumped", 1, "|C|_L, lumped mass", (5, 1000))]
-    for p, (mass, quantity, title, (low, high)) in enumerate(panels):
-        curves = [Curve("", [(3 * K, low), (3 * K, high)], colour="black", dash="1,3", marks=False)]
-        for key, (_, style) in names.items():
-            curves.append(Curve("", [(row[0], row[quantity]) for row in lines.get((mass, key), []) if row[quantity]], **style))
-        x0, y0 = 60 + 400 * (p % 2), 36 + 270 * (p // 2)
-        body += panel(x0, y0, 330, 190, title, Axis("N, vertices; dotted: 3 K", 90, 2200, log=True, ticks=[100, 200, 300, 600, 1000, 2000]),
-                      Axis("", low, high, log=True), curves)
-    body += legend(40, 566, 195, [Curve(words, [], **style) for words, style in names.values()])
-    with open(os.path.join(output, "norms_over_n.svg"), "w") as file:
-        file.write(svg(830, 580, body))
-
-
-# Coarse over fine eigenvalues of one mesh in the mass matrices, its own and fitted ones.
-def masses(folder, output):
-    with open(os.path.join(folder, "masses.json")) as file:
-        data = json.load(file)
-    fine = {f["mass"]: f["eigenvalues"] for f in data["fine"]}
-
-    def curve_of(words, mass, fitted, style):
-        row = next(r for r in data["rows"] if r["judged_mass"] == mass and r["metric_mass"] == "averaged" and r["placement"] == "free" and
-                   r["relocation"] == "sampled" and ("fitted" in r["simplifier"]) == fitted)
-        points = [(k + 1, 100 * (row["coarse_eigenvalues"][k] / fine[mass][k] - 1)) for k in range(1, K)]
-        return Curve(words, points, style, marks=False), 100 * row["eigenvalue_error_mean"]
-
-    lumped, averaged = curve_of("lumped", "lumped", False, 1), curve_of("averaged", "averaged", False, 0)
-    fitted = [curve_of("lumped, fitted", "lumped", True, 3), curve_of("averaged, fitted", "averaged", True, 2)]
-    theory = Curve("lumped, even triangles (estimate)", [(k, -100 * 2 * math.pi / (4 * math.sqrt(3)) * k / 600) for k in (1, K)],
-                   colour=GREY, dash="2,3", marks=False)
-    modes = Axis("mode k", 0, K)
-    body = panel(60, 36, 330, 240, "its own operators", modes, Axis("error of eigenvalue k in %", -18, 3, ticks=range(-15, 5, 5)),
-                 [theory, lumped[0], averaged[0]])
-    body += panel(470, 36, 330, 240, "fitted ones, at a larger scale", modes, Axis("", -2, 3), [averaged[0]] + [f[0] for f in fitted])
-    body += legend(40, 336, 115, [lumped[0], averaged[0]]) + legend(270, 336, 145, [fitted[0][0], fitted[1][0], theory])
-    with open(os.path.join(output, "masses.svg"), "w") as file:
-        file.write(svg(830, 350, body))
-    return {"lumped": lumped[1], "averaged": averaged[1], "lumped_fitted": fitted[0][1], "averaged_fitted": fitted[1][1]}
-
-
-# Where relocation moves the vertices, and what it does to the eigenvalues.
-def relocation(folder, output):
-    rows = {words: next(r for r in rows_of(folder) if r["simplifier"] == simplifier and r["placement"] == "free" and r["relocation"] == by)
-            for words, simplifier, by in (("before", "spectral with shape term", "none"), ("after", "spectral, best", "sampled"))}
-    with open(os.path.join(folder, "all.json")) as file:
-        fine = json.load(file)["fine"][0]["eigenvalues"]
-    meshes = [read_ply(os.path.join(folder, f"col/{re.sub('[^A-Za-z0-9]+', '_', name(row))}_600.ply"))[:2] for row in rows.values()]
-    if meshes[0][1] != meshes[1][1]:
+# Where relocation moves the vertices, and what it does to C and to the eigenvalues.
+def relocation(shape):
+    both = {"before": shape.judged["shape term"], "after": shape.judged["best"]}
+    before, after = both.values()
+    if not np.array_equal(before.F, after.F):
         sys.exit("Relocation starts from other collapses than those without it.")
-    start = seen(meshes[0][0])
-    body, curves = "", []
-    for i, (words, row) in enumerate(rows.items()):
-        points, frame = seen(meshes[i][0]), (20 + 260 * i, 36, 240, 240)
-        body += text(140 + 260 * i, 24, f"{words} relocation", 13, extra='font-weight="bold"') + drawing(points, meshes[i][1], frame, FLANK)
-        body += text(140 + 260 * i, 296, f"|C|_L {norms(row)['norm_L']:.1f}, |C|_D {norms(row)['norm_D']:.2f}")
-        curves.append(Curve(words, [(k + 1, 100 * abs(row["coarse_eigenvalues"][k] / fine[k] - 1)) for k in range(1, K)], 1 - i, marks=False))
-    for v in front_vertices(points, meshes[1][1], FLANK):
-        (ax, ay), (bx, by) = framed(start[v], frame, FLANK), framed(points[v], frame, FLANK)
-        if ay > frame[1]:
-            body += f'<path d="M{ax:.1f} {ay:.1f}L{bx:.1f} {by:.1f}" stroke="#D55E00" stroke-width="2"/>\n'
-    body += panel(590, 36, 220, 210, "error of eigenvalue k in %", Axis("mode k", 0, K), Axis("", 0, 5), curves)
-    body += legend(620, 296, 100, curves)
-    with open(os.path.join(output, "relocation.svg"), "w") as file:
-        file.write(svg(830, 310, body))
-    return {words: norms(row)["norm_L"] for words, row in rows.items()}
+    figure, axes = plt.subplot_mosaic(
+        [["before", "after", "chart"], ["map before", "map after", "chart"]],
+        figsize=(WIDTH, 5.6),
+        constrained_layout=True)
+    for (word, j), style in zip(both.items(),
+                                ({"color": RED, "ls": "--", "lw": 1.1}, {"color": BLUE})):
+        show(axes[word],
+             Picture(seen(j.V), j.F, FLANK, 520).painted(wire=1.2),
+             f"{word} relocation",
+             extent=np.array(FLANK)[[0, 2, 1, 3]])
+        matrix(axes["map " + word], j, f"|C| {word}",
+               f"‖C‖$_L$ {j.numbers.C_L:.1f}, ‖C‖$_D$ {j.numbers.C_D:.2f}")
+        off = 100 * np.abs(j.numbers.coarse_values[1:K] / j.numbers.values[1:K] - 1)
+        axes["chart"].plot(np.arange(2, K + 1),
+                           off,
+                           label=f"{word}, mean {off.mean():.1f} %",
+                           **style)
+    X, Y = seen(before.V), seen(after.V)
+    N = np.cross(Y[after.F[:, 1]] - Y[after.F[:, 0]], Y[after.F[:, 2]] - Y[after.F[:, 0]])
+    front = np.setdiff1d(np.arange(len(Y)), after.F[N[:, 2] <= 0])
+    axes["after"].add_collection(
+        LineCollection(np.stack([X[front, :2], Y[front, :2]], axis=1), colors=RED, linewidths=1.8))
+    axes["after"].set(xlim=FLANK[::2], ylim=FLANK[1::2])
+    axes["chart"].set(title="error of eigenvalue k in %",
+                      xlabel="mode k",
+                      xlim=(0, K),
+                      ylim=(0, None))
+    axes["chart"].legend()
+    save(figure, "relocation")
+    return {word: j.numbers.C_L for word, j in both.items()}
 
 
 # The terrain from above, with the border that it had.
-def borders(folder, output):
-    fine, triangles = read_off(os.path.join(folder, "terrain.off"))
-    box, body, data = (-1.25, -1.25, 1.25, 1.25), "", {}
-    area, outline = plan_area(fine, triangles), border_of(triangles)
-    for i, (stem, (title, _)) in enumerate(BORDERS.items()):
-        frame = (10 + 275 * i, 30, 260, 260)
-        points, coarse = read_off(os.path.join(folder, f"border_{stem}.off"))
-        with open(os.path.join(folder, f"border_{stem}.json")) as file:
-            run_of = json.load(file)
-        data[stem] = {"norm_L": run_of["norm_L"], "eigenvalue_error_percent": 100 * run_of["eigenvalue_error_mean"],
-                      "area_percent": 100 * (plan_area(points, coarse) / area - 1)}
-        body += text(frame[0] + 130, 20, title, 13, extra='font-weight="bold"') + drawing(points, coarse, frame, box)
-        path = " ".join("{:.1f},{:.1f}".format(*framed(fine[v], frame, box)) for v in outline)
-        body += f'<polygon points="{path}" fill="none" stroke="#D55E00" stroke-width="1.5"/>\n'
-        body += text(frame[0] + 130, 308, f"|C|_L {data[stem]['norm_L']:.1f}, eigenvalues {data[stem]['eigenvalue_error_percent']:.1f} % off")
-        body += text(frame[0] + 130, 326, f"area from above {data[stem]['area_percent']:+.1f} %".replace("-", "−"))
-    with open(os.path.join(output, "border.svg"), "w") as file:
-        file.write(svg(830, 340, body))
+def borders(ss, folder):
+    V, F = ss.read_mesh(os.path.join(folder, "terrain.off"))
+
+    def plan_area(V, F):
+        return np.cross(V[F[:, 1], :2] - V[F[:, 0], :2], V[F[:, 2], :2] - V[F[:, 0], :2]).sum() / 2
+
+    edges = np.sort(np.concatenate([F[:, [0, 1]], F[:, [1, 2]], F[:, [2, 0]]]), axis=1)
+    edges, times = np.unique(edges, axis=0, return_counts=True)
+    outline, box, data = V[edges[times == 1], :2], box_of(V), {}
+    figure, axes = plt.subplots(1, 3, figsize=(WIDTH, 3.4), constrained_layout=True)
+    for a, (stem, (title, _)) in zip(axes, BORDERS.items()):
+        Vc, Fc = ss.read_mesh(os.path.join(folder, f"border_{stem}.off"))
+        result = read(folder, f"border_{stem}.json")
+        data[stem] = {
+            "norm_L": result["norm_L"],
+            "eigenvalue_error_percent": 100 * result["eigenvalue_error_mean"],
+            "area_percent": 100 * (plan_area(Vc, Fc) / plan_area(V, F) - 1)
+        }
+        area = f"{data[stem]['area_percent']:+.1f}".replace("-", "−")
+        show(
+            a,
+            Picture(Vc, Fc, box, 520).painted(wire=1, shade=0.8),
+            title,
+            f"‖C‖$_L$ {data[stem]['norm_L']:.1f}, eigenvalues "
+            f"{data[stem]['eigenvalue_error_percent']:.1f} % off\narea from above {area} %",
+            extent=np.array(box)[[0, 2, 1, 3]])
+        a.add_collection(LineCollection(outline, colors=RED, linewidths=1.3))
+    save(figure, "border")
     return data
 
 
-# --- tables of times -------------------------------------------------------------------------------------------------
+# --- charts ---------------------------------------------------------------------------------------
+
+
+def logarithmic(axes, ticks):
+    axis = {"x": axes.xaxis, "y": axes.yaxis}
+    for letter, at in ticks.items():
+        axis[letter].axes.set(**{letter + "scale": "log"})
+        axis[letter].set_ticks(at)
+        axis[letter].set_major_formatter(
+            FuncFormatter(lambda x, _: "1 M" if x == 1e6 else f"{x:,.10g}"))
+        axis[letter].set_minor_locator(NullLocator())
+        axis[letter].set_minor_formatter(NullFormatter())
+
+
+def legend_below(figure, axes, height):
+    figure.set_layout_engine("constrained", rect=(0, height, 1, 1 - height))
+    figure.legend(*axes.get_legend_handles_labels(),
+                  loc="lower center",
+                  ncol=5,
+                  fontsize=8,
+                  frameon=False,
+                  columnspacing=1.2)
+
+
+# The norms over N, P of closest points: for each mass and line the points (N, |C|_L, |C|_D, error
+# of the eigenvalues in percent).
+def lines_over_n(folder):
+    lines = {}
+    for r in read(folder, "curve.json")["rows"]:
+        own = r["metric_mass"] == r["judged_mass"]
+        if r["simplifier"] == "spectral, best":
+            line = "best"
+        elif r["simplifier"] == "spectral with shape term":
+            line = ("policies"
+                    if own and r["placement"] == "free" and r["relocation"] == "none" else None)
+        else:
+            line = "isotropic" if r["simplifier"] == "isotropic remeshing" else "quadrics"
+        if line is None or r["placement"] == "midpoint":
+            continue
+        norms = r["closest_point_P"]
+        lines.setdefault((r["judged_mass"], line), []).append(
+            (r["vertices"], norms["norm_L"], norms["norm_D"], 100 * r["eigenvalue_error_mean"]))
+        if line == "policies":
+            lines.setdefault((r["judged_mass"], "floor"), []).append(
+                (r["requested_vertices"], r["floor_norm_L"], r["floor_norm_D"], None))
+    return {key: sorted(points) for key, points in lines.items()}
+
+
+def curve(folder):
+    lines = lines_over_n(folder)
+    styles = {
+        "best": ("spectral, best", {"color": BLUE, "lw": 3, "marker": "o"}),
+        "policies": ("spectral, not relocated", {"color": BLUE, "lw": 1, "ls": "--",
+                                                 "marker": "o"}),
+        "quadrics": ("probabilistic plane quadrics", {"color": RED, "lw": 1, "marker": "s"}),
+        "isotropic": ("isotropic remeshing", {"color": ORANGE, "lw": 1, "ls": "-.", "marker": "^"}),
+        "floor": ("ideal elements (estimate)", {"color": GREY, "lw": 1, "ls": ":"})
+    }
+    figure, axes = plt.subplots(2, 2, figsize=(WIDTH, 6), constrained_layout=True)
+    panels = [("averaged", 1, "‖C‖$_L$, averaged mass", [1, 10, 100]),
+              ("averaged", 2, "‖C‖$_D$, averaged mass", [0.3, 1, 3, 10]),
+              ("averaged", 3, "mean eigenvalue error in %, averaged mass", [0.3, 1, 3, 10]),
+              ("lumped", 1, "‖C‖$_L$, lumped mass", [30, 100, 300])]
+    for a, (mass, quantity, title, ticks) in zip(axes.flat, panels):
+        for key, (label, style) in styles.items():
+            points = np.array([(p[0], p[quantity]) for p in lines[mass, key]
+                               if p[quantity]]).reshape(-1, 2)
+            a.plot(*points.T, label=label, **style)
+        a.axvline(3 * K, color="black", lw=1, ls=(0, (1, 3)))
+        logarithmic(a, {"x": [100, 200, 300, 600, 1000, 2000], "y": ticks})
+        a.set(title=title, xlabel="N, vertices; dotted: 3 K")
+    legend_below(figure, axes[0, 0], 0.06)
+    save(figure, "norms_over_n")
+
+
+# Coarse over fine eigenvalues of one mesh in the mass matrices, its own and fitted ones.
+def masses(folder):
+    data = read(folder, "masses.json")
+    fine = {f["mass"]: np.array(f["eigenvalues"]) for f in data["fine"]}
+    modes, means = np.arange(2, K + 1), {}
+    figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 3.6), constrained_layout=True)
+
+    def draw(a, label, mass, fitted, **style):
+        row = next(r for r in data["rows"]
+                   if r["judged_mass"] == mass and ("fitted" in r["simplifier"]) == fitted)
+        means[mass + ("_fitted" if fitted else "")] = 100 * row["eigenvalue_error_mean"]
+        a.plot(modes,
+               100 * (np.array(row["coarse_eigenvalues"])[1:K] / fine[mass][1:K] - 1),
+               label=label,
+               **style)
+
+    averaged = {"color": BLUE, "lw": 2}
+    draw(axes[0], "averaged", "averaged", False, **averaged)
+    draw(axes[0], "lumped", "lumped", False, color=RED, ls="--")
+    axes[0].plot([1, K], [-100 * 2 * math.pi / (4 * math.sqrt(3)) * k / 600 for k in (1, K)],
+                 color=GREY,
+                 ls=":",
+                 label="lumped, even triangles (estimate)")
+    draw(axes[1], "averaged", "averaged", False, **averaged)
+    draw(axes[1], "averaged, fitted", "averaged", True, color=GREEN, ls="-.")
+    draw(axes[1], "lumped, fitted", "lumped", True, color=PINK, ls="--")
+    axes[0].set(title="own operators of the mesh",
+                xlabel="mode k",
+                ylabel="error of eigenvalue k in %",
+                xlim=(0, K))
+    axes[1].set(title="fitted operators, at a larger scale", xlabel="mode k", xlim=(0, K))
+    for a in axes:
+        a.axhline(0, color="black", lw=0.7)
+        a.legend()
+    save(figure, "masses")
+    return means
+
+
+# --- tables of times ------------------------------------------------------------------------------
 
 
 def table_of(csv_name):
@@ -513,63 +463,88 @@ def table_of(csv_name):
         return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
-# `spectral_benchmark --scaling`: shapes of more and more vertices, for several K.
-def scaling(output):
+# `spectral_benchmark --scaling`: shapes of more and more vertices, for several K. The rival was
+# measured again for each K: the mean is drawn.
+def scaling():
     rows = table_of("scaling.csv")
-    numbers = sorted({r["eigenvectors"] for r in rows})
-
-    def curves(column):
-        return [Curve(f"K = {k:g}", [(r["vertices"], r[column]) for r in rows if r["eigenvectors"] == k], i) for i, k in enumerate(numbers)]
-
-    rival = {}  # measured again for each K: the mean
-    for r in rows:
-        rival.setdefault(r["vertices"], []).append(r["us_per_collapse_garland_heckbert"])
-    collapse = curves("us_per_collapse") + [Curve("Garland-Heckbert", [(n, sum(v) / len(v)) for n, v in sorted(rival.items())], 4)]
-    vertices = Axis("vertices", 10000, 1000000, log=True)
-    threads = f"{rows[0]['threads']:g}"
-    body = panel(70, 36, 320, 240, f"microseconds per collapse, {threads} threads", vertices, Axis("", 5, 200, log=True, ticks=[5, 10, 20, 50, 100, 200]),
-                 collapse)
-    body += panel(480, 36, 320, 240, "seconds in all, eigenpairs included", vertices, Axis("", 0.2, 500, log=True, ticks=[1, 10, 100]),
-                  curves("seconds_total"))
-    body += legend(70, 336, 140, collapse)
-    with open(os.path.join(output, "scaling.svg"), "w") as file:
-        file.write(svg(830, 350, body))
+    figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 3.8), constrained_layout=True)
+    styles = [{"ls": "-", "marker": "o"}, {"ls": "--", "marker": "s"}, {"ls": "-.", "marker": "^"},
+              {"ls": ":", "marker": "D"}]
+    for k, colour, style in zip(sorted({r["eigenvectors"]
+                                        for r in rows}), (BLUE, RED, GREEN, PINK), styles):
+        own = [r for r in rows if r["eigenvectors"] == k]
+        for a, column in zip(axes, ("us_per_collapse", "seconds_total")):
+            a.plot([r["vertices"] for r in own], [r[column] for r in own],
+                   color=colour,
+                   label=f"spectral, K = {k:g}",
+                   **style)
+    sizes = sorted({r["vertices"] for r in rows})
+    rival = [
+        np.mean([r["us_per_collapse_garland_heckbert"] for r in rows if r["vertices"] == n])
+        for n in sizes
+    ]
+    removed = [n - next(r["target"] for r in rows if r["vertices"] == n) for n in sizes]
+    for a, values in zip(axes, (rival, np.array(rival) * removed / 1e6)):
+        a.plot(sizes,
+               values,
+               color="black",
+               lw=1,
+               marker="x",
+               label="Garland-Heckbert, plane quadrics")
+        a.set(xlabel="vertices of the input")
+    axes[0].set(title=f"microseconds per collapse, {rows[0]['threads']:g} threads")
+    axes[1].set(title="seconds in all, eigenpairs included")
+    logarithmic(axes[0], {"x": [10000, 100000, 1000000], "y": [5, 10, 20, 50, 100]})
+    logarithmic(axes[1], {"x": [10000, 100000, 1000000], "y": [0.1, 1, 10, 100]})
+    legend_below(figure, axes[0], 0.09)
+    save(figure, "scaling")
 
 
 # `spectral_benchmark --scaling-shape disc`: fans of more and more triangles.
-def degree(output):
+def degree():
     rows = table_of("degree.csv")
-
-    def curve(words, column, style):
-        return Curve(words, [(r["vertices"] - 1, r[column]) for r in rows], style)
-
-    axis = Axis("neighbours of the vertex", 8, 15000, log=True)
-    curves = [curve("spectral, best", "us_per_collapse", 0), curve("Garland-Heckbert, plane quadrics", "us_per_collapse_garland_heckbert", 1)]
-    body = panel(70, 36, 320, 240, "microseconds per collapse", axis, Axis("", 5, 500000, log=True), curves)
-    body += panel(480, 36, 320, 240, "seconds in all, eigenpairs included", axis, Axis("", 0.001, 10, log=True),
-                  [curve("", "seconds_total", 0)])
-    body += legend(70, 336, 160, curves)
-    with open(os.path.join(output, "degree.svg"), "w") as file:
-        file.write(svg(830, 350, body))
+    neighbours = [r["vertices"] - 1 for r in rows]
+    figure, axes = plt.subplots(figsize=(WIDTH * 0.6, 3.4), constrained_layout=True)
+    axes.plot(neighbours, [r["us_per_collapse"] for r in rows],
+              color=BLUE,
+              lw=2.5,
+              marker="o",
+              label="spectral, best")
+    axes.plot(neighbours, [r["us_per_collapse_garland_heckbert"] for r in rows],
+              color="black",
+              lw=1,
+              ls="--",
+              marker="x",
+              label="Garland-Heckbert, plane quadrics")
+    logarithmic(axes, {"x": [10, 100, 1000, 10000], "y": [10, 100, 1000, 10000, 100000]})
+    axes.set(title="microseconds per collapse", xlabel="neighbours of the vertex")
+    axes.legend()
+    save(figure, "degree")
 
 
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit("usage: make_figures.py BUILD [FOLDER]")
-    folder = os.path.abspath(sys.argv[2] if len(sys.argv) == 3 else os.path.join(sys.argv[1], "figures"))
+    folder = os.path.abspath(sys.argv[2] if len(sys.argv) ==
+                             3 else os.path.join(sys.argv[1], "figures"))
     run_all(sys.argv[1], folder)
-    output = os.path.join(HERE, "fig")
-    os.makedirs(output, exist_ok=True)
-    functional_maps(folder, output)
-    teaser(folder, output)
-    sizes(folder, output)
-    modes(folder, output)
-    curve(folder, output)
-    scaling(output)
-    degree(output)
-    data = {"commit": commit(),
-            "norms_over_n": [{"mass": mass, "line": line, "points": points} for (mass, line), points in lines_over_n(folder).items()],
-            "steps": steps(folder, output), "masses": masses(folder, output), "relocation": relocation(folder, output), "border": borders(folder, output)}
+    warnings.simplefilter("ignore")  # K = 100 modes on 150 vertices
+    ss = package(sys.argv[1])
+    shape = Shape(ss, folder)
+    teaser(shape)
+    sizes(shape)
+    modes(shape)
+    functional_maps(shape)
+    curve(folder)
+    scaling()
+    degree()
+    data = {
+        "commit": commit(),
+        "norms_over_n": [{"mass": mass, "line": line, "points": points}
+                         for (mass, line), points in lines_over_n(folder).items()],
+        "steps": steps(shape), "operators": operators(shape), "masses": masses(folder),
+        "relocation": relocation(shape), "border": borders(ss, folder)
+    }
     with open(os.path.join(HERE, "figures.json"), "w") as file:
         json.dump(data, file, indent=1)
         file.write("\n")
