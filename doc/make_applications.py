@@ -129,7 +129,7 @@ def run_all(build, folder):
     make_shapes(build, folder)
     for name, Y, truth in PAIRS:
         run(build, folder, f"{report_name(name)}.out", "shape_matching", "stand.off", Y, "--operators", "mesh",
-            "--proxy", "spectral,garland_heckbert", "--ground-truth", truth)
+            "--proxy", "spectral,garland_heckbert", "--ground-truth", truth, "--json", f"{report_name(name)}.json")
     run(build, folder, "distances.out", "spectral_distances_on_proxy", "stand.off", "--operators", "mesh",
         "--vertices", "1000")
     # Runs again with fitted operators, which the programs have as their default.

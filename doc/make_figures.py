@@ -441,8 +441,8 @@ def masses(folder):
                  ls=":",
                  label="lumped, even triangles (estimate)")
     draw(axes[1], "averaged", "averaged", False, **averaged)
-    draw(axes[1], "averaged, fitted", "averaged", True, color=GREEN, ls="-.")
-    draw(axes[1], "lumped, fitted", "lumped", True, color=PINK, ls="--")
+    draw(axes[1], "averaged, fitted", "averaged", True, color="black", lw=1.1)
+    draw(axes[1], "lumped, fitted", "lumped", True, color=RED, ls="--")
     axes[0].set(title="own operators of the mesh",
                 xlabel="mode k",
                 ylabel="error of eigenvalue k in %",
