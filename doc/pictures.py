@@ -20,7 +20,6 @@ from PIL import Image
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
 
 FIGURES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "fig")
 WIDTH = 8.65  # inches, 830 pixels of a page
