@@ -57,7 +57,7 @@ completes()
 }
 completes "spectral_simplify in.off --max" "--max-error"
 completes "spectral_simplify in.off --fit-" "--fit-operators --fit-mass --fit-rings"
-completes "spectral_simplify in.off --mass " "lumped averaged voronoi"
+completes "spectral_simplify in.off --mass " "lumped averaged voronoi consistent"
 completes "shape_matching X Y --operators f" "fitted"
 completes "spectral_simplify in.off --restriction " ""
 completes "spectral_simplify in.off --vertices " ""

@@ -617,7 +617,7 @@ class Wrong_input(Shapes):
                 (ValueError, "n is 1000000000000000000000000, it must be", dict(n=10 ** 24)),
                 (ValueError, "k is 2562, it must be an integer from 1 to 2561", dict(k=2562)),
                 (ValueError, "preset is 'good', it must be 'best', 'fast' or 'paper'", dict(preset="good")),
-                (ValueError, "mass is 'full', it must be None, 'lumped', 'averaged' or 'voronoi'", dict(mass="full")),
+                (ValueError, "mass is 'full', it must be None, 'lumped', 'averaged', 'voronoi' or 'consistent'", dict(mass="full")),
                 (TypeError, "placement is 3, it must be None, 'on_edge', 'midpoint' or 'free'", dict(placement=3)),
                 (ValueError, "placement is 'edge'", dict(placement="edge")),
                 (ValueError, "shape is -1, it must be a finite number from 0", dict(shape=-1)),

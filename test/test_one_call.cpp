@@ -444,6 +444,34 @@ TEST_CASE("Relocation leaves vertices to keep where they are, whichever handle t
   CHECK(other_handles > 0);
 }
 
+TEST_CASE(
+    "A run in the consistent mass keeps the eigenvalues of that mass better than any other run")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
+  const auto error_of = [&](const SG::Mass mass) {
+    Spectral_edge_collapse_options options = Spectral_edge_collapse_options::best();
+    options.number_of_eigenvectors = 20;
+    options.mass = mass;
+    Mesh mesh = make_mesh(input);
+    const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
+    CHECK(result.warnings.size() == (mass == SG::Mass::averaged ? 0 : 1));
+    for(const std::string& warning : result.warnings)
+      CHECK_THAT(warning, ContainsSubstring(SG::mass_name(mass)));
+    const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+    Eigen::VectorXd values[2];
+    for(const bool is_coarse : {false, true}) {
+      const shapes::Matrices& m = is_coarse ? coarse : input;
+      const auto op = SG::laplace_operator(m.V, m.T, SG::Mass::consistent);
+      CHECK(op.theta == 1);
+      values[is_coarse] = op.mass.sum() * SG::eigenpairs(op, 20).values.tail(19);
+    }
+    return (values[1].cwiseQuotient(values[0]).array() - 1).abs().mean();
+  };
+  const double consistent = error_of(SG::Mass::consistent);
+  CHECK(consistent < error_of(SG::Mass::averaged));
+  CHECK(consistent < error_of(SG::Mass::lumped));
+}
+
 TEST_CASE("E is that of the P that is returned where a vertex to keep has the position of another")
 {
   // Two spheres that touch in a vertex: the closest point to that of the second is on the first.

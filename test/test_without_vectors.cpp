@@ -7,7 +7,7 @@
 #define CGAL_SPECTRAL_NO_VECTOR_EXTENSION
 
 // Compiled here and not taken from the library, which has vectors.
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_collapse_core_impl.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/compile_loop.h>
 
 #include "catch.h"
 #include "core_helpers.h"

@@ -35,6 +35,12 @@ inline constexpr Word<CGAL::Spectral_geometry::Relocation_options::Signals> relo
     {CGAL::Spectral_geometry::Relocation_options::Signals::carried_and_sampled,
      "carried_and_sampled"}};
 
+inline constexpr Word<CGAL::Spectral_geometry::Mass> mass_words[] = {
+    {CGAL::Spectral_geometry::Mass::lumped, "lumped"},
+    {CGAL::Spectral_geometry::Mass::averaged, "averaged"},
+    {CGAL::Spectral_geometry::Mass::voronoi, "voronoi"},
+    {CGAL::Spectral_geometry::Mass::consistent, "consistent"}};
+
 inline constexpr Word<CGAL::Spectral_geometry::Boundary_condition> boundary_words[] = {
     {CGAL::Spectral_geometry::Boundary_condition::neumann, "neumann"},
     {CGAL::Spectral_geometry::Boundary_condition::dirichlet, "dirichlet"}};
@@ -89,7 +95,7 @@ struct Option_words
   std::size_t vertices = 0; // the target, for fast
   // Empty: as the preset has it.
   std::string placement;          // on_edge, midpoint, free
-  std::string mass;               // lumped, averaged, voronoi
+  std::string mass;               // lumped, averaged, voronoi, consistent
   std::string self_intersections; // allow, refuse
   std::string relocate;           // none, sampled, carried, carried_and_sampled
   std::optional<double> shape;
@@ -125,7 +131,6 @@ inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
 options_of(const Option_words& words)
 {
   namespace SMS = CGAL::Surface_mesh_simplification;
-  namespace SG = CGAL::Spectral_geometry;
   using Options = SMS::Spectral_edge_collapse_options;
   Options options = words.preset == "paper"  ? Options::paper()
                     : words.preset == "fast" ? Options::fast(words.vertices)
@@ -133,9 +138,7 @@ options_of(const Option_words& words)
   if(!words.placement.empty())
     options.placement = value_of(placement_words, words.placement);
   if(!words.mass.empty())
-    options.mass = words.mass == "averaged"  ? SG::Mass::averaged
-                   : words.mass == "voronoi" ? SG::Mass::voronoi
-                                             : SG::Mass::lumped;
+    options.mass = value_of(mass_words, words.mass);
   if(words.shape)
     options.shape = *words.shape;
   if(words.quadrics_above)

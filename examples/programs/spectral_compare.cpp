@@ -166,7 +166,7 @@ private:
         static_cast<unsigned>(m_arguments.seed)); // its modulo is the same everywhere
     for(long s = 0; s < m_arguments.sources; ++s)
       sources.push_back(static_cast<Eigen::Index>(random() % static_cast<unsigned>(n)));
-    for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
+    for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged, SG::Mass::consistent}) {
       if(m_arguments.masses.find(SG::mass_name(mass)) == std::string::npos)
         continue;
       CGAL::Real_timer timer;

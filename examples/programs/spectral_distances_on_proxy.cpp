@@ -364,7 +364,7 @@ Command_line described(Distance_arguments& a)
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K", "of both meshes; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "paper"}, "how to simplify");
-  line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
+  line.choice("mass", a.mass, words_of(mass_words),
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
               "of the simplified mesh: fitted to the spectrum of MESH, or its own");

@@ -77,9 +77,9 @@ inline Command_line described(Arguments& a)
 
   line.advanced_group("Each part of a preset (advanced)");
   line.choice(
-      "mass", a.mass, {"lumped", "averaged", "voronoi"},
+      "mass", a.mass, words_of(mass_words),
       "the mass matrix: lumped (paper), the mean of lumped and consistent (best), which keeps the "
-      "eigenvalues of coarse meshes much closer, or lumped by mixed Voronoi areas");
+      "eigenvalues of coarse meshes much closer, lumped by mixed Voronoi areas, or consistent");
   line.choice("placement", a.placement, words_of(placement_words),
               "where the vertex goes that replaces an edge (best: free, paper: on_edge)");
   line.option("shape", a.shape, "G",

@@ -158,13 +158,7 @@ public:
     return word;
   }
 
-  SG::Mass mass() const
-  {
-    const std::string name = word("mass", {"lumped", "averaged", "voronoi"});
-    return name == "lumped"    ? SG::Mass::lumped
-           : name == "voronoi" ? SG::Mass::voronoi
-                               : SG::Mass::averaged;
-  }
+  SG::Mass mass() const { return value_of(mass_words, word("mass", words_of(mass_words))); }
 
   SG::Boundary_condition boundary() const
   {

@@ -138,7 +138,7 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
   words.preset = a.word("preset", {"best", "fast", "paper"});
   words.vertices = std::size_t(target);
   words.placement = a.word("placement", words_of(placement_words), true);
-  words.mass = a.word("mass", {"lumped", "averaged", "voronoi"}, true);
+  words.mass = a.word("mass", words_of(mass_words), true);
   if(a.has("shape"))
     words.shape = a.number("shape", 0);
   if(a.has("quadrics_above"))

@@ -116,14 +116,13 @@ inline const Pairs& given_pairs(const Arguments& a, const Index n, const SG::Mas
 {
   const Pairs& given = pairs_of(a, "eigenpairs");
   check_rows(given, "eigenpairs", n, "V");
+  const std::vector<std::string> known = words_of(mass_words);
   if(given.mass != SG::mass_name(mass))
     refuse("eigenpairs are of the " + given.mass + " mass, but the " + SG::mass_name(mass) +
            " one is wanted: " +
-           (SG::mass_name(SG::Mass::lumped) == given.mass ||
-                    SG::mass_name(SG::Mass::averaged) == given.mass ||
-                    SG::mass_name(SG::Mass::voronoi) == given.mass
-                ? "pass mass='" + given.mass + "'."
-                : "compute them in that mass."));
+           (std::count(known.begin(), known.end(), given.mass) == 0
+                ? "compute them in that mass."
+                : "pass mass='" + given.mass + "'."));
   if(given.pairs->size() < k)
     refuse("eigenpairs are " + to_string(given.pairs->size()) + ", but k is " + to_string(k) +
            ": pass k=" + to_string(given.pairs->size()) + ", or compute more.");
@@ -146,28 +145,18 @@ inline Pairs eigenpairs(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
   const Index k = a.integer("k", 1, mesh.V.rows());
-  const std::string mass = a.word("mass", {"lumped", "averaged", "consistent", "voronoi"});
   SMS::Spectral_options of;
-  if(mass != "consistent")
-    of.mass = a.mass();
+  of.mass = a.mass();
   of.coefficients = a.coefficients(mesh.V.rows());
   of.boundary = a.boundary();
   if(a.intrinsic_delaunay())
     of.operator_of_eigenpairs = intrinsic_operator(of.mass);
-  if(of.operator_of_eigenpairs && mass == "consistent")
-    refuse("intrinsic_delaunay has no consistent mass: pass another mass, or leave it out.");
   Watch watch(a);
   SG::Eigenpairs_options options = solver_options(a, watch);
   return watch.run([&] {
-    SG::Local_operator consistent(1.);
-    consistent.coefficients = of.coefficients;
-    consistent.boundary = of.boundary;
-    auto op = std::make_shared<SG::Laplace_operator>(
-        mass == "consistent"
-            ? named("V, F", [&] { return SG::laplace_operator(mesh.V, mesh.T, consistent); })
-            : operator_of(mesh, of, "V, F"));
+    auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, of, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
-    return Pairs{std::move(pairs), std::move(op), mass};
+    return Pairs{std::move(pairs), std::move(op), SG::mass_name(of.mass)};
   });
 }
 

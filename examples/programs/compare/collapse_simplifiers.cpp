@@ -108,26 +108,26 @@ std::vector<Simplifier> spectral_simplifiers(const Mesh& fine, const Basis& basi
     options.placement = placement;
     return options;
   };
-  const bool averaged = basis.mass == SG::Mass::averaged;
+  const bool lumped = basis.mass == SG::Mass::lumped;
   const Options paper = Options::paper();
   Options best = Options::best();
-  if(averaged) {
+  if(!lumped) {
     add("spectral, best", best);
     result.back().fits_operators = true;
   }
-  if(averaged && !CGAL::is_closed(fine)) {
+  if(!lumped && !CGAL::is_closed(fine)) {
     Options border = best;
     border.preserve_border = true;
     add("spectral, best, border preserved", border);
   }
-  if(averaged) {
+  if(!lumped) {
     best.relocation.signals = Signals::carried_and_sampled;
     add("spectral with shape term", best);
   }
   best.relocate = false;
   add("spectral with shape term", best);
   add("spectral with shape term", with(best, Placement::on_edge));
-  add(averaged ? "spectral" : "spectral, paper", paper);
+  add(lumped ? "spectral, paper" : "spectral", paper);
   add("spectral", with(paper, Placement::midpoint));
   add("spectral", with(paper, Placement::free));
   return result;

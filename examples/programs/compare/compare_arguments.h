@@ -59,7 +59,7 @@ inline Command_line described(Compare_arguments& a)
   line.group("Quality");
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep and to judge by, the constant one included");
-  line.choice("judge", a.masses, {"lumped,averaged", "lumped", "averaged"},
+  line.choice("judge", a.masses, {"lumped,averaged", "lumped", "averaged", "consistent"},
               "the masses to judge in, and of the spectral metric");
   line.option("sources", a.sources, "S", "how many random vertices distances are measured from");
   line.option("seed", a.seed, "X", "of these vertices");

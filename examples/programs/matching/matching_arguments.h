@@ -9,6 +9,7 @@
 #include "../io/program.h"
 #include "../io/text_lines.h"
 #include "../io/vertex_target.h"
+#include "../option_words.h"
 #include "matcher.h"
 
 #include <algorithm>
@@ -138,7 +139,7 @@ inline Command_line described(Matching_arguments& a)
       "proxy-meshes", a.proxy_meshes, "NAME=X_PROXY,Y_PROXY",
       "compare also over these coarse meshes of X and Y, whoever made them, restricted to closest "
       "points; may be given several times. Without --proxy these alone");
-  line.choice("mass", a.mass, {"lumped", "averaged", "voronoi"},
+  line.choice("mass", a.mass, words_of(mass_words),
               "the mass matrix (best: averaged, paper: lumped)");
   line.choice("operators", a.operators, {"fitted", "mesh"},
               "of the simplified meshes: fitted to the spectra of X and Y, or their own");

@@ -13,13 +13,19 @@ macro nobody needs this file.
 `<CGAL/Surface_mesh_simplification/compile_spectral.h>` has this and the collapse loop.
 */
 
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_interpolation_impl.h>
-#include <CGAL/Spectral_geometry/internal/surface/cotangent_laplacian_impl.h>
-#include <CGAL/Spectral_geometry/internal/numerics/eigenpairs_impl.h>
-#include <CGAL/Spectral_geometry/internal/numerics/filtered_signals_impl.h>
-#include <CGAL/Spectral_geometry/internal/numerics/functional_map_impl.h>
-#include <CGAL/Spectral_geometry/internal/surface/operator_coefficients_impl.h>
-#include <CGAL/Spectral_geometry/internal/relocation/relocation_impl.h>
-#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect_impl.h>
+#if defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) && \
+    defined(CGAL_SPECTRAL_GEOMETRY_INTERNAL_SEPARATE_COMPILATION_H)
+#error "Include <CGAL/Spectral_geometry/compile.h> before every other header of the package."
+#endif
+#define CGAL_SPECTRAL_COMPILE_GEOMETRY
+
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/filtered_signals.h>
+#include <CGAL/Spectral_geometry/functional_map.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
+#include <CGAL/Spectral_geometry/operator_coefficients.h>
+#include <CGAL/Spectral_geometry/relocation.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

@@ -76,8 +76,346 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
 } // namespace internal
 } // namespace CGAL::Spectral_geometry
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/numerics/eigenpairs_impl.h>
-#endif
+#if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
+
+#include <CGAL/Spectral_geometry/internal/numerics/Block_lanczos.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Spectrum_slices.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace CGAL::Spectral_geometry {
+namespace internal {
+
+inline Eigenpairs dense_eigenpairs(const Eigen_problem& problem, const Eigen::Index K)
+{
+  // In units of 1/shift: the solver compares with absolute thresholds.
+  const double s = problem.shift();
+  const Eigen::MatrixXd L = problem.L(), B = Eigen::MatrixXd(problem.B()) * s;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(L, B);
+  if(solver.info() != Eigen::Success)
+    throw std::runtime_error("Eigenpairs: the dense eigensolver did not converge.");
+  Eigenpairs result;
+  result.values = s * solver.eigenvalues().head(K);
+  result.vectors = std::sqrt(s) * solver.eigenvectors().leftCols(K);
+  result.solver = "dense";
+  result.complete = true;
+  return result;
+}
+
+/// Pairs of neighbouring numbers.
+struct Pair_range
+{
+  Eigen::Index first = 0, count = 0;
+};
+
+/// Sets the residuals of a range, cuts what rounding has made negative, and returns the range of
+/// those pairs that have not the accuracy that they were to have, and that doubles can have.
+inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs_options& options,
+                                  const Pair_range range, Eigenpairs& pairs)
+{
+  const double tolerance = 10. * options.tolerance;
+  auto residuals = pairs.residuals.segment(range.first, range.count);
+  residuals = problem.residuals(pairs, range.first, range.count);
+  if(-pairs.values(0) > 10. * (std::max)(options.tolerance, pairs.residuals(0)) * problem.scale())
+    refuse_indefinite(problem, options.threads);
+  const Eigen::Index negative =
+      (pairs.values.segment(range.first, range.count).array() < 0.).count();
+  pairs.values = pairs.values.cwiseMax(0.).eval();
+  residuals.head(negative) = problem.residuals(pairs, range.first, negative);
+  Pair_range failed;
+  for(Eigen::Index k = range.first; k < range.first + range.count; ++k)
+    if(!(pairs.residuals(k) <= tolerance ||
+         pairs.residuals(k) <= 100. * problem.rounding(pairs, k))) {
+      failed.first = failed.count == 0 ? k : failed.first;
+      failed.count = k + 1 - failed.first;
+    }
+  return failed;
+}
+
+/// One step of subspace iteration with the factor of L + s B, s the shift of the problem, which
+/// takes off what rounding has left of the highest modes: L enlarges that. What is not in the range
+/// stays.
+inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, const int threads,
+                   const Pair_range range, Eigenpairs& pairs)
+{
+  const double s = problem.shift();
+  auto X = pairs.vectors.middleCols(range.first, range.count);
+  const std::vector<int>& order = factor.order();
+  Panel panel(problem.size());
+  for(Eigen::Index k = 0; k < range.count; k += panel_width) {
+    problem.report(0.9);
+    const Eigen::Index columns = (std::min)(range.count - k, Eigen::Index(panel_width));
+    const Eigen::MatrixXd b = problem.B() * X.middleCols(k, columns);
+    for(std::size_t i = 0; i < order.size(); ++i)
+      for(Eigen::Index c = 0; c < panel_width; ++c)
+        panel.row(Eigen::Index(i))[c] = c < columns ? b(order[i], c) : 0.;
+    factor.solve(panel, panel, threads);
+    for(std::size_t i = 0; i < order.size(); ++i)
+      for(Eigen::Index c = 0; c < columns; ++c)
+        X(order[i], k + c) =
+            (pairs.values(range.first + k + c) + s) * panel.row(Eigen::Index(i))[c];
+  }
+  // What there is of lower modes has grown, that of higher ones has not.
+  if(range.first > 0) {
+    const auto lower = pairs.vectors.leftCols(range.first);
+    const Eigen::MatrixXd BX = problem.B() * X;
+    X -= lower * (lower.transpose() * BX);
+  }
+  const Eigen::MatrixXd Y = X, G = s * (Y.transpose() * (problem.B() * Y)),
+                        H = Y.transpose() * (problem.L() * Y);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(H, G);
+  if(solver.info() != Eigen::Success)
+    throw Not_converged("the projected eigenproblem has no solution");
+  pairs.values.segment(range.first, range.count) = s * solver.eigenvalues();
+  X = std::sqrt(s) * (Y * solver.eigenvectors());
+  for(Eigen::Index k = 1; k < pairs.size(); ++k) // in order, where equal ones are off by a rounding
+    pairs.values(k) = (std::max)(pairs.values(k), pairs.values(k - 1));
+}
+
+/// Whether pairs have their accuracy, if need be after some steps of `refine_range`. Only within it
+/// they are complete.
+template <class Refine>
+bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
+                    Eigenpairs& pairs, const Refine& refine_range)
+{
+  pairs.residuals.setZero(pairs.size());
+  Pair_range failed = check_residuals(problem, options, {0, pairs.size()}, pairs);
+  for(int sweep = 0; sweep < 2 && failed.count > 0; ++sweep) {
+    refine_range(failed, pairs);
+    failed = check_residuals(problem, options, failed, pairs);
+  }
+  pairs.complete = pairs.complete && pairs.residuals.maxCoeff() <= 10. * options.tolerance;
+  return failed.count == 0;
+}
+
+/// The first K pairs of one part.
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem,
+                                                       const Eigen::Index K,
+                                                       const Eigenpairs_options& options)
+{
+  Eigenpairs result;
+  std::string reason;
+  const auto left = [&] {
+    return "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
+  };
+  const bool dense = is_dense(problem.size(), K, options.method);
+  const auto solved_by = [&](auto solver) {
+    try {
+      result = solver.compute();
+      if(have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
+           refine(problem, solver.factor_below(), options.threads, range, pairs);
+         }))
+        return true;
+      reason = left();
+    } catch(const Not_converged& error) {
+      reason = error.what();
+    }
+    return false;
+  };
+  if((is_sliced(problem.size(), K, options) && solved_by(Spectrum_slices(problem, K, options))) ||
+     (!dense && solved_by(Block_lanczos(problem, K, options))))
+    return result;
+  if(dense || (options.method == Eigenpairs_method::automatic && problem.size() <= largest_dense)) {
+    result = dense_eigenpairs(problem, K);
+    have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
+      try {
+        Supernodal_factor factor(problem.shifted(-problem.shift()), options.threads);
+        refine(problem, factor, options.threads, range, pairs);
+      } catch(const Not_positive_definite&) { // sizes are so graded that there is no factor
+      }
+    });
+    return result; // incomplete where the tolerance is not met: no solver does better in doubles
+  }
+  throw std::runtime_error("Eigenpairs: the solver did not converge to the tolerance " +
+                           in_digits(options.tolerance) + " for " + std::to_string(K) +
+                           " pairs of " + std::to_string(problem.size()) + " vertices: " + reason +
+                           "; raise the tolerance or the number of iterations.");
+}
+
+/// Vertices that an entry of L or B joins, each part in their order, without those at which
+/// functions vanish.
+inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
+{
+  const Eigen::Index n = op.L.rows();
+  std::vector<char> vanishes(std::size_t(n), 0);
+  for(const int v : op.vanishing_vertices)
+    vanishes[std::size_t(v)] = 1;
+  const std::vector<Eigen::Index> component = connected_components(n, [&](const auto& join) {
+    for(const Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
+      for(Eigen::Index j = 0; j < n; ++j)
+        for(Eigen::SparseMatrix<double>::InnerIterator entry(*matrix, j); entry; ++entry)
+          if(entry.row() < j && entry.value() != 0.)
+            join(j, entry.row());
+  });
+  std::vector<std::vector<int>> result;
+  for(Eigen::Index v = 0; v < n; ++v) {
+    const std::size_t c = std::size_t(component[std::size_t(v)]);
+    result.resize((std::max)(result.size(), c + 1));
+    if(!vanishes[std::size_t(v)])
+      result[c].push_back(int(v));
+  }
+  result.erase(
+      std::remove_if(result.begin(), result.end(), [](const auto& part) { return part.empty(); }),
+      result.end());
+  return result;
+}
+
+inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::vector<int>& part)
+{
+  using Pick = Eigen::SparseMatrix<double>;
+  Pick pick(op.L.rows(), Eigen::Index(part.size()));
+  pick.reserve(Eigen::VectorXi::Ones(pick.cols()));
+  for(std::size_t i = 0; i < part.size(); ++i)
+    pick.insert(part[i], Eigen::Index(i)) = 1.;
+  pick.makeCompressed();
+  Laplace_operator result;
+  result.L = Pick(pick.transpose()) * op.L * pick;
+  result.B = Pick(pick.transpose()) * op.B * pick;
+  result.mass = pick.transpose() * op.mass;
+  return result;
+}
+
+/// The pairs of several parts are those of each, in the order of their values: as many as there are
+/// like parts are copies of each other, and a Krylov space of the whole would find eight at a time.
+inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
+                                 const std::vector<std::vector<int>>& parts, const Eigen::Index K,
+                                 const Eigenpairs_options& options)
+{
+  struct Part_pair
+  {
+    double value;
+    std::size_t part;
+    Eigen::Index k;
+    bool operator<(const Part_pair& other) const { return value < other.value; }
+  };
+  std::vector<Eigenpairs> pairs(parts.size());
+  std::vector<Part_pair> order;
+  std::size_t total = 0;
+  for(const std::vector<int>& part : parts)
+    total += part.size();
+  double bound = std::numeric_limits<double>::infinity(); // no wanted value is larger
+  for(bool enough = false; !enough;) {
+    enough = true;
+    std::size_t done = 0;
+    for(std::size_t p = 0; p < parts.size(); ++p) {
+      const Eigen::Index size = Eigen::Index(parts[p].size()), known = pairs[p].size();
+      done += parts[p].size();
+      if(known == (std::min)(size, K) || (known > 0 && pairs[p].values(known - 1) >= bound))
+        continue;
+      enough = false;
+      // As many as a part of this size is likely to have (Weyl), with some to spare.
+      const double share = double(K) * double(size) / double(total);
+      const Eigen::Index wanted = known > 0 ? known + known / 2 + 8 : Eigen::Index(1.2 * share) + 8;
+      const Laplace_operator op = operator_of_part(problem.op(), parts[p]);
+      const Eigen_problem part(op, problem.scale(), [&](const double fraction) {
+        problem.report((double(done) - (1. - fraction) * double(size)) / double(total));
+        return true;
+      });
+      pairs[p] = pairs_of_part(part, (std::min)({wanted, size, K}), options);
+    }
+    order.clear();
+    for(std::size_t p = 0; p < parts.size(); ++p)
+      for(Eigen::Index k = 0; k < pairs[p].size(); ++k)
+        order.push_back({pairs[p].values(k), p, k});
+    std::stable_sort(order.begin(), order.end());
+    if(Eigen::Index(order.size()) >= K)
+      bound = order[std::size_t(K - 1)].value;
+  }
+  Eigenpairs result{Eigen::VectorXd(K), Eigen::MatrixXd::Zero(problem.size(), K),
+                    Eigen::VectorXd(K), "dense", true};
+  for(const Eigenpairs& part : pairs) {
+    if(part.solver == "block")
+      result.solver = part.solver;
+    result.complete = result.complete && part.complete;
+  }
+  for(Eigen::Index k = 0; k < K; ++k) {
+    const Part_pair& from = order[std::size_t(k)];
+    result.values(k) = from.value;
+    result.residuals(k) = pairs[from.part].residuals(from.k);
+    for(std::size_t i = 0; i < parts[from.part].size(); ++i)
+      result.vectors(parts[from.part][i], k) = pairs[from.part].vectors(Eigen::Index(i), from.k);
+  }
+  return result;
+}
+
+/// A sum of magnitudes beside the diagonal that is nowhere larger shows it (Gershgorin), as in the
+/// masses of meshes; otherwise a factorisation.
+inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
+{
+  const Eigen::VectorXd diagonal = problem.B().diagonal();
+  const Eigen::VectorXd sums = problem.B().cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
+  if(!((2. * diagonal - sums).array() > 0.).all())
+    require(number_of_negative_eigenvalues(problem.B(), threads) == 0,
+            "Eigenpairs: B is not positive definite; pass a mass matrix.");
+}
+
+inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
+{
+  require(matrix.rows() == matrix.cols() && matrix.rows() != 0, "Eigenpairs: ", name, " is ",
+          size_name(matrix), "; pass a square matrix.");
+  const Eigen::SparseMatrix<double> transposed = matrix.transpose();
+  const Eigen::SparseMatrix<double> difference = matrix - transposed;
+  for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
+    const double size = matrix.col(j).norm();
+    require(std::isfinite(size) && difference.col(j).norm() <= 1e-10 * size, "Eigenpairs: ", name,
+            " is not symmetric and finite in row ", j, " (counted from 0); correct it.");
+  }
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
+                                                    const Eigenpairs_options& options)
+{
+  const internal::Eigen_problem problem(op, options.progress);
+  problem.check(K);
+  internal::check_eigenpairs_options(options, K);
+  internal::check_mass_matrix(problem, options.threads);
+
+  const Eigen::Index zeros = number_of_zero_eigenvalues(op);
+  problem.report(0.);
+  const std::vector<std::vector<int>> parts = internal::parts_of(op);
+  Eigenpairs result = Eigen::Index(parts[0].size()) == problem.size()
+                          ? internal::pairs_of_part(problem, K, options)
+                          : internal::pairs_of_parts(problem, parts, K, options);
+  internal::fix_signs(result.vectors);
+  result.zeros = zeros;
+  problem.report(1.);
+  return result;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
+                                                    const Eigen::SparseMatrix<double>& B,
+                                                    Eigen::Index K,
+                                                    const Eigenpairs_options& options)
+{
+  internal::check_pencil(L, "L");
+  internal::check_pencil(B, "B");
+  Laplace_operator op;
+  op.L = L;
+  op.B = B;
+  op.L.makeCompressed();
+  op.B.makeCompressed();
+  op.mass = B * Eigen::VectorXd::Ones(B.cols());
+  for(Eigen::Index v = 0; v < op.mass.size(); ++v)
+    internal::require(op.mass[v] > 0., "Eigenpairs: the sum of row ", v,
+                      " (counted from 0) of B is not positive; pass a mass matrix.");
+  return eigenpairs(op, K, options);
+}
+
+} // namespace CGAL::Spectral_geometry
+
+#endif // definitions
 
 #endif // CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H

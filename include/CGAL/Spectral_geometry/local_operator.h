@@ -15,25 +15,28 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /// \brief the mass matrix of linear finite elements: lumped by barycentric or by mixed Voronoi
-/// areas, or the mean of lumped (barycentric) and consistent.
+/// areas, consistent, or the mean of lumped (barycentric) and consistent.
 ///
 /// `averaged` cancels the leading discretisation error of the eigenvalues on equilateral triangles
 /// and largely reduces it elsewhere (blending from dispersion analysis: Marfurt 1984, Ainsworth and
 /// Wajid 2010). `voronoi` gives each corner of a triangle the part that is nearest to it; where the
 /// triangle is obtuse half of it to that corner, a quarter to the others (Meyer et al. 2003).
-enum class Mass { lumped, averaged, voronoi };
+enum class Mass { lumped, averaged, voronoi, consistent };
 
 /// \brief the weight \f$\theta\f$ of the consistent mass in \f$B = (1-\theta) M_{lumped} + \theta
-/// M_{consistent}\f$: 1/2 for `Mass::averaged`, otherwise 0.
+/// M_{consistent}\f$: 1 for `Mass::consistent`, 1/2 for `Mass::averaged`, otherwise 0.
 inline double mass_blend(Mass mass)
 {
-  return mass == Mass::averaged ? 0.5 : 0.;
+  return mass == Mass::consistent ? 1. : mass == Mass::averaged ? 0.5 : 0.;
 }
 
-/// \brief `"lumped"`, `"averaged"` or `"voronoi"`.
+/// \brief `"lumped"`, `"averaged"`, `"voronoi"` or `"consistent"`.
 inline const char* mass_name(Mass mass)
 {
-  return mass == Mass::averaged ? "averaged" : mass == Mass::voronoi ? "voronoi" : "lumped";
+  return mass == Mass::averaged  ? "averaged"
+         : mass == Mass::voronoi ? "voronoi"
+         : mass == Mass::lumped  ? "lumped"
+                                 : "consistent";
 }
 
 /// \brief the coefficients of \f$-\mathrm{div}(D \nabla \phi) = \lambda \rho \phi\f$ at the

@@ -75,8 +75,423 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 
 } // namespace CGAL::Spectral_geometry
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Spectral_geometry/internal/relocation/relocation_impl.h>
-#endif
+#if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
+
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
+
+#include <CGAL/Real_timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
+
+namespace CGAL::Spectral_geometry {
+namespace internal {
+
+/// One relocation from the set-up of its objective to the repair at its end.
+class Relocation
+{
+public:
+  using Positions = Operator_geometry::Positions;
+
+  Relocation(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+             const Eigen::SparseMatrix<double>& P, const Mesh_matrices& fine,
+             const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const Local_operator& op,
+             const std::vector<bool>& fixed, const Relocation_options& options,
+             const Relocation_limits& limits)
+    : m_options(options)
+    , m_limits(limits)
+    , m_given(V)
+    , m_T(T)
+    , m_fine(fine)
+    , m_P(P)
+    , m_F(F)
+    , m_Z(Z)
+    , m_op(op)
+    , m_border(fine)
+    , m_coarse{V, T}
+    , m_regions(m_coarse, fine, P)
+    , m_start(on_border(fixed))
+    , m_guards(m_start, T, Positions(P * fine.V), limits, options.threads)
+    , m_size(T, m_start, fine, limits.size_tolerance)
+  {
+    m_timer.start();
+    m_guards.refer_to(m_given, limits);
+    if(options.signals != Relocation_options::Signals::carried ||
+       std::isfinite(options.largest_distance)) {
+      m_closest = std::make_unique<Closest_point_query>(fine);
+      m_followed =
+          std::make_unique<Followed_closest_points>(*m_closest, m_regions, std::size_t(V.rows()));
+    }
+    set_guards(fixed);
+    set_objective();
+    if(m_options.keep_free_of_self_intersections)
+      m_crossing = self_intersecting_faces(m_start, m_T);
+    if(m_options.keep_hausdorff_distance)
+      measure_fine();
+  }
+
+  Positions run(Relocation_result& result)
+  {
+    check_areas("relocation: ", "coarse", m_start, m_T);
+    Guarded_descent<Relocation_objective, Relocation_guards> descent(
+        *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
+    result.E_before = m_objective->E(m_given);
+    Positions V = m_start;
+    m_guards.admit(m_start, V); // boundary vertices go to the boundary
+    descent.start(V);
+    result.objective_before = descent.value();
+    double last = descent.value();
+    using Reason = Relocation_result::Stop_reason;
+    for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
+      if(m_options.progress &&
+         !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
+        throw Cancelled();
+      if(!(m_timer.time() < m_options.maximum_seconds)) {
+        result.stop_reason = Reason::seconds;
+        break;
+      }
+      if(!descent.step()) {
+        result.stop_reason = Reason::no_descent;
+        break;
+      }
+      if(++result.steps % 10 == 0) {
+        if(descent.value() > (1 - m_limits.relative_decrease) * last) {
+          result.stop_reason = Reason::converged;
+          break;
+        }
+        if(result.steps < m_options.maximum_steps) {
+          const Positions repaired_so_far = repaired(descent.positions());
+          const bool refreshed = m_objective->refresh(repaired_so_far);
+          if(repaired_so_far != descent.positions())
+            descent.start(repaired_so_far);
+          else if(refreshed)
+            descent.refresh();
+        }
+        last = descent.value();
+      } else if(result.steps % 5 == 0 && m_objective->has_goals() &&
+                m_objective->refresh(descent.positions()))
+        descent.refresh();
+    }
+    result.objective_after = descent.value();
+    V = repaired(descent.positions());
+    result.resampled = m_options.signals == Relocation_options::Signals::sampled;
+    result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
+    result.norm_before = norm(m_given, m_P);
+    result.norm_after = norm(V, result.restriction);
+    if(result.norm_after > result.norm_before) {
+      result.stop_reason = Reason::no_gain;
+      V = m_start;
+      result.norm_after = m_start == m_given ? result.norm_before : norm(V, m_P);
+      if(result.norm_after > result.norm_before) {
+        V = m_given;
+        result.norm_after = result.norm_before;
+      }
+      result.resampled = false;
+      result.restriction = m_P;
+    }
+    result.held = m_guards.held();
+    result.reverted_vertices = m_reverted;
+    result.held.fixed -= m_reverted;
+    result.E_after = m_objective->E(V);
+    for(Eigen::Index v = 0; v < V.rows(); ++v)
+      result.moved_vertices += V.row(v) != m_given.row(v);
+    result.seconds = m_timer.time();
+    return V;
+  }
+
+private:
+  // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || /
+  // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass
+  // leaves no modes.
+  double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
+  {
+    const Laplace_operator op = laplace_operator(V, m_T, m_op);
+    const Eigen::Index modes =
+        (std::min)(m_options.modes > 0 ? m_options.modes : m_F.cols(), V.rows() - op.vanishing);
+    if(modes < 1 || !(op.mass.minCoeff() > 0))
+      return 0;
+    Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
+    options.verify = false;
+    options.threads = m_options.threads;
+    const Eigenpairs pairs = eigenpairs(op, modes, options);
+    const Eigen::MatrixXd BPhi = op.B * pairs.vectors;
+    const Eigen::MatrixXd C = BPhi.transpose() * (P * m_F), D = BPhi.transpose() * (P * m_Z);
+    const auto [area, fine_area] = m_size.areas(V);
+    return (fine_area * D - area * (pairs.values.asDiagonal() * C)).norm() /
+           (std::max)(C.norm(), (std::numeric_limits<double>::min)());
+  }
+
+  bool is_near_border(const int v, const std::size_t s) const
+  {
+    const auto [i, j] = m_border.segment(s);
+    return m_regions.are_near(v, i) || m_regions.are_near(v, j);
+  }
+
+  // The positions that were given, those of boundary vertices on the boundary of the fine mesh:
+  // collapses leave them on chords of it. A vertex stays where a triangle would turn over or become
+  // a needle, or would go through another one; it may get there with the first step.
+  Positions on_border(const std::vector<bool>& fixed) const
+  {
+    Positions V = m_given;
+    const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
+    if(m_options.fix_boundary || m_border.is_empty())
+      return V;
+    const auto loops = m_border.loops_of_rows(m_P);
+    for(Eigen::Index v = 0; v < V.rows(); ++v) {
+      if(!on_boundary[std::size_t(v)] || (!fixed.empty() && fixed[std::size_t(v)]))
+        continue;
+      Border_polyline::Point point = m_border.closest(
+          V.row(v), [&](const std::size_t s) { return is_near_border(int(v), s); });
+      if(!point.exists())
+        point = m_border.closest(V.row(v), [&](const std::size_t s) {
+          return loops[std::size_t(v)].count(m_border.loop(s)) != 0;
+        });
+      if(point.exists())
+        V.row(v) = point.position.transpose();
+    }
+    const Relocation_guards shapes(m_given, m_T, m_given, m_limits, m_options.threads);
+    Face_pairs crossing;
+    if(m_options.keep_free_of_self_intersections)
+      crossing = self_intersecting_faces(m_given, m_T);
+    for(bool back = true; back;) { // fewer vertices are elsewhere in each round
+      back = false;
+      const auto go_back = [&](const Eigen::Index f) {
+        for(int k = 0; k < 3; ++k)
+          if(const int v = m_T(f, k); V.row(v) != m_given.row(v)) {
+            V.row(v) = m_given.row(v);
+            back = true;
+          }
+      };
+      for(Eigen::Index f = 0; f < m_T.rows(); ++f)
+        if(!shapes.legal(f, V))
+          go_back(f);
+      if(!back && m_options.keep_free_of_self_intersections)
+        for(const auto& pair : self_intersecting_faces(V, m_T))
+          if(!std::binary_search(crossing.begin(), crossing.end(), pair)) {
+            go_back(pair.first);
+            go_back(pair.second);
+          }
+    }
+    return V;
+  }
+
+  void set_guards(const std::vector<bool>& fixed)
+  {
+    for(std::size_t v = 0; v < fixed.size(); ++v)
+      if(fixed[v])
+        m_guards.fix(Eigen::Index(v));
+    const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
+    for(std::size_t v = 0; v < on_boundary.size(); ++v)
+      if(on_boundary[v] && m_options.fix_boundary)
+        m_guards.fix(Eigen::Index(v));
+      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v))) {
+        std::vector<Boundary_segment> own;
+        for(const std::size_t s :
+            m_border.near(m_guards.anchor(Eigen::Index(v)), 2 * m_guards.radius(Eigen::Index(v))))
+          if(is_near_border(int(v), s))
+            own.push_back({m_border.end(s, 0), m_border.end(s, 1)});
+        m_guards.keep_on(Eigen::Index(v), own);
+      }
+    if(m_options.signals != Relocation_options::Signals::carried)
+      m_guards.set_leaps(
+          [this](const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+            return m_followed->leaps(v, from, to);
+          });
+    if(std::isfinite(m_options.largest_distance))
+      m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
+        return ((*m_followed)(v, p).point - p).norm() <= m_options.largest_distance;
+      });
+  }
+
+  void set_objective()
+  {
+    const double largest =
+        std::sqrt((m_Z.colwise().squaredNorm().array() /
+                   m_F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
+                      .maxCoeff());
+    if(m_options.signals != Relocation_options::Signals::carried)
+      m_sampled =
+          std::make_unique<Surface_signals>(m_fine, *m_followed, m_F, m_Z, m_options.threads);
+    m_objective = std::make_unique<Relocation_objective>(
+        m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
+        m_options.signals != Relocation_options::Signals::sampled,
+        largest > 0 ? m_options.smoothing / largest : 0., m_options);
+  }
+
+  // Goes back where triangles that were apart meet and where the fine surface is left behind, and
+  // everywhere while the size is out of its bounds. Vertices that did stay from then on, so that
+  // the others go on around them.
+  Positions repaired(Positions V)
+  {
+    for(int round = 0;; ++round) {
+      std::vector<char> back(std::size_t(V.rows()), 0);
+      if(m_options.keep_free_of_self_intersections)
+        for(const auto& pair : self_intersecting_faces(V, m_T))
+          if(!std::binary_search(m_crossing.begin(), m_crossing.end(), pair))
+            for(const Eigen::Index f : {pair.first, pair.second})
+              mark_face(f, back);
+      if(m_options.keep_hausdorff_distance)
+        mark_left_behind(V, back);
+      const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
+      if(!any && !too_large)
+        break;
+      if(round >= 24) { // single vertices going back have put others in the way
+        std::fill(back.begin(), back.end(), 1);
+        V = m_start;
+      }
+      for(Eigen::Index v = 0; v < V.rows(); ++v) {
+        if(too_large || back[std::size_t(v)]) {
+          // Half way back a vertex of the boundary would lie beside it.
+          const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
+          V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
+        }
+        if(back[std::size_t(v)] && !m_guards.is_fixed(v)) {
+          ++m_reverted;
+          m_guards.fix(v);
+        }
+      }
+      m_guards.admit_without_projection(m_start, V);
+      if(round >= 24)
+        break;
+    }
+    return V;
+  }
+
+  void mark_face(const Eigen::Index f, std::vector<char>& marks) const
+  {
+    for(int k = 0; k < 3; ++k)
+      marks[std::size_t(m_T(f, k))] = 1;
+  }
+
+  // Where the fine vertices lie at the start.
+  void measure_fine()
+  {
+    const Closest_point_query closest(Mesh_matrices{m_start, m_T});
+    m_nearest.resize(std::size_t(m_fine.V.rows()));
+    std::vector<double> distances(m_nearest.size());
+    const auto measure = [&](const Eigen::Index i) {
+      const Eigen::Vector3d point = m_fine.V.row(i);
+      const Closest_point_query::Answer answer = closest(point);
+      m_nearest[std::size_t(i)] = answer.face;
+      distances[std::size_t(i)] = (answer.point - point).norm();
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
+    m_furthest = *std::max_element(distances.begin(), distances.end());
+  }
+
+  // The corners of the faces closest to fine vertices that are further from V than any was at the
+  // start. The face that was closest then is nearly always near enough still, and the search is
+  // spared.
+  void mark_left_behind(const Positions& V, std::vector<char>& marks) const
+  {
+    const Closest_point_query closest(Mesh_matrices{V, m_T});
+    std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
+    const auto look = [&](const Eigen::Index i) {
+      const Eigen::Vector3d point = m_fine.V.row(i);
+      const Eigen::Index nearest = m_nearest[std::size_t(i)];
+      if(std::sqrt(closest_point_of_triangle(point, closest.corners(nearest)).squared_distance) <=
+         m_furthest)
+        return;
+      const Closest_point_query::Answer answer = closest(point);
+      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
+        left_behind[std::size_t(i)] = answer.face;
+    };
+    for_each_task(m_fine.V.rows(), m_options.threads, look, 64);
+    for(std::size_t i = 0; i < m_nearest.size(); ++i)
+      if(left_behind[i] >= 0) {
+        mark_face(left_behind[i], marks);
+        mark_face(m_nearest[i], marks); // once that is back, the distance is what it was
+      }
+  }
+
+  Relocation_options m_options;
+  Relocation_limits m_limits;
+  Positions m_given;
+  Eigen::MatrixXi m_T;
+  const Mesh_matrices& m_fine;
+  const Eigen::SparseMatrix<double>& m_P;
+  const Eigen::MatrixXd &m_F, &m_Z;
+  Local_operator m_op;
+  Real_timer m_timer;
+  Border_polyline m_border; // of the fine mesh
+  Mesh_matrices m_coarse;   // as given
+  Surface_regions m_regions;
+  Positions m_start; // where the descent begins
+  Relocation_guards m_guards;
+  Size_bounds m_size;
+  std::unique_ptr<Closest_point_query> m_closest;
+  std::unique_ptr<Followed_closest_points> m_followed;
+  std::unique_ptr<Surface_signals> m_sampled;
+  std::unique_ptr<Relocation_objective> m_objective;
+  Face_pairs m_crossing;               // at the start
+  std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
+  double m_furthest = 0;               // the largest distance then
+  std::size_t m_reverted = 0;          // vertices that went back, and stay
+};
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
+relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+                const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+                const Local_operator& op, const std::vector<bool>& fixed,
+                const Relocation_options& options, const Relocation_limits& limits)
+{
+  Relocation_result result;
+  Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
+  const Eigen::MatrixXd moved = relocation.run(result);
+  if(result.stop_reason == Relocation_result::Stop_reason::no_gain &&
+     options.eigenvalues.size() > 0 && options.eigenvalue_error > 0) {
+    Relocation_options without = options;
+    without.eigenvalue_error = 0;
+    without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
+    if(options.progress) // a fraction never decreases
+      without.progress = [&](double) { return options.progress(1.); };
+    Relocation_result second = relocate_within(V, T, P, fine, F, Z, op, fixed, without, limits);
+    second.seconds += result.seconds;
+    return second;
+  }
+  V = moved;
+  return result;
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
+    Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::SparseMatrix<double>& P,
+    const Mesh_matrices& fine, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
+    const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
+{
+  using internal::require;
+  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ",
+          internal::size_name(P), " where ", V.rows(), " x ", fine.V.rows(),
+          " is needed, coarse x fine; pass matrices that belong together.");
+  internal::require_signals("relocation: ", F, Z, P.cols());
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
+            " has a coordinate that is not a finite number; repair it.");
+  require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
+          "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
+          " vertices; pass one for each, or none.");
+  internal::check_relocation_options(options);
+  return internal::relocate_within(V, T, P, fine, F, Z, op, fixed, options, {});
+}
+
+} // namespace CGAL::Spectral_geometry
+
+#endif // definitions
 
 #endif // CGAL_SPECTRAL_GEOMETRY_RELOCATION_H

@@ -12,12 +12,18 @@ others: every function of the toolbox that depends on no mesh type. Without that
 this file. The CMake target `Spectral_mesh_simplification::toolbox` is that, ready made.
 */
 
-#include <CGAL/Spectral_toolbox/internal/curvature_coefficients_impl.h>
-#include <CGAL/Spectral_toolbox/internal/fitted_operators_impl.h>
-#include <CGAL/Spectral_toolbox/internal/functional_map_estimation_impl.h>
-#include <CGAL/Spectral_toolbox/internal/hierarchical_functional_maps_impl.h>
-#include <CGAL/Spectral_toolbox/internal/intrinsic_delaunay_impl.h>
-#include <CGAL/Spectral_toolbox/internal/mesh_diagnosis_impl.h>
-#include <CGAL/Spectral_toolbox/internal/vertex_maps_impl.h>
+#if defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) && \
+    defined(CGAL_SPECTRAL_TOOLBOX_INTERNAL_SEPARATE_COMPILATION_H)
+#error "Include <CGAL/Spectral_toolbox/compile.h> before every other header of the package."
+#endif
+#define CGAL_SPECTRAL_COMPILE_TOOLBOX
+
+#include <CGAL/Spectral_toolbox/curvature_coefficients.h>
+#include <CGAL/Spectral_toolbox/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/functional_map_estimation.h>
+#include <CGAL/Spectral_toolbox/hierarchical_functional_maps.h>
+#include <CGAL/Spectral_toolbox/intrinsic_delaunay.h>
+#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #endif // CGAL_SPECTRAL_TOOLBOX_COMPILE_H

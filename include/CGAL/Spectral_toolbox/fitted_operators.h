@@ -164,8 +164,589 @@ CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_
 } // namespace internal
 } // namespace CGAL::Spectral_geometry
 
-#ifndef CGAL_SPECTRAL_TOOLBOX_COMPILED
-#include <CGAL/Spectral_toolbox/internal/fitted_operators_impl.h>
-#endif
+#if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
+
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_toolbox/internal/Rank_one_terms.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
+#include <CGAL/Spectral_toolbox/internal/Tall_products.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace CGAL::Spectral_geometry {
+namespace internal {
+
+/// The quadratic program of fit_operators() and its solver, at unit area.
+class Operator_fit
+{
+  using Index = Eigen::Index;
+  using Matrix = Eigen::MatrixXd;
+  using Vector = Eigen::VectorXd;
+  using Rows = Rank_one_terms::Rows;
+
+public:
+  Operator_fit(const Laplace_operator& own, const Matrix& G, Vector lambda,
+               const Operator_fit_options& options)
+    : m_options(options)
+    , m_G(G)
+    , m_lambda(std::move(lambda))
+    , m_area(own.mass.sum())
+    , m_row_mass((own.mass / m_area).cwiseMax(1e-3 / G.rows()))
+    , m_weight(
+          (m_lambda.array() + 4 * CGAL_PI * (own.has_coefficients ? unit_of_stiffness(own.L) : 1.))
+              .pow(-options.low_modes))
+  {
+    const double mean = (m_weight.array() * m_lambda.array().square()).mean();
+    m_weight *= mean > 0. ? 1. / mean : 0.; // 0 where all eigenvalues are
+    collect_terms(own);
+    const Index nL = m_stiffness.size(), n = nL + m_mass.size();
+    Eigen::MatrixX3d ranges(n, 3);
+    ranges << m_stiffness.ranges(), m_mass.ranges();
+    m_start = ranges.col(0);
+    m_lowest = ranges.col(1);
+    m_typical = ranges.col(2);
+    m_total = Vector::Zero(n);
+    m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(G.rows())).cwiseAbs2();
+    find_components(own);
+    m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / G.rows());
+    assemble_normal_matrix(G);
+  }
+
+  Operator_fit_result run()
+  {
+    Operator_fit_result result;
+    const Index n = m_start.size(), nL = m_stiffness.size();
+    Vector g;
+    const Vector own = scaled(m_start);
+    result.objective_before = evaluate(own, g);
+    // Slacks s and multipliers z, both positive; g is half the gradient.
+    Vector s = (m_start - m_lowest).cwiseMax(0.01 * m_typical);
+    double f = evaluate(m_lowest + s, g);
+    Vector z = (0.1 * f / n) * s.cwiseInverse();
+    while(!result.converged && result.iterations < m_options.maximum_iterations) {
+      if(m_options.progress &&
+         !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
+        throw Cancelled();
+      const Vector barrier = z.cwiseQuotient(s), target = (0.2 * s.dot(z) / n) * s.cwiseInverse();
+      Vector dx, Qdx;
+      const double newton = newton_step(target - g, barrier, dx, Qdx);
+      const Vector dz = target - z - barrier.cwiseProduct(dx);
+      const double primal = step_inside(s, dx), dual = step_inside(z, dz);
+      f += 2. * primal * g.dot(dx) + primal * primal * Qdx.dot(dx);
+      s += primal * dx;
+      g += primal * Qdx;
+      z += dual * dz;
+      ++result.iterations;
+      result.converged = (std::max)(s.dot(z), newton) <= m_options.tolerance * f;
+    }
+    Vector x = m_lowest + s;
+    result.at_bound = ((x - m_lowest).array() <= 1e-3 * m_typical.array()).count();
+    x = scaled(x);
+    result.objective_after = evaluate(x, g);
+    if(!(result.objective_after < result.objective_before)) {
+      x = own;
+      result.objective_after = result.objective_before;
+    }
+    result.unknowns = n;
+    result.op.L = m_stiffness.matrix(x.head(nL));
+    result.op.B = m_area * m_mass.matrix(x.tail(n - nL));
+    result.op.mass = result.op.B * Vector::Ones(m_row_mass.size());
+    return result;
+  }
+
+private:
+  // Which unknowns belong to which component of the mesh, and what is its share of the area.
+  void find_components(const Laplace_operator& own)
+  {
+    const Index N = m_row_mass.size();
+    const std::vector<Index> component = connected_components(N, [&](const auto& join) {
+      for(Index j = 0; j < N; ++j)
+        for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
+          join(it.row(), j);
+    });
+    m_share = Vector::Zero(*std::max_element(component.begin(), component.end()) + 1);
+    for(Index v = 0; v < N; ++v)
+      m_share(component[v]) += own.mass(v) / m_area;
+    for(const Rank_one_terms* terms : {&m_stiffness, &m_mass})
+      for(Index a = 0; a < terms->size(); ++a)
+        m_component.push_back(
+            component[Rank_one_terms::Sparse_rows::InnerIterator(terms->vectors(), a).col()]);
+  }
+
+  // The mass of each component.
+  Vector totals(const Vector& x) const
+  {
+    Vector result = Vector::Zero(m_share.size());
+    for(Index a = 0; a < x.size(); ++a)
+      result(m_component[a]) += m_total(a) * x(a);
+    return result;
+  }
+
+  // The number of its component for each unknown.
+  Vector spread(const Vector& of_components) const
+  {
+    return Vector::NullaryExpr(m_start.size(),
+                               [&](Index a) { return of_components(m_component[a]); });
+  }
+
+  // Each component with the mass that it has: without that those that fit badly would shrink, which
+  // lowers their residual.
+  Vector scaled(const Vector& x) const
+  {
+    return x.cwiseProduct(spread(m_share.cwiseQuotient(totals(x))));
+  }
+
+  struct Edge
+  {
+    Index i, j;
+    double weight, mass;
+    std::vector<Index> opposite; // common neighbours of i and j
+    int thin = 0;                // number of negative edges that lean on this one
+    double left = 0.;            // what they leave of its weight
+  };
+
+  void collect_terms(const Laplace_operator& own)
+  {
+    const Index N = m_row_mass.size();
+    const bool diagonal = m_options.mass == Operator_fit_options::Mass_pattern::diagonal;
+    std::vector<Edge> edges;
+    std::vector<std::vector<std::pair<Index, Index>>> rings(N); // neighbour and edge, ascending
+    std::vector<double> sizes;
+    for(Index j = 0; j < N; ++j)
+      for(Sparse_matrix::InnerIterator it(own.L, j); it; ++it)
+        if(it.row() < j) {
+          rings[it.row()].push_back({j, static_cast<Index>(edges.size())});
+          rings[j].push_back({it.row(), static_cast<Index>(edges.size())});
+          edges.push_back({it.row(), j, -it.value(), own.B.coeff(it.row(), j) / m_area, {}});
+          sizes.push_back(std::abs(it.value()));
+        }
+    const double median_size = median(Vector::Map(sizes.data(), Index(sizes.size()))),
+                 scale = median_size > 0. ? median_size : 1.;
+    const double largest = 1e3 * scale;
+    for(auto& ring : rings)
+      std::sort(ring.begin(), ring.end());
+    const auto edge = [&](Index a, Index b) { // or null
+      const auto found =
+          std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)));
+      return found != rings[a].end() && found->first == b ? &edges[found->second] : nullptr;
+    };
+    for(Edge& e : edges) {
+      e.weight = e.left = (std::min)((std::max)(e.weight, -largest), largest);
+      const auto [few, many] =
+          rings[e.i].size() < rings[e.j].size() ? std::pair(e.i, e.j) : std::pair(e.j, e.i);
+      for(const auto& r : rings[few])
+        if(edge(many, r.first))
+          e.opposite.push_back(r.first);
+      if(e.weight < 0.)
+        for(const Index k : e.opposite) {
+          ++edge(e.i, k)->thin;
+          ++edge(e.j, k)->thin;
+        }
+    }
+    for(Edge& e : edges)
+      if(e.weight < 0.)
+        add_thin_triangles(e, edge, scale);
+
+    Vector b = (diagonal ? own.mass : Vector(own.B.diagonal())) / m_area;
+    for(const Edge& e : edges) {
+      m_stiffness.add({{e.i, 1.}, {e.j, -1.}}, e.left,
+                      m_options.smallest_weight * (std::max)(scale * 0.05, e.left), scale);
+      if(m_options.rings == 2 && e.opposite.size() == 2)
+        m_stiffness.add({{e.i, 1.}, {e.j, 1.}, {e.opposite[0], -1.}, {e.opposite[1], -1.}}, 0., 0.,
+                        scale);
+      if(!diagonal) {
+        m_mass.add({{e.i, 1.}, {e.j, 1.}}, e.mass, 0., 1. / N);
+        b(e.i) -= e.mass;
+        b(e.j) -= e.mass;
+      }
+    }
+    for(Index v = 0; v < N; ++v) {
+      m_mass.add({{v, 1.}}, b(v), m_options.smallest_mass * m_row_mass(v), 1. / N);
+      if(m_options.rings == 2 && !rings[v].empty() && Index(rings[v].size()) <= largest_star) {
+        Rank_one_terms::Entries star{{v, 0.}};
+        double sum = 0.;
+        for(const auto& r : rings[v])
+          sum += std::abs(edges[r.second].weight) + 1e-3 * scale;
+        for(const auto& r : rings[v]) {
+          const double w = 2. * edges[r.second].weight / sum;
+          star.push_back({r.first, -w});
+          star[0].second += w;
+        }
+        m_stiffness.add(star, 0., 0., scale);
+      }
+    }
+    m_stiffness.assemble(N);
+    m_mass.assemble(N);
+  }
+
+  // w_ij < 0, with a = w_ik > 0 and b = w_jk > 0: q (e_k - (1-t) e_i - t e_j)(...)^T with t = b /
+  // (a + b) and q <= a + b has q t (1-t) at ij, up to a b / (a + b), and takes q (1-t) from a, q t
+  // from b. a or b may be next to nothing.
+  template <class Find>
+  void add_thin_triangles(Edge& e, const Find& edge, double scale)
+  {
+    double capacity = 0.;
+    std::vector<std::tuple<double, double, Index>> shares; // a, b, k
+    for(const Index k : e.opposite) {
+      const Edge &ik = *edge(e.i, k), &jk = *edge(e.j, k);
+      const double a = (std::max)(ik.weight, 0.) / ik.thin, b = (std::max)(jk.weight, 0.) / jk.thin;
+      if(a > 0. && b > 0.) {
+        shares.emplace_back(a, b, k);
+        capacity += a * b / (a + b);
+      }
+    }
+    const double part = capacity > 0. ? (std::min)(1., -e.weight / capacity) : 0.;
+    for(const auto& [a, b, k] : shares) {
+      const double q = part * (a + b), t = b / (a + b);
+      m_stiffness.add({{k, 1.}, {e.i, t - 1.}, {e.j, -t}}, q, 0., scale + q);
+      edge(e.i, k)->left -= q * (1. - t);
+      edge(e.j, k)->left -= q * t;
+      e.left += q * t * (1. - t);
+    }
+  }
+
+  // The lower triangle of H = sum_v A_v A_v^T / D_v, where row v of R, times the root of W, is
+  // A_v^T x. It only preconditions: of a vertex in whose row very many unknowns are, the diagonal
+  // is enough.
+  void assemble_normal_matrix(const Rows& G)
+  {
+    const Index nL = m_stiffness.size();
+    const Sparse_matrix DL = m_stiffness.vectors(), DB = m_mass.vectors();
+    const Eigen::RowVectorXd of_stiffness = -m_weight.cwiseSqrt().transpose(),
+                             of_mass = -of_stiffness.cwiseProduct(m_lambda.transpose());
+    std::vector<Eigen::Triplet<double>> lower;
+    std::vector<Index> unknowns;
+    for(Index v = 0; v < G.rows(); ++v) {
+      Rows A(DL.col(v).nonZeros() + DB.col(v).nonZeros(), G.cols());
+      unknowns.clear();
+      for(Sparse_matrix::InnerIterator d(DL, v); d; ++d) {
+        A.row(unknowns.size()) = d.value() * m_stiffness.row(d.row(), G).cwiseProduct(of_stiffness);
+        unknowns.push_back(d.row());
+      }
+      for(Sparse_matrix::InnerIterator d(DB, v); d; ++d) {
+        A.row(unknowns.size()) = d.value() * m_mass.row(d.row(), G).cwiseProduct(of_mass);
+        unknowns.push_back(nL + d.row());
+      }
+      if(A.rows() > largest_block) {
+        for(Index j = 0; j < A.rows(); ++j)
+          lower.emplace_back(static_cast<int>(unknowns[j]), static_cast<int>(unknowns[j]),
+                             A.row(j).squaredNorm() / m_row_mass(v));
+        continue;
+      }
+      const Matrix S = A * A.transpose() / m_row_mass(v);
+      for(Index j = 0; j < S.cols(); ++j)
+        for(Index i = j; i < S.rows(); ++i)
+          lower.emplace_back(static_cast<int>(unknowns[i]), static_cast<int>(unknowns[j]), S(i, j));
+    }
+    m_H.resize(m_start.size(), m_start.size());
+    m_H.setFromTriplets(lower.begin(), lower.end());
+  }
+
+  // The objective and half its gradient; or, for a direction, Q x. Two passes over the rows of G,
+  // by blocks that stay in the cache.
+  double evaluate(const Vector& x, Vector& g, bool affine = true)
+  {
+    const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(),
+                panels = m_G.panels();
+    const Sparse_matrix L = m_stiffness.matrix(x.head(nL)), B = m_mass.matrix(x.tail(nB));
+    Tall_matrix R(m_row_mass.size(), K);
+    struct Sums
+    {
+      Panel_blocks GBG, GLG;
+      double f;
+    };
+    std::vector<Sums> sums(number_of_ranges(), {Panel_blocks(panels), Panel_blocks(panels), 0.});
+    for_each_block([&](Index range, Index first, Index rows, Tall_matrix& BG, Tall_matrix& LG) {
+      Sums& sum = sums[range];
+      for(Index q = 0; q < panels; ++q) {
+        for(const auto& product : {std::make_pair(&B, &BG), std::make_pair(&L, &LG)})
+          multiply(product.first->outerIndexPtr() + first, product.first->innerIndexPtr(),
+                   product.first->valuePtr(), m_G.row(q, 0), product.second->row(q, 0), 0, rows);
+        for(Index p = 0; p <= q; ++p) {
+          gram(m_G.row(p, first), BG.row(q, 0), rows, sum.GBG.block(p, q));
+          gram(m_G.row(p, first), LG.row(q, 0), rows, sum.GLG.block(p, q));
+        }
+        auto E = R.rows(q, first, rows);
+        E = BG.rows(q, 0, rows).rowwise() * of_panel(m_lambda, q) - LG.rows(q, 0, rows);
+        const Panel_numbers W = of_panel(m_weight, q);
+        const auto row_weight = m_options.plain / m_row_mass.segment(first, rows).array();
+        if(affine)
+          sum.f += ((E.square().rowwise() * W).rowwise().sum() * row_weight).sum();
+        E = ((E.rowwise() * W).colwise() * row_weight).eval();
+      }
+    });
+    Matrix T = Matrix::Zero(K, K), S = T;
+    double f = 0.;
+    for(Sums& sum : sums) {
+      sum.GBG.add_to(T);
+      sum.GLG.add_to(S);
+      f += sum.f;
+    }
+    const Matrix X = T * m_lambda.asDiagonal() - S;
+    if(affine)
+      T.diagonal().array() -= 1.;
+    const Vector total = (affine ? Vector(totals(x) - m_share) : totals(x)).cwiseQuotient(m_share);
+    const Vector change = affine ? Vector(x - m_start) : x;
+    if(affine)
+      f += (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
+           penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_tie);
+    const Panel_blocks of_L(-X * m_weight.asDiagonal()), of_B(-m_options.orthonormality * T);
+    Vector by_L(L.nonZeros()), by_B(B.nonZeros());
+    for_each_block([&](Index, Index first, Index rows, Tall_matrix& A, Tall_matrix&) {
+      const auto add_product_of_G = [&](const Panel_blocks& minus_M, Index q) {
+        for(Index p = 0; p < panels; ++p)
+          subtract_product(A.row(q, 0), m_G.row(p, first), rows, minus_M.block(p, q));
+      };
+      const auto sample = [&](const Sparse_matrix& pattern, Vector& result) {
+        sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0),
+                        A.panel_size(), m_G.row(0, 0), m_G.panel_size(), panels, result.data(),
+                        rows);
+      };
+      for(Index q = 0; q < panels; ++q) {
+        A.rows(q, 0, rows) = R.rows(q, first, rows);
+        add_product_of_G(of_L, q);
+      }
+      sample(L, by_L);
+      for(Index q = 0; q < panels; ++q) {
+        A.rows(q, 0, rows).rowwise() *= of_panel(m_lambda, q);
+        add_product_of_G(of_B, q);
+      }
+      sample(B, by_B);
+    });
+    g.resize(x.size());
+    g.head(nL) = -m_stiffness.derivatives(by_L);
+    g.tail(nB) = m_mass.derivatives(by_B);
+    g += penalty * m_total.cwiseProduct(spread(total)) + m_tie.cwiseProduct(change);
+    return f;
+  }
+
+  using Panel_numbers = Eigen::Array<double, 1, panel_width>;
+
+  // The numbers of the signals of panel q.
+  static Panel_numbers of_panel(const Vector& v, Index q)
+  {
+    const Index begin = q * panel_width, width = (std::min)(Index(panel_width), v.size() - begin);
+    Panel_numbers result = Panel_numbers::Zero();
+    result.head(width) = v.segment(begin, width).transpose().array();
+    return result;
+  }
+
+  // Ranges of rows whose sums are formed apart, however many threads there are.
+  Index number_of_ranges() const { return (std::min)(Index(8), 1 + m_row_mass.size() / 512); }
+
+  // Calls f(range, first row, number of rows, scratch, scratch) for blocks of rows, those of a
+  // range in order.
+  template <class Function>
+  void for_each_block(const Function& f)
+  {
+    const Index N = m_row_mass.size(), ranges = number_of_ranges();
+    for_each_task(ranges, m_options.threads, [&](const Index range) {
+      const Index end = N * (range + 1) / ranges;
+      Tall_matrix first_scratch(rows_of_block, m_lambda.size()), second_scratch = first_scratch;
+      for(Index first = N * range / ranges; first < end; first += rows_of_block)
+        f(range, first, (std::min)(rows_of_block, end - first), first_scratch, second_scratch);
+    });
+  }
+
+  // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta
+  // + 1/10) H + tie + barrier + penalty; returns the square of that norm of r.
+  double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx)
+  {
+    Vector y(r.size()), q, p;
+    if(m_steps > 5) { // products are cheaper than a factorisation
+      Sparse_matrix M = (m_options.plain + 0.1) * m_H;
+      M.diagonal() += m_tie + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
+      if(m_cholesky)
+        m_cholesky->factorise(M, m_options.threads);
+      else
+        m_cholesky = std::make_unique<Supernodal_factor>(M, m_options.threads);
+      m_solved_total = m_cholesky->solve(m_total, m_options.threads);
+      // one term for each component, and none in common
+      m_rank_one = penalty * (m_share + penalty * totals(m_solved_total)).cwiseInverse();
+    }
+    dx = Qdx = Vector::Zero(r.size());
+    double first = 0., last = 0.;
+    for(m_steps = 0; m_steps < 20; ++m_steps) {
+      y = m_cholesky->solve(r, m_options.threads);
+      y -= m_solved_total.cwiseProduct(spread(m_rank_one.cwiseProduct(totals(y))));
+      const double next = r.dot(y);
+      if(m_steps == 0)
+        first = next;
+      if(!(next > 0.01 * first))
+        break;
+      p = m_steps == 0 ? y : Vector(y + (next / last) * p);
+      last = next;
+      evaluate(p, q, false);
+      const Vector Mp = q + barrier.cwiseProduct(p);
+      const double step = next / p.dot(Mp);
+      dx += step * p;
+      Qdx += step * q;
+      r -= step * Mp;
+    }
+    return first;
+  }
+
+  // The part of a step, at most 1, that leaves a twentieth of each entry at least.
+  static double step_inside(const Vector& v, const Vector& dv)
+  {
+    return 1. / (std::max)(1., (-dv.cwiseQuotient(v)).maxCoeff() / 0.95);
+  }
+
+  // What keeps the cost linear in the degree of a vertex: a second ring of more neighbours is left
+  // out, a block of more unknowns of the preconditioner is diagonal.
+  static constexpr Index largest_star = 64, largest_block = 256;
+  static constexpr Index rows_of_block = 128;
+  static constexpr double penalty =
+      1e4; // of the totals of the mass; the other terms are about 1 or less
+  const Operator_fit_options& m_options;
+  Tall_matrix m_G;
+  const Vector m_lambda;
+  const double m_area;
+  const Vector m_row_mass;
+  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie, m_share;
+  std::vector<Index> m_component; // of each unknown
+  Rank_one_terms m_stiffness, m_mass;
+  Sparse_matrix m_H;
+  std::unique_ptr<Supernodal_factor> m_cholesky; // of a recent preconditioner
+  Vector m_solved_total;                         // its solution for m_total
+  Vector m_rank_one;
+  int m_steps = 1000; // of conjugate gradients, the last time
+};
+
+// A vertex whose own mode, the diagonal of L over the mass, lies far above the fitted ones and
+// those of other vertices has of each of the former what its neighbours say: row v of L g = lambda
+// B g, as ten sweeps of Gauss and Seidel leave it. That is used in place of what P reads there,
+// which may be another sheet, as in a pocket of the surface: its entries would be fitted to that,
+// and its mode come down among the fitted ones.
+inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
+                                   Eigen::MatrixXd& G)
+{
+  const double area = own.mass.sum();
+  const Eigen::VectorXd mode = area * own.L.diagonal().cwiseQuotient(own.mass);
+  const double remote = 8. * (std::max)(lambda.maxCoeff(), median(mode));
+  for(int sweep = 0; sweep < 10; ++sweep)
+    for(Eigen::Index v = 0; v < mode.size(); ++v) {
+      if(!(mode(v) > remote))
+        continue;
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(lambda.size()), diagonal = sum;
+      const auto add = [&](const Eigen::SparseMatrix<double>& A, const Eigen::RowVectorXd& factor) {
+        for(Eigen::SparseMatrix<double>::InnerIterator it(A, v); it; ++it)
+          if(it.row() == v)
+            diagonal += it.value() * factor;
+          else
+            sum -= it.value() * factor.cwiseProduct(G.row(it.row()));
+      };
+      add(own.L, Eigen::RowVectorXd::Ones(lambda.size()));
+      add(own.B, -lambda.transpose() / area);
+      if(diagonal.minCoeff() > 0.)
+        G.row(v) = sum.cwiseQuotient(diagonal);
+    }
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_options& o)
+{
+  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
+          ".");
+  require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
+          "operator fit: orthonormality and plain must be numbers from 0.");
+  require(o.low_modes >= 0. && o.low_modes <= 20.,
+          "operator fit: low_modes must be a number from 0 to 20.");
+  require(o.tie > 0. && std::isfinite(o.tie), "operator fit: tie must be a positive number.");
+  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. &&
+              o.smallest_mass <= 1.,
+          "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
+  require(o.tolerance > 0. && o.tolerance < 1.,
+          "operator fit: tolerance must lie between 0 and 1.");
+  require(o.maximum_iterations >= 0, "operator fit: maximum_iterations must not be negative.");
+  require(o.threads >= 1, "operator fit: threads must be at least 1.");
+}
+
+inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+                               const Laplace_operator& fine, const Eigenpairs& pairs)
+{
+  const Eigen::Index N = P.rows(), n = P.cols(), K = pairs.size();
+  require(N > 0 && coarse.L.rows() == N && coarse.L.cols() == N && coarse.B.rows() == N &&
+              coarse.B.cols() == N && coarse.mass.size() == N,
+          "operator fit: P is ", size_name(P), " but the coarse operator has L ",
+          size_name(coarse.L), ", B ", size_name(coarse.B), " and ", coarse.mass.size(),
+          " masses, pass matrices of one coarse mesh.");
+  require(fine.mass.size() == n && pairs.vectors.rows() == n && pairs.vectors.cols() == K && K > 0,
+          "operator fit: P is ", size_name(P), " but there are ", fine.mass.size(),
+          " fine masses, ", K, " eigenvalues and eigenvectors of ", size_name(pairs.vectors),
+          ", pass the operator and at least one eigenpair of the fine mesh.");
+  require(coarse.boundary == Boundary_condition::neumann &&
+              fine.boundary == Boundary_condition::neumann,
+          "operator fit: the rows of a fitted Laplacian sum to zero, which those of the Dirichlet "
+          "condition "
+          "do not; pass operators without it.");
+  for(Eigen::Index v = 0; v < N; ++v)
+    require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)), "operator fit: the mass of ",
+            vertex_name(v), " of the coarse mesh is not a positive number.");
+  const double area = fine.mass.sum();
+  require(area > 0. && std::isfinite(area),
+          "operator fit: the area of the fine mesh is not a positive number.");
+  const double rounding =
+      1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
+  for(Eigen::Index k = 0; k < K; ++k)
+    require(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) &&
+                pairs.vectors.col(k).allFinite(),
+            "operator fit: eigenpair ", k,
+            " (counted from 0) has a number that is negative or not finite.");
+  const auto check_entries = [&](const Eigen::SparseMatrix<double>& A, const char* name) {
+    for(Eigen::Index j = 0; j < A.outerSize(); ++j)
+      for(Eigen::SparseMatrix<double>::InnerIterator it(A, j); it; ++it)
+        require(std::isfinite(it.value()), "operator fit: entry ", it.row(), ", ", it.col(),
+                " (counted from 0) of ", name, " is not a finite number.");
+  };
+  check_entries(P, "P");
+  check_entries(coarse.L, "the coarse L");
+  check_entries(coarse.B, "the coarse B");
+}
+
+} // namespace internal
+
+CGAL_SPECTRAL_TOOLBOX_INLINE Operator_fit_result fit_operators(const Laplace_operator& coarse,
+                                                               const Eigen::SparseMatrix<double>& P,
+                                                               const Laplace_operator& fine,
+                                                               const Eigenpairs& fine_pairs,
+                                                               const Operator_fit_options& options)
+{
+  internal::check_operator_fit_options(options);
+  internal::check_operator_fit(coarse, P, fine, fine_pairs);
+  const double area = fine.mass.sum();
+  const Eigen::VectorXd lambda = area * fine_pairs.values.cwiseMax(0.);
+  Eigen::MatrixXd G = std::sqrt(area) * (P * fine_pairs.vectors);
+  internal::settle_remote_vertices(coarse, lambda, G);
+  Operator_fit_result result;
+  try {
+    result = internal::Operator_fit(coarse, G, lambda, options).run();
+  } catch(const internal::Not_positive_definite&) { // whose sentence is that of the eigensolvers
+    throw std::runtime_error(
+        "operator fit: the preconditioner could not be factorised; look for needle faces in the "
+        "coarse mesh, or raise Operator_fit_options::tie.");
+  }
+  result.op.theta =
+      options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;
+  return result;
+}
+
+} // namespace CGAL::Spectral_geometry
+
+#endif // definitions
 
 #endif // CGAL_SPECTRAL_TOOLBOX_FITTED_OPERATORS_H

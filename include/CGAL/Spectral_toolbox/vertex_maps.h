@@ -103,8 +103,156 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 } // namespace CGAL::Spectral_geometry
 
-#ifndef CGAL_SPECTRAL_TOOLBOX_COMPILED
-#include <CGAL/Spectral_toolbox/internal/vertex_maps_impl.h>
-#endif
+#if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
+
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_toolbox/internal/Ball_tree.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_of_triangle.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace CGAL::Spectral_geometry {
+
+CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
+nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads)
+{
+  internal::require(points.size() != 0,
+                    "nearest rows: there is no point to search for, pass at least one.");
+  internal::check_dimension("the number of columns of the queries", queries.cols(), points.cols());
+  internal::require(threads >= 1, "nearest rows: the number of threads is ", threads,
+                    ", pass at least 1.");
+  for(const Eigen::MatrixXd* matrix : {&points, &queries})
+    for(Eigen::Index i = 0; i < matrix->rows(); ++i)
+      internal::require(matrix->row(i).allFinite(), "nearest rows: row ", i, " of the ",
+                        matrix == &points ? "points" : "queries",
+                        " has an entry that is not finite, check the maps and eigenvectors.");
+
+  const internal::Ball_tree tree(points.transpose());
+  const Eigen::MatrixXd query_columns = queries.transpose();
+  std::vector<Eigen::Index> result(static_cast<std::size_t>(queries.rows()));
+  constexpr Eigen::Index share = 256;
+  internal::for_each_task(
+      static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
+        std::size_t place = 0;
+        for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i)
+          result[static_cast<std::size_t>(i)] = tree.nearest(query_columns.col(i), place);
+      });
+  return result;
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd functional_map_of_vertex_map(
+    const Eigen::MatrixXd& source_vectors, const Eigen::MatrixXd& target_vectors,
+    const Eigen::SparseMatrix<double>& target_B, const std::vector<Eigen::Index>& target_to_source)
+{
+  internal::check_dimension("the number of entries of the vertex map",
+                            static_cast<Eigen::Index>(target_to_source.size()),
+                            target_vectors.rows());
+  for(std::size_t y = 0; y < target_to_source.size(); ++y)
+    internal::require(target_to_source[y] >= 0 && target_to_source[y] < source_vectors.rows(),
+                      "vertex map: entry ", y, " is ", target_to_source[y],
+                      ", it must be a vertex of the source, in [0, ", source_vectors.rows(), ").");
+  internal::check_dimension("the size of the mass of the target", target_B.rows(),
+                            target_vectors.rows());
+  internal::check_dimension("the number of columns of the mass of the target", target_B.cols(),
+                            target_vectors.rows());
+  Eigen::MatrixXd pulled_back(target_vectors.rows(), source_vectors.cols());
+  for(Eigen::Index y = 0; y < pulled_back.rows(); ++y)
+    pulled_back.row(y) = source_vectors.row(target_to_source[static_cast<std::size_t>(y)]);
+  const Eigen::MatrixXd weighted = target_B * pulled_back;
+  return target_vectors.transpose() * weighted;
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
+target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
+                     const Eigen::MatrixXd& target_vectors, int threads)
+{
+  internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
+                    "vertex map: C is ", internal::size_name(C), ", but there are ",
+                    target_vectors.cols(), " target and ", source_vectors.cols(),
+                    " source eigenvectors, pass as many.");
+  return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(),
+                      target_vectors.leftCols(C.rows()), threads);
+}
+
+CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::SparseMatrix<double>
+target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
+                        const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors,
+                        int threads)
+{
+  const std::vector<Eigen::Index> nearest =
+      target_to_source_map(C, source_vectors, target_vectors, threads);
+  internal::check_triangles(source_T, source_vectors.rows());
+  const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose(),
+                        queries = target_vectors.leftCols(C.rows()).transpose();
+  std::vector<std::vector<Eigen::Index>> star(static_cast<std::size_t>(source_vectors.rows()));
+  Eigen::Matrix3Xd lengths(3, source_T.rows()); // squared
+  for(Eigen::Index t = 0; t < source_T.rows(); ++t)
+    for(int c = 0; c < 3; ++c) {
+      star[static_cast<std::size_t>(source_T(t, c))].push_back(t);
+      lengths(c, t) =
+          (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
+    }
+
+  const auto sort_unique = [](std::vector<Eigen::Index>& numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  };
+  struct Found
+  {
+    Eigen::RowVector3i corners;
+    Eigen::Vector3d weights;
+  };
+  std::vector<Found> found(nearest.size());
+  const auto look = [&](const Eigen::Index y) {
+    std::vector<Eigen::Index> faces, vertices; // within one edge of the nearest vertex, each once
+    std::vector<double> distances;             // of these vertices, squared
+    const std::size_t i = static_cast<std::size_t>(y);
+    for(const Eigen::Index around : star[static_cast<std::size_t>(nearest[i])])
+      for(int c = 0; c < 3; ++c) {
+        const std::vector<Eigen::Index>& more = star[static_cast<std::size_t>(source_T(around, c))];
+        faces.insert(faces.end(), more.begin(), more.end());
+      }
+    sort_unique(faces);
+    for(const Eigen::Index t : faces)
+      for(int c = 0; c < 3; ++c)
+        vertices.push_back(source_T(t, c));
+    sort_unique(vertices);
+    const auto query = queries.col(y);
+    for(const Eigen::Index v : vertices)
+      distances.push_back((points.col(v) - query).squaredNorm());
+    const auto distance = [&](const Eigen::Index v) {
+      return distances[static_cast<std::size_t>(
+          std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin())];
+    };
+    double best = (points.col(nearest[i]) - query).squaredNorm();
+    found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};
+    for(const Eigen::Index t : faces) {
+      const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)),
+                              distance(source_T(t, 2)));
+      const internal::Point_of_triangle candidate =
+          internal::closest_point_of_triangle_by_distances(d, lengths.col(t));
+      if(candidate.squared_distance < best) {
+        best = candidate.squared_distance;
+        found[i] = {source_T.row(t), candidate.weights};
+      }
+    }
+  };
+  internal::for_each_task(queries.cols(), threads, look, 64);
+  std::vector<Eigen::Triplet<double>> entries;
+  for(std::size_t y = 0; y < found.size(); ++y)
+    for(int c = 0; c < 3; ++c)
+      if(found[y].weights(c) != 0)
+        entries.emplace_back(static_cast<int>(y), found[y].corners(c), found[y].weights(c));
+  Eigen::SparseMatrix<double> result(target_vectors.rows(), source_vectors.rows());
+  result.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+} // namespace CGAL::Spectral_geometry
+
+#endif // definitions
 
 #endif // CGAL_SPECTRAL_TOOLBOX_VERTEX_MAPS_H

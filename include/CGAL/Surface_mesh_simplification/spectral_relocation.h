@@ -190,7 +190,7 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  *        ones, since Z is taken as Phi Lambda. Their eigenvalues are those of `options` where it
  *        has none, `op` no coefficients and at least half of the consistent mass
  * @param op    a mass, or an operator with coefficients for the vertices of `mesh`. Made for the
- * mass `averaged`: with a lumped one the shape is bent to cancel the error of the elements
+ * mass `averaged`: with any other the shape is bent to cancel the error of the elements
  * @param options what to minimise, guards, when to stop
  * @param np    an optional sequence of named parameters among those below
  *

@@ -80,7 +80,8 @@ def simplify(
         2020). Each of the next five, quadrics_above and pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
-        eigenvalues of coarse meshes much closer, or 'voronoi', lumped by mixed Voronoi areas
+        eigenvalues of coarse meshes much closer, 'voronoi', lumped by mixed Voronoi areas, or
+        'consistent', for finite elements such as LaPy's
     placement : str, optional
         'on_edge' (paper), 'midpoint' or 'free' (best): where the vertex goes that replaces an edge
     shape : float, optional

@@ -795,7 +795,7 @@ class Simplification(Level):
                     tolerance=1e-10,
                     coefficients=coefficients,
                     boundary=self._asked["boundary"],
-                    intrinsic_delaunay=self._asked["intrinsic_delaunay"] and mass != "consistent",
+                    intrinsic_delaunay=self._asked["intrinsic_delaunay"],
                     threads=None,
                     progress=progress,
                 )

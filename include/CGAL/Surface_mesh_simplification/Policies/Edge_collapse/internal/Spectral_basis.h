@@ -102,8 +102,362 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis_impl.h>
-#endif
+#if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_LOOP)
+
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CGAL::Surface_mesh_simplification::internal {
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
+                                                          const Eigen::Index n)
+{
+  require(options.threads >= 1, "Spectral_options: threads is ", options.threads,
+          ", use a number from 1.");
+  require(options.shape >= 0 && std::isfinite(options.shape), "Spectral_options: shape is ",
+          options.shape, ", use a number from 0.");
+  require(options.largest_loss > 0, "Spectral_options: largest_loss is ", options.largest_loss,
+          ", use a number above 0.");
+  if(options.signals.size() != 0) {
+    require(!options.eigenpairs,
+            "Spectral_options: both signals and eigenpairs are given, use one of them.");
+    require(options.signals.rows() == n, "Spectral_options: signals has ", options.signals.rows(),
+            " rows, but the mesh has ", n, " vertices; give one row for each.");
+    require(options.signals.allFinite(),
+            "Spectral_options: signals has an entry that is not finite; correct it.");
+  }
+  if(options.eigenpairs) {
+    const Spectral_geometry::Eigenpairs& pairs = *options.eigenpairs;
+    require(pairs.vectors.rows() == n, "Spectral_options: the eigenvectors have ",
+            pairs.vectors.rows(), " rows, but the mesh has ", n,
+            " vertices; give the eigenpairs of this mesh.");
+    require(pairs.values.size() == pairs.vectors.cols(), "Spectral_options: there are ",
+            pairs.values.size(), " eigenvalues for ", pairs.vectors.cols(),
+            " eigenvectors; give one for each.");
+    require(
+        pairs.values.size() != 0,
+        "Spectral_options: there are no eigenpairs in those that are given; give at least one.");
+  }
+  require(options.number_of_relocation_signals >= 0,
+          "Spectral_options: number_of_relocation_signals is ",
+          options.number_of_relocation_signals, ", use a number from 0.");
+  require(options.number_of_mixtures >= 0, "Spectral_options: number_of_mixtures is ",
+          options.number_of_mixtures, ", use a number from 0.");
+  if(is_filtered(options)) {
+    require(options.number_of_mixtures != 0,
+            "Spectral_options: number_of_mixtures is 0, but filtered noise "
+            "has no signals to be seen one by one; use 16, or eigenpairs.");
+    require(options.weights.size() == 0,
+            "Spectral_options: weights are for eigenvectors or signals, but the "
+            "source is filtered noise; leave one of them out.");
+  }
+  Spectral_geometry::internal::check_local_operator(local_operator(options), n);
+  require(
+      !options.operator_of_eigenpairs ||
+          (options.coefficients.rows() == 0 && options.signals.size() == 0 &&
+           options.boundary == Spectral_geometry::Boundary_condition::neumann),
+      "Spectral_options: operator_of_eigenpairs takes the place of the mesh's own operator, but "
+      "coefficients, signals or a boundary condition are given; leave one of the two out.");
+  const bool given = options.signals.size() != 0 || options.eigenpairs;
+  require(given || (options.number_of_eigenvectors >= 1 && options.number_of_eigenvectors < n),
+          "Spectral_options: number_of_eigenvectors is ", options.number_of_eigenvectors,
+          ", but the mesh has ", n, " vertices; use a number from 1 to ", n - 1, ".");
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
+local_operator(const Spectral_options& options)
+{
+  return {options.mass, options.coefficients, options.boundary};
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
+operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                  const Spectral_options& options)
+{
+  if(!options.operator_of_eigenpairs)
+    return Spectral_geometry::laplace_operator(V, T, local_operator(options));
+  Spectral_geometry::Laplace_operator op = options.operator_of_eigenpairs(V, T);
+  require(op.L.rows() == V.rows() && op.theta == Spectral_geometry::mass_blend(options.mass),
+          "Spectral_options: operator_of_eigenpairs returned an operator of ", op.L.rows(),
+          " vertices and the blend ", op.theta, ", but the mesh has ", V.rows(),
+          " vertices and mass the blend ", Spectral_geometry::mass_blend(options.mass),
+          "; return that of the mesh in this mass.");
+  return op;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
+{
+  require(Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)),
+          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+          "magnitude; rescale "
+          "the mesh.");
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,
+                                                               const Eigen::Index K)
+{
+  if(options.weights.size() == 0)
+    return Eigen::VectorXd::Ones(K);
+  require(options.weights.size() == K, "Spectral_options: there are ", options.weights.size(),
+          " weights for ", K, " signals; give one for each.");
+  for(Eigen::Index k = 0; k < K; ++k)
+    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]),
+            "Spectral_options: weight ", k, " is negative or not finite; use numbers from 0.");
+  return options.weights;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
+{
+  Eigen::MatrixXd Z = op.L * F;
+  if(op.theta == 0)
+    return op.mass.cwiseInverse().asDiagonal() * Z;
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(op.B);
+  solver.setTolerance(1e-13);
+  for(Eigen::Index k = 0; k < Z.cols(); ++k) {
+    const Eigen::VectorXd column = solver.solve(Z.col(k));
+    if(solver.info() != Eigen::Success)
+      throw std::runtime_error("Spectral_policies: B z = L f did not converge for signal " +
+                               std::to_string(k) + "; check the mesh for needle-shaped faces.");
+    Z.col(k) = column;
+  }
+  return Z;
+}
+
+/// What rounding leaves of || B^-1 L F ||_B for constant signals, || |L| |F| ||_{M^-1} times a few
+/// units in the last place: needles, with their large cotangents, leave most.
+inline double rounding_of_spectral_z(const Spectral_geometry::Laplace_operator& op,
+                                     const Eigen::MatrixXd& F)
+{
+  const Eigen::SparseMatrix<double> size_of_L = op.L.cwiseAbs();
+  double sum = 0;
+  for(Eigen::Index k = 0; k < F.cols(); ++k)
+    sum += (size_of_L * F.col(k).cwiseAbs()).cwiseAbs2().cwiseQuotient(op.mass).sum();
+  return 4 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+}
+
+/// Whether no eigenvalue is further from 0 than its residual, within which there is an exact one: K
+/// = 1 on a mesh with needles, where the solver may leave a lambda of 1e-5 for 0.
+inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& op,
+                                     const Spectral_geometry::Eigenpairs& pairs,
+                                     const Eigen::VectorXd& residuals)
+{
+  const double shift = Spectral_geometry::internal::pencil_shift(op);
+  for(Eigen::Index k = 0; k < pairs.size(); ++k)
+    if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
+      return false;
+  return true;
+}
+
+/// Whether || Z ||_B^2 is what rounding leaves for constant signals: L f is then a rounding of 0
+/// beside its diagonal times f, and Z is that over a mass of about 1 / n.
+inline bool is_rounding(const double sum_of_squares, const double norm_of_F, const Eigen::Index n)
+{
+  const double rounding = 1e-14 * double(n);
+  return !(sum_of_squares > rounding * rounding * norm_of_F);
+}
+
+/// The residuals of ready pairs. Refuses pairs that are not those of this mesh: their residuals
+/// must be small, or the very ones that they came with, as those of rough pairs are.
+inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
+                                         const Spectral_geometry::Laplace_operator& op,
+                                         const Spectral_geometry::Mass mass)
+{
+  const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op).residuals(pairs);
+  const bool recorded = pairs.residuals.size() == residuals.size();
+  for(Eigen::Index k = 0; k < residuals.size(); ++k) {
+    const double r = residuals[k];
+    require(r < 1e-3 || (recorded && std::abs(pairs.residuals[k] - r) < 1e-3 * r),
+            "Spectral_options: eigenpair ", k, " is not one of this mesh and operator in the ",
+            Spectral_geometry::mass_name(mass), " mass (relative residual ", r,
+            "); compute it with eigenpairs(), or pass the vectors as signals.");
+  }
+  return residuals;
+}
+
+inline void check_signals_on_border(const Spectral_options& options, const Eigen::MatrixXi& T)
+{
+  if(options.boundary != Spectral_geometry::Boundary_condition::dirichlet)
+    return;
+  const double largest = options.signals.cwiseAbs().maxCoeff();
+  for(const auto& [i, j] : Spectral_geometry::internal::boundary_edges(T))
+    for(const int v : {i, j})
+      require(!(options.signals.row(v).cwiseAbs().maxCoeff() > 1e-9 * largest),
+              "Spectral_options: the signals do not vanish at ", vertex_name(v),
+              " of the border, as the Dirichlet condition wants; set them to 0 there.");
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
+random_mixtures(const Eigen::Index rows, const Eigen::Index r, const std::uint64_t seed)
+{
+  // G. E. P. Box and M. E. Muller 1958: the normal distribution of the standard library differs
+  // from one to the next.
+  std::mt19937_64 random(seed);
+  const auto uniform = [&random] { return (double(random() >> 11) + 0.5) / 9007199254740992.; };
+  Eigen::MatrixXd normal(rows, r);
+  for(Eigen::Index k = 0; k < r; ++k)
+    for(Eigen::Index i = 0; i < rows; ++i) {
+      const double radius = std::sqrt(-2 * std::log(uniform()));
+      normal(i, k) = radius * std::cos(6.283185307179586 * uniform());
+    }
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(normal);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(rows, r);
+  return Q * std::sqrt(double(rows) / double(r));
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
+                                                            const Eigen::VectorXd& weights)
+{
+  std::vector<Eigen::Index> seen;
+  for(Eigen::Index k = 0; k < weights.size(); ++k)
+    if(weights[k] > 0)
+      seen.push_back(k);
+  const Eigen::Index rows = Eigen::Index(seen.size()), r = options.number_of_mixtures;
+  const Eigen::MatrixXd mixtures = r == 0 || rows <= r
+                                       ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows))
+                                       : random_mixtures(rows, r, options.seed);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(weights.size(), mixtures.cols());
+  for(Eigen::Index i = 0; i < rows; ++i)
+    R.row(seen[std::size_t(i)]) = std::sqrt(weights[seen[std::size_t(i)]]) * mixtures.row(i);
+  return R;
+}
+
+inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
+                                       const Spectral_options& options, const double area)
+{
+  Spectral_basis basis;
+  const Eigen::VectorXd weights = spectral_weights(options, options.signals.cols());
+  const Eigen::MatrixXd R = mixing_matrix(options, weights);
+  const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
+  basis.signals = Spectral_signals(Z.rows(), R.cols());
+  basis.signals.set(0, options.signals * R, Z * R);
+  basis.sum_of_squares =
+      ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
+  const double rounding =
+      rounding_of_spectral_z(op, options.signals * weights.cwiseSqrt().asDiagonal());
+  const double norm_of_F = (op.mass.transpose() * options.signals.cwiseAbs2()).dot(weights) / area;
+  if(!(basis.sum_of_squares > area * rounding * rounding) ||
+     is_rounding(basis.sum_of_squares, norm_of_F, Z.rows()))
+    basis.sum_of_squares = 0;
+  basis.rough = true;
+  return basis;
+}
+
+inline Spectral_basis
+basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectral_options& options,
+                    std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs, const double area,
+                    const Eigen::Index components)
+{
+  Spectral_basis basis;
+  Eigen::VectorXd weights = spectral_weights(options, pairs->size());
+  const Eigen::VectorXd residuals =
+      options.eigenpairs ? checked_residuals(*pairs, op, options.mass) : pairs->residuals;
+  basis.sum_of_squares = weights.dot((area * pairs->values).cwiseAbs2());
+  if(eigenvalues_are_rounding(op, *pairs, residuals) ||
+     is_rounding(basis.sum_of_squares, weights.sum(), pairs->vectors.rows()))
+    basis.sum_of_squares = 0;
+  basis.rough = pairs_are_rough(residuals);
+  // P carries the constants of each component over exactly: they are nothing to look at. Where
+  // cotangents of 0 take a component apart, L has more functions of eigenvalue 0, and these cost
+  // something once triangles change.
+  const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
+  if(zeros <= components)
+    weights.head((std::min)(zeros, pairs->size())).setZero();
+  const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
+  basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
+  for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {
+    const auto columns =
+        R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
+    const Eigen::MatrixXd F = pairs->vectors * columns;
+    if(basis.rough)
+      basis.signals.set(first, F, area * spectral_z(op, F));
+    else
+      basis.signals.set(first, F, pairs->vectors * ((area * pairs->values).asDiagonal() * columns));
+  }
+  basis.eigenpairs = std::move(pairs);
+  return basis;
+}
+
+inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& op,
+                                     const Spectral_options& options, const double area)
+{
+  Spectral_geometry::Filtered_signals_options how;
+  const Eigen::Index r = options.number_of_mixtures;
+  how.signals = (std::max)(r, options.number_of_relocation_signals);
+  how.seed = options.seed;
+  how.threads = options.threads;
+  how.progress = [&options, &op](const double fraction) {
+    return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(op.L.rows()));
+  };
+  const auto filtered = std::make_shared<Spectral_geometry::Filtered_signals>(
+      Spectral_geometry::filtered_signals(op, options.number_of_eigenvectors, how));
+  Spectral_basis basis;
+  basis.sum_of_squares = area * area * (op.B * filtered->Z).cwiseProduct(filtered->Z).sum();
+  if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
+    basis.sum_of_squares = 0;
+  const double scale =
+      std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
+  basis.signals = Spectral_signals(op.L.rows(), r);
+  basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r));
+  basis.filtered = filtered;
+  return basis;
+}
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,
+                                                            const Eigen::MatrixXi& T,
+                                                            const Spectral_options& options)
+{
+  check_spectral_options(options, V.rows());
+  check_extent(V);
+  const Spectral_geometry::Laplace_operator op = operator_of_basis(V, T, options);
+  const double area = op.mass.sum();
+  Spectral_basis basis;
+  if(options.signals.size() != 0) {
+    check_signals_on_border(options, T);
+    basis = basis_of_signals(op, options, area);
+  } else if(is_filtered(options)) {
+    basis = basis_of_noise(op, options, area);
+  } else {
+    std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
+    if(!pairs) {
+      Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
+      solver.threads =
+          (std::max)(solver.threads, options.threads); // the result does not depend on it
+      // A callback of the solver's own is asked as well.
+      solver.progress = [&options, &V](const double fraction) {
+        const auto& own = options.eigenpairs_options.progress;
+        return report_progress(options, Spectral_phase::eigenpairs, fraction,
+                               std::size_t(V.rows())) &&
+               (!own || own(fraction));
+      };
+      pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
+          Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));
+    }
+    const std::vector<Eigen::Index> component =
+        Spectral_geometry::internal::connected_components(V.rows(), T);
+    basis = basis_of_eigenpairs(op, options, pairs, area,
+                                *std::max_element(component.begin(), component.end()) + 1);
+  }
+  basis.number_of_vertices = V.rows();
+  basis.area = area;
+  return basis;
+}
+
+} // namespace CGAL::Surface_mesh_simplification::internal
+
+#endif // definitions
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_BASIS_H

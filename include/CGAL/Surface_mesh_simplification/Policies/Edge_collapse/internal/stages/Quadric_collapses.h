@@ -65,8 +65,549 @@ quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, st
 
 } // namespace CGAL::Surface_mesh_simplification::internal
 
-#ifndef CGAL_SPECTRAL_GEOMETRY_COMPILED
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses_impl.h>
+#if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_LOOP)
+
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
+
+#include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#ifdef __GNUC__
+#define CGAL_SPECTRAL_PREFETCH(address) __builtin_prefetch(address)
+#else
+#define CGAL_SPECTRAL_PREFETCH(address)
 #endif
+
+namespace CGAL::Surface_mesh_simplification::internal {
+
+/// What to take from positions (the rows of V, at least one): a point of the mesh along each axis
+/// on which it lies at least eight times as far from the origin as it is long, where nothing would
+/// be left of what quadrics tell apart; 0 on the others. So no point changes by being moved there
+/// and back: such differences of doubles are exact.
+inline Eigen::Vector3d offset_of(const Eigen::MatrixXd& V)
+{
+  Eigen::Vector3d offset = V.row(0);
+  for(int axis = 0; axis < 3; ++axis)
+    if(!(V.col(axis).cwiseAbs().minCoeff() >=
+         8 * (V.col(axis).maxCoeff() - V.col(axis).minCoeff())))
+      offset[axis] = 0;
+  return offset;
+}
+
+/// Halfedges by cost, the least first. What is queued is kept in buckets by the leading bits of its
+/// cost. The first of them is sorted when its turn comes, beside a heap of what is added then.
+/// So what comes next is known, and the memory that it needs can be asked for. A run from a million
+/// vertices takes 0.59 times as long as with a heap of all, 0.83 times without asking.
+class Halfedge_queue
+{
+public:
+  struct Entry
+  {
+    float cost; // in single precision, to keep the queue small
+    int halfedge;
+
+    friend bool operator<(const Entry& a, const Entry& b) // the largest is that of least cost
+    {
+      return std::tie(b.cost, b.halfedge) < std::tie(a.cost, a.halfedge);
+    }
+  };
+
+  bool empty() const { return m_size == 0; }
+
+  const Entry& top()
+  {
+    if(m_sorted.empty() && m_added.empty()) {
+      while(m_buckets[m_first].empty())
+        ++m_first;
+      m_sorted = std::exchange(m_buckets[m_first], {});
+      std::sort(m_sorted.begin(), m_sorted.end());
+    }
+    return added_is_next() ? m_added.front() : m_sorted.back();
+  }
+
+  /// The halfedge that comes after so many others, those added lately aside, or -1.
+  int ahead(const std::size_t count) const
+  {
+    return count < m_sorted.size() ? m_sorted[m_sorted.size() - 1 - count].halfedge : -1;
+  }
+
+  void push(const Entry& entry)
+  {
+    const std::size_t b = bucket_of(entry.cost);
+    ++m_size;
+    if(b > m_first)
+      m_buckets[b].push_back(entry);
+    else {
+      m_added.push_back(entry);
+      std::push_heap(m_added.begin(), m_added.end());
+    }
+  }
+
+  /// Removes what top() has returned.
+  void pop()
+  {
+    --m_size;
+    if(added_is_next()) {
+      std::pop_heap(m_added.begin(), m_added.end());
+      m_added.pop_back();
+    } else
+      m_sorted.pop_back();
+  }
+
+private:
+  bool added_is_next() const
+  {
+    return m_sorted.empty() || (!m_added.empty() && m_sorted.back() < m_added.front());
+  }
+
+  // Numbers that are not negative are in the order of their bits: the exponent and six more.
+  static std::size_t bucket_of(const float cost)
+  {
+    if(cost < 0)
+      return 0;
+    std::uint32_t bits;
+    std::memcpy(&bits, &cost, sizeof bits);
+    return 1 + ((bits & 0x7fffffff) >> 17);
+  }
+
+  using Buckets = std::vector<std::vector<Entry>>;
+
+  Buckets m_buckets = Buckets(2 + (0x7fffffff >> 17));
+  std::vector<Entry> m_sorted, m_added; // of the buckets up to m_first
+  std::size_t m_first = 0, m_size = 0;
+};
+
+/// The run of `quadric_collapses()`. Halfedge c leads from the vertex of corner c to that of the
+/// next corner of its face.
+class Quadric_collapser
+{
+public:
+  Quadric_collapser(Triangle_arrays mesh, const bool keep_free_of_self_intersections)
+    : m_origin(offset_of(mesh.V))
+    , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
+    , m_log(mesh.V.rows())
+    , m_mesh(std::move(mesh))
+    , m_state(m_mesh.vertex.size(), none)
+  {
+    const std::size_t n = m_log.number_of_vertices();
+    m_mesh.fixed.resize(n, false);
+    m_points.resize(n);
+    for(std::size_t v = 0; v < n; ++v)
+      m_points[v] = m_mesh.V.row(Eigen::Index(v)).transpose() - m_origin;
+    m_mesh.V.resize(0, 3);
+    m_quadrics.resize(n);
+    m_degree.assign(n, 0);
+    m_outgoing.assign(n, -1);
+    m_changed.assign(n, 0);
+    m_mark.assign(n, 0);
+    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
+      add_corner(c);
+    check_fans();
+    if(keep_free_of_self_intersections)
+      m_crossing.set_geometry(m_points, *this);
+  }
+
+  void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
+  {
+    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
+      if(m_mesh.opposite[at(c)] < c)
+        push(c);
+    const std::size_t n = m_log.number_of_vertices();
+    const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
+    std::size_t next_report = n - (std::min)(n, step), before = n;
+    while(m_log.number_of_vertices_left() > target) {
+      if(m_queue.empty()) { // once more for those that were refused, while that leads on
+        const bool stuck = m_log.number_of_vertices_left() == before;
+        if(stuck && m_largest_degree == unlimited)
+          return;
+        before = m_log.number_of_vertices_left();
+        progress(before);
+        m_largest_degree = stuck ? unlimited : (std::min)(4 * m_largest_degree, unlimited);
+        for(const int c : std::exchange(m_refused, {}))
+          if(m_mesh.vertex[at(c)] != removed && m_state[at(c)] == refused)
+            push(c);
+        continue;
+      }
+      const Entry entry = m_queue.top();
+      m_queue.pop();
+      prefetch_next();
+      handle(entry);
+      if(m_log.number_of_vertices_left() <= next_report) {
+        progress(m_log.number_of_vertices_left());
+        next_report =
+            m_log.number_of_vertices_left() - (std::min)(m_log.number_of_vertices_left(), step);
+      }
+    }
+  }
+
+  Collapse_log take_log() { return std::move(m_log); }
+
+  /// Whether two faces of the mesh as it is intersect.
+  bool has_intersections() const
+  {
+    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
+        m_points.front().data(), Eigen::Index(m_points.size()), 3);
+    Eigen::MatrixXi T(Eigen::Index(m_mesh.vertex.size() / 3), 3);
+    Eigen::Index faces = 0;
+    for(std::size_t c = 0; c < m_mesh.vertex.size(); c += 3)
+      if(m_mesh.vertex[c] != removed)
+        T.row(faces++) << m_mesh.vertex[c], m_mesh.vertex[c + 1], m_mesh.vertex[c + 2];
+    T.conservativeResize(faces, 3);
+    return Spectral_geometry::internal::any_self_intersecting_faces(
+        V, T, [](Eigen::Index, Eigen::Index) { return true; });
+  }
+
+  /// Calls visit(a, b) for each triangle (v, a, b), as `Spectral_crossing_guard` asks for.
+  template <class Visit>
+  void for_triangles(const int v, const Visit& visit) const
+  {
+    for_outgoing(v, [&](const int c) { visit(target(c), source(previous(c))); });
+  }
+
+  /// Calls visit(w) for each neighbour of v.
+  template <class Visit>
+  void for_neighbours(const int v, const Visit& visit) const
+  {
+    for_outgoing(v, [&](const int c) {
+      visit(target(c));
+      if(is_border(previous(c)))
+        visit(source(previous(c)));
+    });
+  }
+
+private:
+  // A halfedge is not in the queue; refused; in the queue, with the number of collapses before its
+  // cost was computed.
+  static constexpr int none = -2, refused = -1;
+
+  using Entry = Halfedge_queue::Entry;
+
+  static constexpr int removed = -1; // vertex of the corners of a face that is gone
+  static constexpr int unlimited = (std::numeric_limits<int>::max)() / 8;
+
+  static std::size_t at(const int i) { return std::size_t(i); }
+  static int next(const int c) { return c % 3 == 2 ? c - 2 : c + 1; }
+  static int previous(const int c) { return c % 3 == 0 ? c + 2 : c - 1; }
+
+  int source(const int c) const { return m_mesh.vertex[at(c)]; }
+  int target(const int c) const { return m_mesh.vertex[at(next(c))]; }
+  bool is_border(const int c) const { return m_mesh.opposite[at(c)] < 0; }
+  bool is_border_vertex(const int v) const { return is_border(m_outgoing[at(v)]); }
+
+  // Starts with the halfedge on the border, if there is one, and turns from there.
+  template <class Visit>
+  void for_outgoing(const int v, const Visit& visit) const
+  {
+    const int first = m_outgoing[at(v)];
+    int c = first;
+    do {
+      const int beyond = m_mesh.opposite[at(previous(c))];
+      visit(c);
+      c = beyond;
+    } while(c >= 0 && c != first);
+  }
+
+  void add_corner(const int c)
+  {
+    const int v = source(c);
+    const Eigen::Vector3d& p = m_points[at(v)];
+    m_degree[at(v)] += is_border(c) ? 2 : 1;
+    if(m_outgoing[at(v)] < 0 || is_border(c))
+      m_outgoing[at(v)] = c;
+    m_quadrics[at(v)].add_corner(p, m_points[at(target(c))] - p, is_border(c),
+                                 m_points[at(source(previous(c)))] - p, is_border(previous(c)));
+  }
+
+  void check_fans() const
+  {
+    for(int v = 0; v < int(m_points.size()); ++v) {
+      int degree = 0;
+      for_neighbours(v, [&](int) { ++degree; });
+      require(degree == m_degree[at(v)], "edge collapses: ", vertex_name(v),
+              " joins several fans of faces; duplicate it "
+              "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
+    }
+  }
+
+  void push(const int c) { push(c, placement(c).first); }
+
+  void push(const int c, const float cost)
+  {
+    m_state[at(c)] = number_of_collapses();
+    m_queue.push({cost, c});
+  }
+
+  int number_of_collapses() const { return int(m_log.points().size()); }
+
+  // Least cost and where it is taken.
+  std::pair<float, Eigen::Vector3d> placement(const int c) const
+  {
+    const int u = source(c), v = target(c);
+    const Eigen::Vector3d &p = m_points[at(u)], &q = m_points[at(v)];
+    if(p == q)
+      return {-1.f, p};
+    const Spectral_quadric sum = m_quadrics[at(u)] + m_quadrics[at(v)];
+    Eigen::Vector3d x = m_mesh.fixed[at(u)] ? p : m_mesh.fixed[at(v)] ? q : sum.minimiser();
+    if(!x.allFinite())
+      x = (p + q) / 2;
+    // A fixed end is exactly there: p + (q - p) rounds.
+    if(m_mesh.border_is_apart && !m_mesh.fixed[at(u)] && !m_mesh.fixed[at(v)] &&
+       (is_border_vertex(u) || is_border_vertex(v)))
+      x = !is_border_vertex(v)   ? p
+          : !is_border_vertex(u) ? q
+                                 : Eigen::Vector3d(p + projected_edge_weight(p, q, x) * (q - p));
+    x = x + m_origin;
+    if(m_mesh.single_precision)
+      x = x.cast<float>().cast<double>();
+    x = (x - m_origin).eval(); // what the mesh will hold
+    return {float((std::max)(m_cost_scale * sum(x), 0.)), x};
+  }
+
+  void handle(const Entry& entry)
+  {
+    const int c = entry.halfedge, opposite = m_mesh.opposite[at(c)];
+    if(source(c) == removed)
+      return;
+    const int computed = std::exchange(m_state[at(c)], none);
+    if(opposite >= 0 &&
+       m_state[at(opposite)] >= 0) // two edges have become one: its other entry stands for it
+      return;
+    const int u = source(c), v = target(c);
+    if(would_change(u, v) || would_change(v, u))
+      return;
+    const auto [cost, x] = placement(c);
+    if((std::max)(m_changed[at(u)], m_changed[at(v)]) > computed && !m_queue.empty() &&
+       cost > m_queue.top().cost) {
+      push(c, cost);
+      return;
+    }
+    if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) ||
+       !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
+       m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
+      m_state[at(c)] = refused;
+      m_refused.push_back(c);
+      return;
+    }
+    if(m_mesh.fixed[at(u)])
+      collapse(c, v, u, x);
+    else
+      collapse(c, u, v, x);
+  }
+
+  // A run waits for memory half of its time. Which vertices an edge has is known only when its
+  // corners have come.
+  void prefetch_next() const
+  {
+    if(const int c = m_queue.ahead(8); c >= 0) {
+      CGAL_SPECTRAL_PREFETCH(&m_mesh.vertex[at(c)]);
+      CGAL_SPECTRAL_PREFETCH(&m_mesh.opposite[at(c)]);
+      CGAL_SPECTRAL_PREFETCH(&m_state[at(c)]);
+    }
+    if(const int c = m_queue.ahead(4); c >= 0 && source(c) != removed)
+      for(const int v : {source(c), target(c)}) {
+        CGAL_SPECTRAL_PREFETCH(&m_points[at(v)]);
+        CGAL_SPECTRAL_PREFETCH(&m_quadrics[at(v)]);
+        CGAL_SPECTRAL_PREFETCH(&m_quadrics[at(v)].c);
+        CGAL_SPECTRAL_PREFETCH(&m_changed[at(v)]);
+      }
+  }
+
+  // The place or the values of a fixed vertex, for those of the other one.
+  bool would_change(const int fixed, const int other) const
+  {
+    return m_mesh.fixed[at(fixed)] &&
+           (m_mesh.fixed[at(other)] ||
+            (m_mesh.border_is_apart && is_border_vertex(other) && !is_border_vertex(fixed)));
+  }
+
+  // The link condition.
+  bool keeps_manifold(const int c)
+  {
+    const int u = source(c), v = target(c), opposite = m_mesh.opposite[at(c)];
+    if(opposite >= 0 && is_border_vertex(u) && is_border_vertex(v))
+      return false;
+    int faces = 0;
+    for(const int side : {c, opposite}) {
+      if(side < 0)
+        continue;
+      ++faces;
+      const int apex = source(previous(side));
+      // an ear, or a tetrahedron
+      if((is_border(next(side)) && is_border(previous(side))) ||
+         (m_degree[at(apex)] == 3 && !is_border_vertex(apex)))
+        return false;
+    }
+    ++m_marks;
+    for_neighbours(u, [&](const int w) { m_mark[at(w)] = m_marks; });
+    int common = 0;
+    for_neighbours(v, [&](const int w) { common += m_mark[at(w)] == m_marks; });
+    return common == faces;
+  }
+
+  // The faces around u other than those of the edge uv, when u moves to x.
+  bool keeps_shape(const int u, const int v, const Eigen::Vector3d& x) const
+  {
+    bool result = true;
+    for_triangles(u, [&](const int a, const int b) {
+      if(!result || a == v || b == v)
+        return;
+      const Face before(m_points[at(u)], m_points[at(a)], m_points[at(b)]),
+          after(x, m_points[at(a)], m_points[at(b)]);
+      if(before.is_needle())
+        result = !after.has_short_side() || before.has_short_side();
+      else
+        result = !after.is_needle() && before.turns_little(after);
+    });
+    return result;
+  }
+
+  struct Face
+  {
+    Face(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
+      : cross((a - p).cross(b - p))
+      , squares((a - p).squaredNorm(), (b - p).squaredNorm(), (b - a).squaredNorm())
+    {}
+
+    bool has_short_side() const { return !(squares.minCoeff() > 0); }
+    bool is_needle() const
+    {
+      const double longest = squares.maxCoeff();
+      return !(cross.squaredNorm() > 1e-6 * longest * longest);
+    }
+    bool turns_little(const Face& after) const
+    {
+      const double dot = cross.dot(after.cross);
+      return dot > 0 && dot * dot > 0.04 * cross.squaredNorm() * after.cross.squaredNorm();
+    }
+
+    Eigen::Vector3d cross, squares;
+  };
+
+  void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
+  {
+    double alpha = m_mesh.fixed[at(kept)]
+                       ? 0.
+                       : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
+      alpha = is_border_vertex(kept) ? 0. : 1.;
+    if(m_mesh.binary)
+      alpha = alpha <= 0.5 ? 0. : 1.;
+    m_log.merge(gone, kept, alpha, x + m_origin);
+
+    std::vector<int>& ring = m_ring; // what is left of both
+    ring.clear();
+    const int opposite = m_mesh.opposite[at(c)];
+    const auto is_left = [&](const int h) {
+      return h / 3 != c / 3 && (opposite < 0 || h / 3 != opposite / 3);
+    };
+    for(const int v : {gone, kept})
+      for_outgoing(v, [&](const int h) {
+        if(is_left(h))
+          ring.push_back(h);
+      });
+    m_degree[at(kept)] += m_degree[at(gone)] - 2;
+    for(const int side : {c, opposite})
+      if(side >= 0)
+        close(side, kept);
+    m_points[at(kept)] = x;
+    m_quadrics[at(kept)] += m_quadrics[at(gone)];
+    m_changed[at(kept)] = number_of_collapses();
+    m_outgoing[at(kept)] = ring.front();
+    for(const int h : ring) {
+      m_mesh.vertex[at(h)] = kept;
+      if(is_border(h))
+        m_outgoing[at(kept)] = h;
+    }
+    for(const int h : ring) {
+      reconsider(h);
+      reconsider(previous(h));
+    }
+    m_crossing.commit(m_points, *this, Spectral_slot(gone), Spectral_slot(kept));
+  }
+
+  // Removes a face on the edge: its other two edges become one.
+  void close(const int side, const int kept)
+  {
+    const int apex = source(previous(side));
+    const int a = m_mesh.opposite[at(next(side))], b = m_mesh.opposite[at(previous(side))];
+    const bool was_queued = m_state[at(next(side))] != none || m_state[at(previous(side))] != none;
+    if(a >= 0)
+      m_mesh.opposite[at(a)] = b;
+    if(b >= 0)
+      m_mesh.opposite[at(b)] = a;
+    if(m_outgoing[at(apex)] == previous(side))
+      m_outgoing[at(apex)] = a;
+    --m_degree[at(apex)];
+    --m_degree[at(kept)];
+    for(const int h : {side, next(side), previous(side)})
+      m_mesh.vertex[at(h)] = removed;
+    // An entry of the edge that is left, if only one of the removed sides had one.
+    const int left = a >= 0 ? a : b;
+    if(was_queued && m_state[at(left)] == none && (b < 0 || m_state[at(b)] == none))
+      m_state[at(left)] = refused; // until the ring is complete
+  }
+
+  void reconsider(const int h)
+  {
+    if(m_state[at(h)] == refused)
+      push(h);
+    const int opposite = m_mesh.opposite[at(h)];
+    if(opposite >= 0 && m_state[at(opposite)] == refused)
+      push(opposite);
+  }
+
+  Eigen::Vector3d m_origin;
+  double m_cost_scale; // costs are fourth powers of lengths
+  Collapse_log m_log;
+  Triangle_arrays m_mesh;                // but for positions
+  std::vector<Eigen::Vector3d> m_points; // of each vertex, as what follows, from the origin
+  std::vector<Spectral_quadric> m_quadrics;
+  std::vector<int> m_degree, m_outgoing;
+  std::vector<int> m_changed; // the number of collapses when it last did
+  std::vector<int> m_mark;
+  int m_marks = 0;
+  std::vector<int> m_state; // of each halfedge
+  std::vector<int> m_refused, m_ring;
+  // Hubs come last: to look at one takes as long as it has neighbours.
+  int m_largest_degree = 200;
+  Spectral_crossing_guard m_crossing;
+  Halfedge_queue m_queue;
+};
+
+CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
+quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_self_intersections,
+                  const std::size_t target, const std::function<void(std::size_t)>& progress)
+{
+  // To look for intersections at each collapse takes five times as long as the collapses: only
+  // where some are left in the end.
+  std::size_t least = std::size_t(mesh.V.rows());
+  const auto report = [&](const std::size_t left) {
+    least = (std::min)(least, left);
+    progress(least);
+  };
+  for(bool guarded = false;; guarded = true) {
+    const bool last = guarded || !keep_free_of_self_intersections;
+    Quadric_collapser run(last ? std::move(mesh) : mesh, guarded);
+    run.run(target, report);
+    if(last || !run.has_intersections())
+      return run.take_log();
+  }
+}
+
+} // namespace CGAL::Surface_mesh_simplification::internal
+
+#endif // definitions
 
 #endif // CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_STAGES_QUADRIC_COLLAPSES_H

@@ -124,9 +124,9 @@ private:
   void relocate()
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
-      m_result.warnings.push_back(
-          "Relocation is made for the averaged mass: in a lumped one it bends the shape "
-          "to cancel the error of the elements.");
+      m_result.warnings.push_back(std::string("Relocation is made for the averaged mass: in the ") +
+                                  Spectral_geometry::mass_name(m_options.mass) +
+                                  " one it bends the shape to cancel the error of the elements.");
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
     relocation.progress = reporting(Spectral_phase::relocation);
     const auto points = m_state.vertex_point_map();
