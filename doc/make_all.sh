@@ -100,6 +100,7 @@ for mesh in ogre beetle; do
 done
 python3 "$doc/make_operators.py" "$build" "$meshes/rocker-arm.obj" "$meshes/homer.obj" "$meshes/limbs/cat.off" \
   --needles "$meshes/nefertiti.obj" "$meshes/falconstatue.obj" "$build/ogre.off" "$build/beetle.off" >"$build/operators.txt"
+python3 "$doc/make_masses.py" "$build" "$meshes/limbs/cat.off" "$meshes/limbs/horse.off" "$meshes/homer.obj" "$meshes/rocker-arm.obj"
 say "the figures, of the demonstration's own shape"
 mkdir -p "$build/figures"
 [ -s "$build/figures/shape.ply" ] || "$quick/examples/make_demo_shape" "$build/figures/shape.ply" --vertices 10000

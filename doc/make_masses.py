@@ -44,7 +44,7 @@ def main():
              "| mass of the run | " + " | ".join("judged " + judge for judge in MASSES) + " |", "|---" * (len(MASSES) + 1) + "|"]
     for run in MASSES:
         lines.append(f"| {run} | " + " | ".join(f"{mean(errors[run][j]):.2f}, {mean(largest[run][j]):.1f}" for j in MASSES) + " |")
-    replace("measurements.md", "masses", "\n".join(lines) + "\n")
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "measurements.md"), "masses", "\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":
