@@ -23,6 +23,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
@@ -128,6 +129,16 @@ class Results_live(Case):
         self.assertEqual(run.fitted.objective_after, RUN.fitted.objective_after)
         again = ss.simplify(V, F, 150, 40, eigenpairs=run.eigenpairs)
         np.testing.assert_array_equal(again.V, RUN.V)
+
+    def test_a_file_is_whole_or_not_there(self):
+        def half(file, **arrays):
+            file.write(b"half of it")
+            raise KeyboardInterrupt
+
+        with unittest.mock.patch("numpy.savez_compressed", half):
+            with self.assertRaises(KeyboardInterrupt):
+                RUN.save(self.path("run.npz"))
+        self.assertEqual(os.listdir(self.folder), [])
 
     def test_other_files_are_refused(self):
         np.savez(self.path("other.npz"), a=np.ones(3))
@@ -601,8 +612,10 @@ class Maps(Case):
         own = RUN.P @ where
         others = self.run_.P @ where[self.order]
         coarse = np.array([np.linalg.norm(others - p, axis=1).argmin() for p in own])
-        T = ss.lift_point_map(coarse, self.run_, RUN, 30)
-        self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.2)
+        # The coarse map is off by 0.16. With 30 modes the last one is exchanged with the next.
+        for k in 20, 30, None:
+            T = ss.lift_point_map(coarse, self.run_, RUN, k)
+            self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.03)
 
 
 class Poses(Case):
@@ -625,8 +638,9 @@ class Poses(Case):
                 np.testing.assert_array_equal(level.F, RUN.F)
                 np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
         np.testing.assert_allclose(RUN.apply(other).V, RUN.P @ other)
-        self.assertLess(errors["relocated"], 2 * errors["own"])
-        self.assertLess(errors["relocated"], 1.1 * errors["P"])
+        # 1.59 % where the own run has 1.78 and P alone 1.79
+        self.assertLess(errors["relocated"], 1.1 * errors["own"])
+        self.assertLess(errors["relocated"], 0.95 * errors["P"])
         self.assertAlmostEqual(errors["given"], errors["relocated"], 4)
 
     def test_the_merges_are_those_of_the_run(self):
@@ -744,7 +758,7 @@ class Collections(Case):
                 for r in (row.result, own)
             ]
             ratios.append(errors[0] / errors[1])
-        self.assertLess(np.mean(ratios), 1.3)
+        self.assertLess(max(ratios), 1.1)  # 0.72 to 0.93
 
     def test_refusals(self):
         for words, more in (
@@ -821,9 +835,10 @@ class Command_line(Case):
 
 class Package(Case):
     def test_doctests(self):
-        for name in "_interface", "_results", "_meshes", "_maps", "_collection":
-            module = importlib.import_module("spectral_simplification." + name)
-            self.assertEqual(doctest.testmod(module).failed, 0, name)
+        # The package says that it has all of them, so there they are found.
+        failed, attempted = doctest.testmod(ss)
+        self.assertEqual(failed, 0)
+        self.assertGreater(attempted, 20)
 
     def test_it_says_what_it_is(self):
         folder = os.path.dirname(ss.__file__)

@@ -23,6 +23,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -385,6 +386,8 @@ inline py::dict relocate(const Arguments& a)
   SG::Relocation_options options;
   options.signals = value_of(relocation_words, a.word("signals", words_of(relocation_words)));
   options.threads = a.threads();
+  if(op.theta >= 0.5) // as in spectral_relocation(): only a bent shape has those of a lumped mass
+    options.eigenvalues = pairs.op->mass.sum() * pairs.pairs->values;
   options.progress = [&](const double fraction) { return watch("relocation", fraction); };
   const SG::Relocation_result done = watch.run([&] {
     const SG::Eigenpairs& phi = *pairs.pairs;
@@ -422,15 +425,21 @@ inline py::array point_map(const Arguments& a)
   const Eigen::MatrixXd C = a.matrix("C", rows, "the target");
   const int threads = a.threads();
   const std::vector<Index> map = interruptible([&] {
-    constexpr Index step = 20000; // vertices between two questions for signals
     const Eigen::MatrixXd& phi = target.pairs->vectors;
     std::vector<Index> all;
-    for(Index first = 0; first < phi.rows(); first += step) {
+    // Vertices between two questions for signals, as many as take about 0.3 s: each call sorts the
+    // source anew, and a search in a map of noise takes ten times as long as in a good one.
+    Index step = 2000;
+    for(Index first = 0; first < phi.rows();) {
+      const auto begin = std::chrono::steady_clock::now();
       const std::vector<Index> part = SG::target_to_source_map(
           C, source.pairs->vectors, phi.middleRows(first, (std::min)(step, phi.rows() - first)),
           threads);
       all.insert(all.end(), part.begin(), part.end());
       check_signals();
+      first += step;
+      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+      step = Index(double(step) * (std::max)(0.5, (std::min)(0.3 / took.count(), 4.))) + 1;
     }
     return all;
   });

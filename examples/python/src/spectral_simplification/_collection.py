@@ -382,8 +382,7 @@ def simplify_collection(
         path = None
         if error is None and folder is not None:
             path = str(folder / (names[i] + ".npz"))
-            result.save(path + ".part")  # a name that no later call takes for a result
-            os.replace(path + ".part", path)
+            result.save(path)
             result = None
         rows[i] = Collection_row._from_state(
             dict(name=names[i], error=error, path=path, seconds=seconds, _result=result)

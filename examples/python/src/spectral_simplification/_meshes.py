@@ -100,6 +100,21 @@ def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
     ------
     ValueError
         If the mesh cannot be used afterwards, with the first obstacle.
+
+    Examples
+    --------
+    A tetrahedron with a face that is turned round, and a vertex without faces:
+
+    >>> import numpy
+    >>> V = numpy.array([[0, 0, 0], [9, 9, 9], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    >>> F = numpy.array([[0, 3, 2], [0, 2, 4], [0, 4, 3], [2, 4, 3]])
+    >>> diagnose(V, F).usable
+    False
+    >>> mesh = clean(V, F)
+    >>> mesh.changes
+    ['1 face turned round', '1 isolated vertex left out']
+    >>> mesh.place, mesh.origin
+    (array([ 0, -1,  1,  2,  3]), array([0, 2, 3, 4]))
     """
     return Cleaned._from_state(_core.clean(locals()))
 

@@ -7,7 +7,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import zipfile
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
@@ -42,7 +44,7 @@ class _Result:
         return _restored, (type(self).__name__, self._state())
 
     def save(self, path: Any) -> None:
-        """Writes the result to a file that `load()` reads.
+        """Writes the result to a file that `load()` reads; it is there wholly or not at all.
 
         Parameters
         ----------
@@ -51,8 +53,15 @@ class _Result:
         """
         arrays: dict[str, numpy.ndarray] = {}
         text = json.dumps(_packed(self, "r", arrays))
-        with open(path, "wb") as file:
-            numpy.savez_compressed(file, spectral_simplification=numpy.array(text), **arrays)
+        part = os.fspath(path) + ".part"
+        try:
+            with open(part, "wb") as file:
+                numpy.savez_compressed(file, spectral_simplification=numpy.array(text), **arrays)
+            os.replace(part, path)
+        except BaseException:
+            with contextlib.suppress(OSError):
+                os.unlink(part)
+            raise
 
 
 def _packed(value: Any, name: str, arrays: dict[str, numpy.ndarray]) -> Any:
