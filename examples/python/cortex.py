@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 #   cortex.py [--surface FILE --mask FILE] [--vertices 2000] [--modes 100] [--eigenvalues FILE]
-#             [--other FILE ...] [--output FOLDER]
+#             [--other FILE ...] [--mass averaged] [--output FOLDER]
 #
 # A cortex without its medial wall to 2,000 vertices: how well the modes of the full surface are
 # kept, in the mass that LaPy takes, parcels and measurements that are carried, other surfaces of
@@ -156,6 +156,7 @@ def main(arguments=None):
     parser.add_argument(
         "--modes", type=int, nargs="*", default=[100], help="K; several for one curve each"
     )
+    parser.add_argument("--mass", default="averaged", help="of the run: averaged or consistent")
     parser.add_argument("--output", default=".")
     a = parser.parse_args(arguments)
     out = pathlib.Path(a.output)
@@ -176,14 +177,14 @@ def main(arguments=None):
 
     curves = {}
     for k in a.modes:
-        run = ss.simplify(V, F, a.vertices, k, mask=mask)
-        fine, coarse, averaged = compared(run, k)
-        curves[k] = errors(averaged, fine, k)
+        run = ss.simplify(V, F, a.vertices, k, mass=a.mass, mask=mask)
+        fine, coarse, own = compared(run, k)
+        curves[k] = errors(own, fine, k)
         print(f"{len(run.used)} of {len(V)} vertices to {len(run.V)}, K = {k}")
         first = min(50, k)
         for name, e in ("consistent", errors(coarse, fine, first)), (
-            "averaged",
-            errors(averaged, fine, first),
+            a.mass,
+            errors(own, fine, first),
         ):
             print(
                 f"  first {first} eigenvalues, small mesh in the {name} mass: error "
@@ -212,7 +213,7 @@ def main(arguments=None):
     ss.write_mesh(out / "cortex.off", run.V, run.F)
     run.save(out / "cortex.npz")
     try:
-        figure(out / "cortex.png", run, fine, averaged, curves)
+        figure(out / "cortex.png", run, fine, own, curves)
     except ImportError:
         print("  no figure: Matplotlib is not installed")
     return run, curves
