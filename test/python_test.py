@@ -404,7 +404,7 @@ class Results(Shapes):
             run = ss.simplify(self.V, self.F, 200)
         self.assertEqual(caught.filename, __file__)
         self.assertIn("less than 3 K", run.report["warnings"][0])
-        with self.assertRaisesRegex(ValueError, "n is 3, but 1 component needs at least 4 vertices"):
+        with self.assertRaisesRegex(ValueError, "the target is 3 vertices, but 1 component needs at least 4"):
             ss.simplify(self.V, self.F, 3, 1)
 
     def test_match(self):

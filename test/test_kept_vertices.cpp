@@ -191,9 +191,9 @@ TEST_CASE("Pre-simplification never brings two vertices to keep together that sh
   input.T << 0, 1, 2, 0, 3, 1;
   Spectral_edge_collapse_options options = options_with(1);
   options.kept_vertices = {2, 3};
-  options.pre_simplify = 2;
+  options.pre_simplify = 3;
   Mesh mesh = make_mesh(input);
-  const Result result = SMS::spectral_edge_collapse(mesh, 2, options);
+  const Result result = SMS::spectral_edge_collapse(mesh, 3, options);
   CHECK(result.pre_simplified_vertices == 4);
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 2);
 }

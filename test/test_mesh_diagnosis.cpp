@@ -85,8 +85,6 @@ TEST_CASE("Nothing is found in sound meshes but their components")
     CHECK(d.components[0].vertices == std::size_t(mesh.V.rows()));
     CHECK(d.components[0].faces == std::size_t(mesh.T.rows()));
   }
-  CHECK(soup_of(shapes::torus_matrices(8, 6)).diagnosis().least_vertices() == 7);
-  CHECK(grid().diagnosis().least_vertices() == 3);
   CHECK_FALSE(Soup{Eigen::MatrixXd(0, 3), {}}.diagnosis().usable());
 }
 
@@ -232,13 +230,12 @@ TEST_CASE("What is handled is remarked upon, not refused")
     CHECK(is(d.coincident_vertices, 3, 9, 1));
     CHECK(d.cracks == cracks);
     CHECK(d.components.size() == 2);
-    CHECK(d.least_vertices() == 6);
     REQUIRE(d.remarks().size() == 2);
     CHECK_THAT(d.remarks()[0], ContainsSubstring("stitched"));
     CHECK_THAT(d.remarks()[1],
                ContainsSubstring("2 components, the smallest of 6 vertices around vertex 0"));
-    REQUIRE(d.warnings(3, 9).size() == 1);
-    CHECK_THAT(d.warnings(3, 9)[0],
+    REQUIRE(d.warnings(3).size() == 1);
+    CHECK_THAT(d.warnings(3)[0],
                ContainsSubstring("3 border vertices that lie on another, the first is vertex 9 "
                                  "(counted from 0) on vertex 1"));
   }
@@ -269,66 +266,21 @@ TEST_CASE("What is handled is remarked upon, not refused")
   }
 }
 
-TEST_CASE("K and N are judged by the components")
+TEST_CASE("K is judged by the components")
 {
   const SG::Mesh_diagnosis d =
       soup_of(shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), 3)).diagnosis();
   REQUIRE(d.components.size() == 3);
   CHECK(d.components[1].first == 42);
   CHECK(d.components[2].vertices == 42);
-  CHECK(d.warnings(20, 100).empty());
-  CHECK(d.warnings(20, 12).empty());
-  REQUIRE(d.warnings(20, 11).size() == 1);
-  CHECK_THAT(d.warnings(20, 11)[0], ContainsSubstring("at least 12 vertices"));
-  REQUIRE(d.warnings(3, 100).size() == 1);
-  CHECK_THAT(d.warnings(3, 100)[0], ContainsSubstring("With 3 eigenvectors only") &&
-                                        ContainsSubstring("constant on each of the 3 components"));
-  CHECK_THAT(d.warnings(1, 100)[0], ContainsSubstring("With 1 eigenvector only"));
-  CHECK_THAT(d.warnings(20, 1)[0], ContainsSubstring("A target of 1 vertex cannot"));
-  REQUIRE(d.warnings(42, 100).size() == 1);
-  CHECK_THAT(d.warnings(42, 100)[0], ContainsSubstring("has 42 vertices"));
-  CHECK(soup_of(shapes::bumpy_icosphere_matrices(1)).diagnosis().warnings(1, 20).empty());
-  CHECK_THAT(d.too_small(12, 1), ContainsSubstring("3 components need at least 12 vertices"));
-  CHECK(d.too_small(13, 1) == "");
-  const std::size_t useful = d.useful_vertices(21); // seven modes each, up to rounding
-  CHECK((useful >= 20 && useful <= 21));
-  CHECK_THAT(d.too_small(useful - 1, 21),
-             ContainsSubstring("ask for " + std::to_string(useful) + " or more"));
-  CHECK(d.too_small(useful, 21) == "");
-  const SG::Mesh_diagnosis torus = soup_of(shapes::torus_matrices(8, 6)).diagnosis();
-  CHECK_THAT(torus.too_small(6, 40), ContainsSubstring("1 component needs at least 7 vertices"));
-  CHECK(torus.too_small(7, 40) == "");
-}
-
-TEST_CASE("A target that crumbs or handles use up is refused with the number to ask for")
-{
-  const shapes::Matrices body = shapes::bumpy_icosphere_matrices(3),
-                         crumb = shapes::icosphere_matrices(0);
-  const Eigen::Index n = body.V.rows(), m = body.T.rows();
-  shapes::Matrices both = body;
-  both.V.conservativeResize(n + 60 * 12, 3);
-  both.T.conservativeResize(m + 60 * 20, 3);
-  for(int c = 0; c < 60; ++c) {
-    both.V.middleRows(n + 12 * c, 12) =
-        (0.02 * crumb.V).rowwise() + Eigen::RowVector3d(3 + 0.1 * c, 0, 0);
-    both.T.middleRows(m + 20 * c, 20) = crumb.T.array() + int(n + 12 * c);
-  }
-  const SG::Mesh_diagnosis d = soup_of(both).diagnosis();
-  REQUIRE(d.components.size() == 61);
-  CHECK(d.components[0].area > 100 * d.components[1].area);
-  // 60 tetrahedra, and as many vertices as the body has modes
-  CHECK(d.useful_vertices(80) >= 240 + 19);
-  CHECK(d.useful_vertices(80) <= 240 + 20);
-  CHECK(d.too_small(260, 80) == "");
-  CHECK_THAT(d.too_small(250, 80),
-             ContainsSubstring("ask for " + std::to_string(d.useful_vertices(80))) &&
-                 ContainsSubstring("leave out the 60 components of 12 vertices") &&
-                 ContainsSubstring("% of the area"));
-  const SG::Mesh_diagnosis torus = soup_of(shapes::torus_matrices(8, 6)).diagnosis();
-  CHECK(torus.components[0].vertices_of_shape() == 7);
-  const SG::Mesh_diagnosis sphere = soup_of(body).diagnosis();
-  CHECK(sphere.components[0].vertices_of_shape() == 4);
-  CHECK(sphere.too_small(4, 100) == "");
+  CHECK(d.warnings(20).empty());
+  REQUIRE(d.warnings(3).size() == 1);
+  CHECK_THAT(d.warnings(3)[0], ContainsSubstring("With 3 eigenvectors only") &&
+                                   ContainsSubstring("constant on each of the 3 components"));
+  CHECK_THAT(d.warnings(1)[0], ContainsSubstring("With 1 eigenvector only"));
+  REQUIRE(d.warnings(42).size() == 1);
+  CHECK_THAT(d.warnings(42)[0], ContainsSubstring("has 42 vertices"));
+  CHECK(soup_of(shapes::bumpy_icosphere_matrices(1)).diagnosis().warnings(1).empty());
 }
 
 TEST_CASE("A mesh is examined in the order of its vertices and faces, through its point map")

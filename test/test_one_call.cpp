@@ -246,11 +246,13 @@ TEST_CASE("A target below 3 K is warned of")
 TEST_CASE("Where the target cannot be reached the result says why")
 {
   Spectral_edge_collapse_options options = options_with(3);
+  options.maximum_error = 1e9; // with a bound targets are not refused
   SECTION("components cannot vanish")
   {
     const shapes::Matrices input = shapes::components_matrices(shapes::icosphere_matrices(1), 3);
     Mesh mesh = make_mesh(input);
-    const Result result = SMS::spectral_edge_collapse(mesh, 5, options_with(6));
+    options.number_of_eigenvectors = 6;
+    const Result result = SMS::spectral_edge_collapse(mesh, 5, options);
     CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
     CHECK(result.stop_reason_name() == std::string("no collapsible edge left"));
     CHECK(result.output_vertices >= 12);
@@ -291,6 +293,75 @@ TEST_CASE("Where the target cannot be reached the result says why")
     CHECK(result.stop_reason == Result::Stop_reason::queue_exhausted);
     CHECK_THAT(result.explanation, ContainsSubstring("constrained"));
     CHECK(result.E < 1e-10);
+  }
+}
+
+TEST_CASE("A target that leaves nothing of the shape is refused with the number to ask for")
+{
+  // What is refused at N, and is not at the number that the sentence names.
+  const auto refusal = [](const shapes::Matrices& input, const std::size_t N,
+                          const Eigen::Index K) {
+    std::string sentence;
+    std::size_t asked = N;
+    for(int attempt = 0; attempt < 2; ++attempt) {
+      Mesh mesh = make_mesh(input);
+      try {
+        SMS::spectral_edge_collapse(mesh, asked, options_with(K));
+        return sentence;
+      } catch(const std::invalid_argument& error) {
+        CHECK(sentence == "");
+        CHECK(positions(mesh) == input.V);
+        sentence = error.what();
+        const std::string before = ": ask for ";
+        REQUIRE(sentence.find(before) != std::string::npos);
+        asked = std::stoul(sentence.substr(sentence.find(before) + before.size()));
+      }
+    }
+    FAIL_CHECK("refused twice: " << sentence);
+    return sentence;
+  };
+  SECTION("components of one size")
+  {
+    const shapes::Matrices input =
+        shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), 3);
+    CHECK_THAT(refusal(input, 12, 1), ContainsSubstring("3 components need at least 12 vertices, "
+                                                        "and 13 for something of their shapes"));
+    CHECK(refusal(input, 13, 1) == "");
+    CHECK(refusal(input, 20, 21) == ""); // the metric sees eight modes then
+    const shapes::Matrices two = shapes::components_matrices(shapes::tetrahedron_matrices(), 2);
+    CHECK_THAT(refusal(two, 7, 3),
+               ContainsSubstring("2 components need at least 8 vertices: ask for 8 or more"));
+    CHECK(refusal(two, 8, 3) == "");
+  }
+  SECTION("crumbs")
+  {
+    const shapes::Matrices body = shapes::bumpy_icosphere_matrices(3),
+                           crumb = shapes::icosphere_matrices(0);
+    const Eigen::Index n = body.V.rows(), m = body.T.rows();
+    shapes::Matrices both = body;
+    both.V.conservativeResize(n + 60 * 12, 3);
+    both.T.conservativeResize(m + 60 * 20, 3);
+    for(int c = 0; c < 60; ++c) {
+      both.V.middleRows(n + 12 * c, 12) =
+          (0.02 * crumb.V).rowwise() + Eigen::RowVector3d(3 + 0.1 * c, 0, 0);
+      both.T.middleRows(m + 20 * c, 20) = crumb.T.array() + int(n + 12 * c);
+    }
+    // 60 tetrahedra, and as many vertices as the body has modes
+    CHECK_THAT(refusal(both, 250, 80),
+               ContainsSubstring("61 components need at least 244 vertices, and 2") &&
+                   ContainsSubstring("leave out the 60 components of 12 vertices") &&
+                   ContainsSubstring("% of the area"));
+    CHECK(refusal(both, 261, 80) == "");
+    CHECK_THAT(refusal(both, 261, 400), ContainsSubstring("ask for 3"));
+  }
+  SECTION("one component")
+  {
+    CHECK_THAT(refusal(shapes::torus_matrices(8, 6), 6, 40),
+               ContainsSubstring("1 component needs at least 7 vertices: ask for 7"));
+    CHECK_THAT(refusal(shapes::bumpy_icosphere_matrices(1), 3, 5),
+               ContainsSubstring("1 component needs at least 4 vertices: ask for 4"));
+    CHECK(refusal(shapes::bumpy_icosphere_matrices(1), 4, 5) == "");
+    CHECK_THAT(refusal(shapes::grid_matrices(3, 3), 2, 5), ContainsSubstring("ask for 3"));
   }
 }
 

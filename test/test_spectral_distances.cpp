@@ -576,6 +576,11 @@ TEST_CASE("distances and signatures reject bad input")
   two.values = pairs.values.head(2).eval();
   two.vectors = pairs.vectors.leftCols(2).eval();
   CHECK_THROWS_WITH(SG::wave_kernel_energies(two), ContainsSubstring("are equal"));
+  // Three equal ones, up to rounding.
+  const shapes::Matrices tetrahedron = shapes::tetrahedron_matrices();
+  CHECK_THROWS_WITH(SG::wave_kernel_energies(
+                        SG::eigenpairs(SG::laplace_operator(tetrahedron.V, tetrahedron.T), 4)),
+                    ContainsSubstring("are equal"));
 }
 
 } // namespace test_spectral_distances

@@ -722,8 +722,8 @@ int run(Arguments a)
           ? "'" + a.input +
                 "' has no vertex at what --keep names: no border, no sharp edge of that angle."
           : "";
-  const std::size_t target = resolve_sizes(a, input.diagnosis, num_vertices(input.mesh),
-                                           kept.size(), vertices_for_faces(a, input.mesh));
+  const std::size_t target =
+      resolve_sizes(a, num_vertices(input.mesh), kept.size(), vertices_for_faces(a, input.mesh));
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
@@ -752,7 +752,7 @@ int run(Arguments a)
   if(interrupted && a.on_interrupt != "write")
     throw SG::Cancelled();
   const std::vector<std::string> warnings =
-      input.diagnosis.warnings(static_cast<std::size_t>(a.eigenvectors), target);
+      input.diagnosis.warnings(static_cast<std::size_t>(a.eigenvectors));
   report.result.warnings.insert(report.result.warnings.end(), warnings.begin(), warnings.end());
   report.repairs = input.changes;
   report.left_out = input.left_out;

@@ -12,8 +12,6 @@
 #include "io/vertex_target.h"
 #include "option_words.h"
 
-#include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -189,9 +187,7 @@ int run(Arguments a);
 // Sets the levels, and returns the number of vertices to simplify to, for a mesh of n vertices, of
 // which `kept` stay; throws when one of these or K does not suit it. `for_faces`: the number of
 // vertices that --faces means.
-inline std::size_t resolve_sizes(Arguments& a,
-                                 const CGAL::Spectral_geometry::Mesh_diagnosis& diagnosis,
-                                 const std::size_t n, const std::size_t kept,
+inline std::size_t resolve_sizes(Arguments& a, const std::size_t n, const std::size_t kept,
                                  const std::size_t for_faces)
 {
   const std::string size = "'" + a.input + "' has " + std::to_string(n) + " vertices";
@@ -221,12 +217,6 @@ inline std::size_t resolve_sizes(Arguments& a,
     throw std::runtime_error("OUTPUT is to have " + std::to_string(target) +
                              " vertices, but --keep keeps " + std::to_string(kept) +
                              ": ask for more, or keep fewer.");
-  if(const std::string reason =
-         diagnosis.too_small(static_cast<std::size_t>(target),
-                             a.no_evaluation ? 1 : static_cast<std::size_t>(a.eigenvectors));
-     !reason.empty() && static_cast<std::size_t>(target) < n)
-    throw std::runtime_error("OUTPUT is to have " + std::to_string(target) + " vertices, but " +
-                             reason + ".");
   if(static_cast<std::size_t>(a.eigenvectors) >= n)
     throw std::runtime_error("--eigenvectors is " + std::to_string(a.eigenvectors) +
                              ", it must be below " + std::to_string(n) + ": " + size + ".");

@@ -253,10 +253,6 @@ py::dict simplify(const Arguments& a)
   options.kept_vertices.erase(
       std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
       options.kept_vertices.end());
-  if(const std::string reason =
-         diagnosis.too_small(std::size_t(n), std::size_t(options.number_of_eigenvectors));
-     !reason.empty() && n < vertices)
-    refuse("n is " + to_string(n) + ", but " + reason + ".");
   Watch watch(a);
   options.progress = [&](const SMS::Spectral_progress& progress) {
     return watch(word_of(phase_words, progress.phase), progress.fraction);
@@ -272,8 +268,7 @@ py::dict simplify(const Arguments& a)
       fit(run, *fine, options, watch);
     return run;
   });
-  const auto k = std::size_t(options.number_of_eigenvectors);
-  for(const std::string& warning : diagnosis.warnings(k, std::size_t(n)))
+  for(const std::string& warning : diagnosis.warnings(std::size_t(options.number_of_eigenvectors)))
     run.result.warnings.push_back(warning);
   py::dict result = level_of(run.coarse, run.result.restriction, run.result.vertex_map);
   result["kept"] = array_of(options.kept_vertices);

@@ -89,7 +89,8 @@ struct Relocation_result
   enum class Stop_reason {
     converged,  ///< ten steps lowered the objective by less than half a percent
     no_descent, ///< no step that the guards allow lowers it
-    no_gain,    ///< the norm after it was no better than before: everything is as it was
+    no_gain,    ///< the norm after it was no better than before, or nothing but rounding from the
+                ///< start: everything is as it was
     steps,      ///< `Relocation_options::maximum_steps`
     seconds     ///< `Relocation_options::maximum_seconds`
   };

@@ -79,6 +79,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
@@ -151,13 +152,16 @@ public:
     Guarded_descent<Relocation_objective, Relocation_guards> descent(
         *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
     result.E_before = m_objective->E(m_given);
+    result.norm_before = norm(m_given, m_P);
+    const bool nothing_to_gain = result.norm_before == 0;
     Positions V = m_start;
     m_guards.admit(m_start, V); // boundary vertices go to the boundary
     descent.start(V);
     result.objective_before = descent.value();
     double last = descent.value();
     using Reason = Relocation_result::Stop_reason;
-    for(result.stop_reason = Reason::steps; result.steps < m_options.maximum_steps;) {
+    for(result.stop_reason = Reason::steps;
+        !nothing_to_gain && result.steps < m_options.maximum_steps;) {
       if(m_options.progress &&
          !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
         throw Cancelled();
@@ -191,9 +195,8 @@ public:
     V = repaired(descent.positions());
     result.resampled = m_options.signals == Relocation_options::Signals::sampled;
     result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
-    result.norm_before = norm(m_given, m_P);
     result.norm_after = norm(V, result.restriction);
-    if(result.norm_after > result.norm_before) {
+    if(nothing_to_gain || result.norm_after > result.norm_before) {
       result.stop_reason = Reason::no_gain;
       V = m_start;
       result.norm_after = m_start == m_given ? result.norm_before : norm(V, m_P);
@@ -217,7 +220,7 @@ public:
 private:
   // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || /
   // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass
-  // leaves no modes.
+  // leaves no modes, and where signals that are constant on each component leave but rounding.
   double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
   {
     const Laplace_operator op = laplace_operator(V, m_T, m_op);
@@ -232,8 +235,9 @@ private:
     const Eigen::MatrixXd BPhi = op.B * pairs.vectors;
     const Eigen::MatrixXd C = BPhi.transpose() * (P * m_F), D = BPhi.transpose() * (P * m_Z);
     const auto [area, fine_area] = m_size.areas(V);
-    return (fine_area * D - area * (pairs.values.asDiagonal() * C)).norm() /
-           (std::max)(C.norm(), (std::numeric_limits<double>::min)());
+    const double result = (fine_area * D - area * (pairs.values.asDiagonal() * C)).norm() /
+                          (std::max)(C.norm(), (std::numeric_limits<double>::min)());
+    return result > 1e-6 * area * pencil_shift(op) ? result : 0.;
   }
 
   bool is_near_border(const int v, const std::size_t s) const
@@ -453,7 +457,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
   Relocation_result result;
   Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
   const Eigen::MatrixXd moved = relocation.run(result);
-  if(result.stop_reason == Relocation_result::Stop_reason::no_gain &&
+  if(result.stop_reason == Relocation_result::Stop_reason::no_gain && result.norm_before > 0 &&
      options.eigenvalues.size() > 0 && options.eigenvalue_error > 0) {
     Relocation_options without = options;
     without.eigenvalue_error = 0;

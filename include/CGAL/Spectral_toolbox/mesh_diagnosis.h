@@ -48,12 +48,6 @@ struct Mesh_component
   bool closed = true;       ///< no edge of it has one face only
   std::size_t first = 0;    ///< its first vertex
   double area = 0;          ///< of its faces that are sound and finite
-  /// what no collapse of a triangle mesh goes below: 3 vertices, and if closed as many as its
-  /// handles need, 4 without any (Heawood's bound, by Euler's formula)
-  CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t least_vertices() const;
-  /// with how many vertices a little of the shape is left: 3 for each handle of a closed component
-  /// beside 4, where collapses of a lattice of 81 handles end a little earlier
-  CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t vertices_of_shape() const;
 };
 
 /// \brief what `diagnose_polygon_soup()` and `diagnose_mesh()` found, counted, with the first
@@ -117,29 +111,9 @@ struct Mesh_diagnosis
   /// \brief one clause for each thing that is unusual but handled, without a full stop.
   std::vector<std::string> remarks() const;
 
-  /// \brief what to expect of `K` eigenvectors and a target of `N` vertices on this mesh: one
-  /// sentence for each reason for which less is preserved than was asked for, or something else
-  /// than was meant.
-  std::vector<std::string> warnings(std::size_t K, std::size_t N) const;
-
-  /// \brief the least target that is of use for `K` eigenvectors: each component has
-  /// `Mesh_component::vertices_of_shape()`, and as many vertices as it has modes, which go by area
-  /// beside one for each. Among many small components a large one ends as a tetrahedron below.
-  CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t useful_vertices(std::size_t K) const;
-
-  /// \brief why a target of `N` vertices would leave nothing of the shape, and what to do: a
-  /// clause; or nothing. With several components or handles that is so below `useful_vertices()`.
-  CGAL_SPECTRAL_TOOLBOX_INLINE std::string too_small(std::size_t N, std::size_t K) const;
-
-  /// \brief a lower bound of the number of vertices that collapses lead to, summed over the
-  /// components
-  std::size_t least_vertices() const
-  {
-    std::size_t sum = 0;
-    for(const Mesh_component& c : components)
-      sum += c.least_vertices();
-    return sum;
-  }
+  /// \brief what to expect of `K` eigenvectors on this mesh: one sentence for each reason for which
+  /// less is preserved than was asked for, or something else than was meant.
+  std::vector<std::string> warnings(std::size_t K) const;
 };
 
 /// \brief examines points and faces that need not form a mesh, as they were read from a file.
@@ -191,7 +165,6 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm,
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <tuple>
 
 namespace CGAL::Spectral_geometry {
@@ -546,15 +519,6 @@ inline const Mesh_component& smallest_component(const std::vector<Mesh_component
                            [](auto& a, auto& b) { return a.vertices < b.vertices; });
 }
 
-/// A share as a percentage of two digits, never less than it is.
-inline std::string rounded_up(const double share)
-{
-  const double unit = std::pow(10., std::floor(std::log10((std::max)(100 * share, 1e-9))) - 1);
-  std::ostringstream text;
-  text << std::ceil(100 * share / unit - 1e-9) * unit << " %";
-  return text.str();
-}
-
 /// Adds what was found, if anything: "3 of 17 faces have zero area, the first is face 4 (counted
 /// from 0): they ...". `singular` and `plural` are what one or several of them do.
 inline void add_clause(std::vector<std::string>& clauses, const Mesh_finding& finding,
@@ -656,85 +620,10 @@ CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<std::string> Mesh_diagnosis::remarks() 
   return result;
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_component::least_vertices() const
-{
-  if(!closed)
-    return 3;
-  const double characteristic = double(vertices) - double(faces) / 2;
-  return std::size_t(
-      std::ceil((7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2 - 1e-9));
-}
-
-CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_component::vertices_of_shape() const
-{
-  if(!closed)
-    return least_vertices();
-  const double genus = 1 - (double(vertices) - double(faces) / 2) / 2;
-  return (std::max)(least_vertices(), std::size_t(4 + 3 * (std::max)(std::round(genus), 0.)));
-}
-
-CGAL_SPECTRAL_TOOLBOX_INLINE std::size_t Mesh_diagnosis::useful_vertices(const std::size_t K) const
-{
-  double area = 0;
-  for(const Mesh_component& c : components)
-    area += c.area;
-  const std::size_t more = K > components.size() ? K - components.size() : 0;
-  std::size_t sum = 0;
-  for(const Mesh_component& c : components) {
-    const double modes = 1 + (area > 0 ? double(more) * c.area / area : 0.);
-    sum += (std::min)(c.vertices, (std::max)(c.vertices_of_shape(), std::size_t(modes)));
-  }
-  return sum;
-}
-
-CGAL_SPECTRAL_TOOLBOX_INLINE std::string Mesh_diagnosis::too_small(const std::size_t N,
-                                                                   const std::size_t K) const
-{
-  const bool plain = components.size() == 1 &&
-                     components.front().vertices_of_shape() == components.front().least_vertices();
-  const std::size_t least = least_vertices(),
-                    useful = plain
-                                 ? least
-                                 : (std::max)(useful_vertices(K), least + (components.size() > 1));
-  if(N >= useful)
-    return "";
-  std::string result = internal::counted(components.size(), "component needs", "components need") +
-                       " at least " + std::to_string(least) + " vertices";
-  if(useful > least)
-    result += ", and " + std::to_string(useful) + " for something of " +
-              (components.size() == 1 ? "its handles" : "their shapes") + " to be left with " +
-              internal::counted(K, "eigenvector", "eigenvectors");
-  result += ": ask for " + std::to_string(useful) + " or more";
-  std::size_t most = 0, small = 0, largest_small = 0;
-  double area = 0, largest_area = 0;
-  for(const Mesh_component& c : components) {
-    most = (std::max)(most, c.vertices);
-    area += c.area;
-  }
-  for(const Mesh_component& c : components)
-    if(10 * c.vertices < most) {
-      ++small;
-      largest_small = (std::max)(largest_small, c.vertices);
-      largest_area = (std::max)(largest_area, c.area);
-    }
-  if(small != 0)
-    result += ", or leave out the " + internal::counted(small, "component", "components") + " of " +
-              std::to_string(largest_small) + " vertices or fewer" +
-              (area > 0 ? ", none of which has more than " +
-                              internal::rounded_up(largest_area / area) + " of the area"
-                        : "");
-  return result;
-}
-
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<std::string>
-Mesh_diagnosis::warnings(const std::size_t K, const std::size_t N) const
+Mesh_diagnosis::warnings(const std::size_t K) const
 {
   std::vector<std::string> result;
-  if(N < least_vertices())
-    result.push_back("A target of " + internal::counted(N, "vertex", "vertices") +
-                     " cannot be reached: " +
-                     internal::counted(components.size(), "component needs", "components need") +
-                     " at least " + std::to_string(least_vertices()) + " vertices.");
   if(components.size() > 1 && K <= components.size())
     result.push_back("With " + internal::counted(K, "eigenvector", "eigenvectors") +
                      " only functions are preserved that are constant on each of the " +

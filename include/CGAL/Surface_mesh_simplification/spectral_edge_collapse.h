@@ -150,6 +150,14 @@ Eigen::Index number_of_components(const TriangleMesh& mesh, const NamedParameter
   return number_of_components(Spectral_geometry::mesh_matrices(mesh, np));
 }
 
+/// K, whoever brings the signals.
+inline Eigen::Index number_of_signals(const Spectral_options& options)
+{
+  return options.signals.size() != 0 ? options.signals.cols()
+         : options.eigenpairs        ? options.eigenpairs->size()
+                                     : options.number_of_eigenvectors;
+}
+
 /// The policies of the second stage. What they refuse here is the mesh that the first one has left:
 /// an input that is refused as `std::invalid_argument` has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
@@ -206,9 +214,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
-  const Eigen::Index K = given.signals.size() != 0 ? given.signals.cols()
-                         : given.eigenpairs        ? given.eigenpairs->size()
-                                                   : given.number_of_eigenvectors;
+  const Eigen::Index K = number_of_signals(given);
   // No copy where there is no need: signals may be large.
   std::optional<Spectral_edge_collapse_options> narrowed;
   if(std::isfinite(given.maximum_error)) { // a bound holds for all signals, not for an estimate
@@ -332,9 +338,10 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
  * the one-call form of `Spectral_policies` with `edge_collapse()` and `Spectral_stop_predicate`.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
- * @param number_of_vertices the target N, from 1 to the number of vertices of the mesh. At least 3
- *        K is advised (section 4.3 of the paper); a smaller one is warned of in the result, unless
- *        an error bound is given as well
+ * @param number_of_vertices the target N, at most the number of vertices of the mesh. At least 3 K
+ *        is advised (section 4.3 of the paper); a smaller one is warned of in the result. One that
+ *        small components or handles would use up, so that nothing of the shape is left, is refused
+ *        with the number to ask for. With an error bound neither
  * @param options see `Spectral_edge_collapse_options`
  * @param np an optional sequence of named parameters among those below, which are those of
  * `edge_collapse()` and one more
@@ -407,6 +414,9 @@ spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("spectral_edge_collapse", number_of_vertices, result.input_vertices);
   internal::check_edge_collapse_options(options);
+  if(number_of_vertices < result.input_vertices && !std::isfinite(options.maximum_error))
+    internal::check_useful_target(Spectral_geometry::mesh_matrices(mesh, np), number_of_vertices,
+                                  internal::number_of_signals(options));
   const internal::Pre_simplification first =
       internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = timer.time();

@@ -65,7 +65,10 @@ public:
       m_modes -= m_geometry.vanishes_at(v); // where functions vanish there is no mode
       all_have_faces = all_have_faces && !m_geometry.row(v).empty();
     }
-    m_last = modes + Index(options.beyond * double(modes));
+    // Zero has no relative error, and does not fall.
+    if(all_have_faces)
+      m_first = (std::max)(modes, number_of_zero_eigenvalues(laplace_operator(V, T, op)));
+    m_last = m_first + Index(options.beyond * double(modes));
     if(const Index goals = (std::min)(options.eigenvalues.size(), m_modes / 6);
        goals > 0 && m_error > 0) {
       Eigen::VectorXd sorted = options.eigenvalues;

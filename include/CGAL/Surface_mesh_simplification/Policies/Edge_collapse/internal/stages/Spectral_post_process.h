@@ -55,6 +55,8 @@ public:
   void run(const Pre_simplification& first)
   {
     attempt("E of the result is not known: ", "", [&] { set_error(m_P); });
+    // Before relocation, which raises E where the norms do not see it.
+    warn_of_error(m_result.warnings, m_result.relative_error);
     Spectral_geometry::Relocation_result& relocation = m_result.relocation;
     if(m_options.relocate && !is_cancelled())
       attempt("The vertices were not relocated: ", ", which are as the collapses left them",
@@ -64,7 +66,6 @@ public:
       m_result.warnings.push_back(
           "The collapses kept the error bound, but with relocation the relative error is " +
           std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
-    warn_of_error(m_result.warnings, m_result.relative_error);
     // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
     // eigenpairs.
     if(relocation.resampled)

@@ -9,13 +9,17 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -109,6 +113,140 @@ inline void warn_of_error(std::vector<std::string>& warnings, const double relat
     warnings.push_back("The relative error is " + std::to_string(relative_error) +
                        ": more than half of the signals is lost; ask for more vertices, for fewer "
                        "eigenvectors, or take small components away.");
+}
+
+/// A connected component, and what a target needs for it.
+struct Component_size
+{
+  std::size_t vertices = 0, faces = 0;
+  bool closed = true;
+  double area = 0;
+
+  /// What no collapse goes below: 3 vertices, and if closed as many as its handles need, 4 without
+  /// any (Heawood's bound, by Euler's formula).
+  std::size_t least() const
+  {
+    if(!closed || faces == 0) // isolated vertices are refused elsewhere
+      return faces == 0 ? 0 : 3;
+    const double characteristic = double(vertices) - double(faces) / 2;
+    const double bound = (7 + std::sqrt((std::max)(49 - 24 * characteristic, 1.))) / 2;
+    return (std::min)(vertices, std::size_t(std::ceil(bound - 1e-9)));
+  }
+
+  /// With how many a little of the shape is left: 3 for each handle beside 4, where collapses of a
+  /// lattice of 81 handles end a little earlier.
+  std::size_t of_shape() const
+  {
+    const std::size_t genus = closed ? (2 + faces / 2 - vertices) / 2 : 0;
+    return (std::max)(least(), genus == 0 ? 0 : 4 + 3 * genus);
+  }
+};
+
+inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh_matrices& mesh)
+{
+  const std::vector<Eigen::Index> component =
+      Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
+  std::vector<Component_size> result(
+      std::size_t(*std::max_element(component.begin(), component.end()) + 1));
+  const auto of = [&](const int v) -> Component_size& {
+    return result[std::size_t(component[std::size_t(v)])];
+  };
+  for(int v = 0; v < int(mesh.V.rows()); ++v)
+    ++of(v).vertices;
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
+    const Eigen::RowVector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
+                             r = mesh.V.row(mesh.T(f, 2));
+    ++of(mesh.T(f, 0)).faces;
+    of(mesh.T(f, 0)).area += (q - p).cross(r - p).norm() / 2;
+  }
+  for(const auto& edge : Spectral_geometry::internal::boundary_edges(mesh.T))
+    of(edge.first).closed = false;
+  return result;
+}
+
+/// The least target that is of use: each component has a little of its shape, and as many vertices
+/// as it has of the modes that the metric sees, which go by area beside one for each. Among many
+/// small components a large one ends as a tetrahedron below. A single component without handles is
+/// as coarse as the target says.
+inline std::size_t useful_target(const std::vector<Component_size>& components,
+                                 const Eigen::Index K)
+{
+  const Eigen::Index zeros = Eigen::Index(components.size());
+  std::size_t least = 0, of_shape = 0, n = 0;
+  double area = 0;
+  for(const Component_size& c : components) {
+    least += c.least();
+    of_shape += c.of_shape();
+    n += c.vertices;
+    area += c.area;
+  }
+  if(components.size() == 1 && of_shape == least)
+    return least;
+  std::size_t result = (std::min)(n, (std::max)(of_shape, least + (components.size() > 1)));
+  for(std::size_t before = 0; before < result;) {
+    before = result;
+    const double more =
+        weights_for_target(before, std::clamp(K, Eigen::Index(1), Eigen::Index(n)), zeros).sum() -
+        double(zeros);
+    std::size_t sum = 0;
+    for(const Component_size& c : components) {
+      const double modes =
+          1 + (area > 0 && std::isfinite(area) ? (std::max)(more, 0.) * c.area / area : 0.);
+      sum += (std::min)(c.vertices, (std::max)(c.of_shape(), std::size_t(modes)));
+    }
+    result = (std::max)(result, sum);
+  }
+  return result;
+}
+
+/// A share as a percentage of two digits, never less than it is.
+inline std::string rounded_up(const double share)
+{
+  const double unit = std::pow(10., std::floor(std::log10((std::max)(100 * share, 1e-9))) - 1);
+  std::ostringstream text;
+  text << std::ceil(100 * share / unit - 1e-9) * unit << " %";
+  return text.str();
+}
+
+/// Refuses a target that would leave nothing of the shape, with the number to ask for.
+inline void check_useful_target(const Spectral_geometry::Mesh_matrices& mesh,
+                                const std::size_t target, const Eigen::Index K)
+{
+  using std::to_string;
+  const std::vector<Component_size> components = component_sizes(mesh);
+  const std::size_t useful = useful_target(components, K);
+  if(target >= useful)
+    return;
+  const auto counted = [](const std::size_t n, const char* const rest) {
+    return to_string(n) + " component" + (n == 1 ? "" : "s") + rest;
+  };
+  std::size_t least = 0, most = 0, small = 0, largest_small = 0;
+  double area = 0, largest_area = 0;
+  for(const Component_size& c : components) {
+    least += c.least();
+    most = (std::max)(most, c.vertices);
+    area += c.area;
+  }
+  for(const Component_size& c : components)
+    if(10 * c.vertices < most) {
+      ++small;
+      largest_small = (std::max)(largest_small, c.vertices);
+      largest_area = (std::max)(largest_area, c.area);
+    }
+  require(false, "spectral_edge_collapse: the target is ", target, " vertices, but ",
+          counted(components.size(), components.size() == 1 ? " needs" : " need"), " at least ",
+          least, " vertices",
+          useful == least
+              ? std::string()
+              : ", and " + to_string(useful) + " for something of " +
+                    (components.size() == 1 ? "its handles" : "their shapes") + " to be left",
+          ": ask for ", useful, " or more",
+          small == 0 ? std::string()
+                     : ", or leave out the " + counted(small, " of ") + to_string(largest_small) +
+                           " vertices or fewer, none of which has more than " +
+                           rounded_up(area > 0 && std::isfinite(area) ? largest_area / area : 1.) +
+                           " of the area",
+          ".");
 }
 
 } // namespace CGAL::Surface_mesh_simplification::internal
