@@ -187,6 +187,10 @@ for file in empty.off empty.obj empty.ply empty.stl; do
   : >$file
   refuses "an empty file" "cannot read '$file'" $file o.off $few
 done
+make b.off "print \"OFF\"; print V, F - 5, 0; $points $faces"
+refuses "OFF with more than it announces" "line 862 goes on after the last face that its head announces" b.off o.off $few
+sed 's/^element face 576/element face 571/' a.ply >b.ply
+refuses "PLY with more than it announces" "it goes on after the last element that its header announces" b.ply o.off $few
 for index in 99999999999999999999 4294967296 -1; do
   make b.off "print \"OFF\"; print V, F, 0; $points for(f = 0; f < F; ++f) { torus_face(f); print 3, p, q, f == 7 ? \"$index\" : r }"
   refuses "an index $index" "face 7 \|line [0-9]* holds" b.off o.off $few

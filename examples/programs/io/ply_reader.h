@@ -38,6 +38,10 @@ public:
     reader.read_header();
     for(const Element& element : reader.m_elements)
       reader.read_element(element);
+    if(std::any_of(reader.m_at, reader.m_end, [](const char c) {
+         return c != '\0' && !std::isspace(static_cast<unsigned char>(c));
+       }))
+      refuse("it goes on after the last element that its header announces");
     Polygon_soup& soup = reader.m_soup;
     const auto complete = [](Attributes& attributes, const std::size_t n) {
       for(const Attribute& a : attributes.known)

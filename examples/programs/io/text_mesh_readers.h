@@ -358,8 +358,8 @@ inline Polygon_soup read_off(const std::string& path, const bool packed)
     add_colours(soup.face_attributes, std::move(columns));
   else if(!columns.empty() && are_integers(columns[0]))
     soup.face_attributes.add("label", "int", std::move(columns[0]));
-  if(packed && file.more_or_next())
-    file.refuse("goes on after the last face");
+  if(packed ? file.more_or_next() : file.next())
+    file.refuse("goes on after the last face that its head announces");
   return soup;
 }
 
