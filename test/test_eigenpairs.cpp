@@ -628,7 +628,7 @@ TEST_CASE("Residuals are within ten times the tolerance, or are reported")
   CHECK(SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(1e-11)).complete);
 }
 
-TEST_CASE("Two thousand random scenes: what has no small residual is reported", "[.long]")
+TEST_CASE("Two thousand random scenes: what has no small residual is reported", "[.long][slow]")
 {
   std::mt19937 random(1);
   const auto below = [&](const int n) { return int(random() % unsigned(n)); };
@@ -712,7 +712,7 @@ TEST_CASE("Many eigenvectors stay orthonormal")
   CHECK(orthonormality_error(op, SG::eigenpairs(op, 400)) < 1e-11);
 }
 
-TEST_CASE("Many pairs are found in slices of the spectrum, up to nearly all")
+TEST_CASE("Many pairs are found in slices of the spectrum, up to nearly all", "[slow]")
 {
   // The rotations of a torus make nearly all eigenvalues double.
   for(const double theta : thetas) {
@@ -727,7 +727,8 @@ TEST_CASE("Many pairs are found in slices of the spectrum, up to nearly all")
   }
 }
 
-TEST_CASE("Slices do not depend on the number of threads, report progress and can be cancelled")
+TEST_CASE("Slices do not depend on the number of threads, report progress and can be cancelled",
+          "[slow]")
 {
   const Laplace_operator op = laplace(shapes::irregular_grid_matrices(45, 40), 0.5);
   SG::Eigenpairs_options options;
@@ -745,7 +746,8 @@ TEST_CASE("Slices do not depend on the number of threads, report progress and ca
   CHECK_THROWS_AS(SG::eigenpairs(op, 520, options), SG::Cancelled);
 }
 
-TEST_CASE("Slices of eigenvalues 0, 1, 2, ..., at which every shift may lie, and of many copies")
+TEST_CASE("Slices of eigenvalues 0, 1, 2, ..., at which every shift may lie, and of many copies",
+          "[slow]")
 {
   const Eigen::Index n = 1600, K = 520;
   for(const int copies : {1, 7, 30}) { // of the values around the 200th

@@ -456,7 +456,8 @@ TEST_CASE("Kept vertices and constrained edges stay, and edges without length ar
 }
 
 TEST_CASE("Quadrics are passed over where not all that was asked for could be kept, and when they "
-          "are told to be")
+          "are told to be",
+          "[slow]")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   SMS::Spectral_edge_collapse_options options = ahead_options();

@@ -368,7 +368,7 @@ std::string table()
 
 } // namespace
 
-TEST_CASE("each promise holds where the table says so, and nowhere else")
+TEST_CASE("each promise holds where the table says so, and nowhere else", "[slow]")
 {
   const std::size_t r = GENERATE(range(std::size_t(0), std::size(rows)));
   const Row& row = rows[r];

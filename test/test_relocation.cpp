@@ -315,7 +315,8 @@ TEST_CASE("boundary vertices slide along the boundary of the fine mesh, or stay"
   CHECK(result.moved_vertices > 0);
 }
 
-TEST_CASE("after a run the border lies on that of the input, wherever the collapses left it")
+TEST_CASE("after a run the border lies on that of the input, wherever the collapses left it",
+          "[slow]")
 {
   const shapes::Matrices input = shapes::island_matrices(24, 96);
   const SG::internal::Border_polyline coast(input);
