@@ -270,8 +270,9 @@ def simplify_collection(
     Parameters
     ----------
     meshes : iterable
-        File names, see read_mesh(), or pairs (V, F). Read as they are wanted, but for a shared
-        connectivity. Each is cleaned as clean() does, and results are numbered as the mesh came.
+        File names, see read_mesh(), or pairs (V, F); for a folder the list of glob.glob(). Read as
+        they are wanted, but for a shared connectivity. Each is cleaned as clean() does, and results
+        are numbered as the mesh came.
     n : int
         Vertices of each result.
     output : folder, optional

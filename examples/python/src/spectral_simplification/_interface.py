@@ -371,11 +371,12 @@ def evaluate(
     Vc, Fc : array
         the coarse mesh
     P : csr_matrix
-        (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1
+        (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1. After
+        mask= V, F are those of run.part(), and P is run.P[:, run.used]
     k : int
         modes to judge
     mass : str
-        'lumped', 'averaged' or 'voronoi', of both operators
+        'lumped', 'averaged', 'consistent' or 'voronoi', of both operators
     eigenpairs : Eigenpairs, optional
         of the fine mesh in that mass, k or more, to save the solve
     operators : Fitted_operators, optional
@@ -724,7 +725,7 @@ def match(
     k : int
         eigenvectors of all meshes, from 10 to n
     mass : str
-        'lumped', 'averaged' or 'voronoi'
+        'lumped', 'averaged', 'consistent' or 'voronoi'
     landmarks : array, optional
         (l, 2) integers, pairs of vertices of X and Y that are known to correspond
     proxy : str

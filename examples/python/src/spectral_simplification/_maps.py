@@ -227,9 +227,9 @@ def lift_point_map(
     T : (vertices of target.V,) integers
         For each the vertex of source.V.
     source, target : Simplification
-        What simplify() returned for both.
+        What simplify() or load() returned for both.
     k : int, optional
-        How many modes; as many as both runs kept.
+        How many modes; as many as both runs kept. Time grows with both inputs' vertices and k.
     threads : int, optional
         All cores by default.
 

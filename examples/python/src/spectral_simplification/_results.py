@@ -833,7 +833,7 @@ class Simplification(Level):
             them, before relocation.
         relocate : bool
             Afterwards moves the vertices so that the spectrum of this pose is kept, as
-            relocate='sampled' of simplify() does.
+            relocate='sampled' of simplify() does. Eigenvalues need it.
         k : int, optional
             How many eigenpairs of this pose relocation sees; as many as the run kept.
         eigenpairs : Eigenpairs, optional
