@@ -112,6 +112,34 @@ TEST_CASE("A bound of the error holds beside a cap, whose cost is nothing but ro
   CHECK(stopped >= 9); // some go on to the end below the higher bound
 }
 
+TEST_CASE("A bound of the error holds where a constrained edge makes a needle")
+{
+  // Constrained edges stay where they are, whatever E says.
+  const shapes::Matrices input = shapes::matrices({{-1 + 2e-11, -1 + 2e-11, 1e-11},
+                                                   {-0.99999, 0.85097039215686288, -8.5e-12},
+                                                   {-1, 1, -1e-11},
+                                                   {-1, -1, 1e-11}},
+                                                  {{1, 3, 2}, {0, 3, 1}});
+  int stopped = 0;
+  for(const double bound : {0.1, 0.5, 0.89})
+    for(unsigned e = 0; e < 5; ++e) {
+      Mesh mesh = make_mesh(input);
+      auto constrained = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained").first;
+      constrained[Mesh::Edge_index(e)] = true;
+      Spectral_edge_collapse_options options = options_with(2);
+      options.signals = rough_signals(input, 2);
+      options.mass = SG::Mass::lumped;
+      options.placement = SMS::Spectral_placement_strategy::on_edge;
+      options.maximum_error = bound;
+      const Result result = SMS::spectral_edge_collapse(
+          mesh, 1, options, CGAL::parameters::edge_is_constrained_map(constrained));
+      CAPTURE(bound, e, result.output_vertices);
+      CHECK(result.relative_error <= bound);
+      stopped += int(result.stop_reason == Result::Stop_reason::error_reached);
+    }
+  CHECK(stopped > 0);
+}
+
 TEST_CASE("A bound of the error looks at the placement of a wrapper")
 {
   // Always the first end, wherever the policies would have put the vertex.

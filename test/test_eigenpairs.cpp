@@ -22,6 +22,12 @@
 #include <string>
 #include <vector>
 
+#ifdef SPECTRAL_TEST_WITH_LAPACK
+extern "C" void dsygv_(const int* type, const char* job, const char* triangle, const int* n,
+                       double* A, const int* lda, double* B, const int* ldb, double* values,
+                       double* work, const int* lwork, int* info);
+#endif
+
 namespace test_eigenpairs {
 
 namespace SG = CGAL::Spectral_geometry;
@@ -505,12 +511,22 @@ shapes::Matrices box_matrices()
   return box;
 }
 
-// All eigenvalues of the dense problem.
+// All eigenvalues of the dense problem, by LAPACK where there is one.
 Eigen::VectorXd dense_values(const Laplace_operator& op)
 {
+#ifdef SPECTRAL_TEST_WITH_LAPACK
+  Eigen::MatrixXd L = op.L, B = op.B;
+  const int type = 1, n = int(L.rows()), size = 34 * n;
+  int info = 0;
+  Eigen::VectorXd values(n), work(size);
+  dsygv_(&type, "N", "L", &n, L.data(), &n, B.data(), &n, values.data(), work.data(), &size, &info);
+  REQUIRE(info == 0);
+  return values;
+#else
   const Eigen::MatrixXd L = op.L, B = op.B;
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(L, B, Eigen::EigenvaluesOnly)
       .eigenvalues();
+#endif
 }
 
 // Solves for the parts, each by itself: the whole would take the dense solver minutes.

@@ -11,11 +11,13 @@
 #include "catch.h"
 #include "shapes.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace test_filtered_signals {
@@ -150,6 +152,47 @@ TEST_CASE("The cut-off of a filter has K eigenvalues below it, and says how many
       if(20 * std::abs(below - wanted) > wanted)
         CHECK(pairs.values[wanted - 1] == Approx(signals.cutoff).epsilon(0.06));
     }
+  }
+}
+
+TEST_CASE("The cut-off of a filter is found beyond gaps of many powers of ten")
+{
+  shapes::Matrices flat = shapes::tetrahedron_matrices(), needles = shapes::icosphere_matrices(1);
+  flat.V.col(0) *= 1e-6; // three low values far below the mean spacing, and one far above
+  flat.V.col(2) *= 1e-6;
+  flat.V.row(3) = flat.V.row(1);
+  for(int f = 0; f < needles.T.rows(); ++f) // as many values far above the others
+    if(needles.T(f, 0) < 5)
+      needles.V.row(needles.T(f, 0)) =
+          needles.V.row(needles.T(f, 1)) + 1e-6 * needles.V.row(needles.T(f, 0)).normalized();
+  for(const auto& [mesh, K] : {std::pair(flat, 1), std::pair(needles, 40)})
+    for(const SG::Mass mass : {SG::Mass::lumped, SG::Mass::averaged}) {
+      const Laplace_operator op = laplace(mesh, mass);
+      const Filtered_signals signals = filtered(op, K);
+      const SG::Eigenpairs pairs = all_pairs(op);
+      const Eigen::Index wanted = (std::max)(K, 2);
+      CAPTURE(K, signals.below, signals.cutoff, pairs.values.transpose());
+      CHECK(signals.below == (pairs.values.array() < signals.cutoff).count());
+      CHECK(20 * std::abs(signals.below - wanted) <= wanted);
+    }
+}
+
+TEST_CASE("Where rounding hides low eigenvalues from each other a filter passes all of them")
+{
+  shapes::Matrices mesh = shapes::grid_matrices(6, 3, 1e-11, 1.);
+  mesh.V.row(7) << -2e-12, 0.27, 0.33;
+  const Laplace_operator op = laplace(mesh);
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(
+      Eigen::MatrixXd(op.L).cast<long double>(), Eigen::MatrixXd(op.B).cast<long double>(),
+      Eigen::EigenvaluesOnly);
+  for(const Eigen::Index K : {3, 4, 5, 6}) {
+    const Filtered_signals signals = filtered(op, K);
+    CAPTURE(K, signals.below, signals.cutoff);
+    CHECK(signals.below == (solver.eigenvalues().array() < (long double)(signals.cutoff)).count());
+    CHECK(signals.below >= K);
+    CHECK(signals.F.allFinite());
+    CHECK(signals.Z.allFinite());
   }
 }
 

@@ -478,6 +478,29 @@ TEST_CASE("A point that makes a triangle without area has an infinite cost")
   CHECK(core.cost_at(12, 13, Eigen::Vector3d(0.6, 0.5, 0)) < infinity);
 }
 
+TEST_CASE("E changes as was said where a collapse makes a needle, and where one stays")
+{
+  const double theta = GENERATE(0., 0.5), height = GENERATE(1e-11, 1e-12);
+  CAPTURE(theta, height);
+  const shapes::Matrices input = shapes::grid_matrices(4, 4);
+  const Basis basis = signal_basis(input, theta, rough_signals(input, 3));
+  Slow_mesh mesh(input, basis);
+  Core core = make_core(mesh, basis);
+  const Sample needle{Eigen::Vector3d(0.25 + height, 0.375, 0), 0.3};
+  CHECK(core.cost_at(12, 13, needle.point) == infinity);
+  const double change = core.change_at(12, 13, needle.weight, needle.point), before = core.total();
+  commit(core, mesh, {12, 13}, needle, true);
+  CHECK(mesh.energy() > 1e16); // the square of a cotangent
+  CHECK(relative_difference(core.total(), mesh.energy()) < 1e-9);
+  CHECK(relative_difference(before + change, mesh.energy()) < 1e-9);
+
+  // Another end of the needle moves along it.
+  const Eigen::Vector3d point(0.25, 0.625, 0);
+  const double slow = mesh.energy_after({11, 16}, 0.5, point) - mesh.energy();
+  CHECK(relative_difference(core.cost_at(11, 16, point), slow) < 1e-9);
+  CHECK(relative_difference(core.change_at(11, 16, 0.5, point), slow) < 1e-9);
+}
+
 TEST_CASE("A face without area contributes nothing to a cost")
 {
   const double theta = GENERATE(0., 0.5);

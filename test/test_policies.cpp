@@ -436,6 +436,28 @@ TEST_CASE("With constants alone nothing can be lost")
   CHECK(policies.state().relative_error(-1e-20) == 0);
 }
 
+TEST_CASE("Pairs of constants are left out of E: beside needles they hold something else, too")
+{
+  const Eigen::Index K = GENERATE(1, 2, 5);
+  CAPTURE(K);
+  shapes::Matrices input = shapes::grid_matrices(6, 3, 1e-5, 1.);
+  Mesh mesh = make_mesh(input);
+  Spectral_options options = options_with(K);
+  options.mass = SG::Mass::lumped;
+  options.number_of_mixtures = 0;
+  const Policies policies(mesh, options);
+  collapse(mesh, policies, 9);
+  const shapes::Matrices coarse = SG::mesh_matrices(mesh);
+  const Eigen::SparseMatrix<double> P = policies.restriction();
+  Basis basis = eigen_input(input, options.mass, *policies.eigenpairs()).basis;
+  const Basis constant{
+      Eigen::MatrixXd::Ones(28, 1), Eigen::MatrixXd::Zero(28, 1), {}, basis.local, basis.area};
+  CHECK(energy(coarse, constant, P) < 1e-12 * (1 + policies.error()));
+  basis.F.col(0).setZero();
+  basis.Z.col(0).setZero();
+  CHECK(relative_difference(policies.error(), energy(coarse, basis, P)) < 1e-4);
+}
+
 TEST_CASE("Options that cannot be used are refused in a sentence that names them")
 {
   Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(1)); // 42 vertices

@@ -75,6 +75,16 @@ struct Outcome
   SG::Operator_coefficients coefficients;
 };
 
+// Whether the metric leaves the pairs of eigenvalue 0 out: P carries the constants of components
+// over exactly. Beside needles a solver leaves 1e-6 of other functions in them, of which E would be
+// large.
+bool pairs_of_constants_are_left_out(const shapes::Matrices& fine, const SG::Laplace_operator& op)
+{
+  const auto component = SG::internal::connected_components(fine.V.rows(), fine.T);
+  return SG::number_of_zero_eigenvalues(op) <=
+         1 + *std::max_element(component.begin(), component.end());
+}
+
 // E recomputed from whole matrices, with the rounding that cotangents of that size leave in it.
 std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome,
                        const shapes::Matrices& fine,
@@ -94,6 +104,11 @@ std::string fault_of_E(const shapes::Matrices& coarse, const Outcome& outcome,
   if(!given && SMS::internal::pairs_are_rough(outcome.pairs->residuals))
     basis.Z = signal_basis(fine, local, basis.F)
                   .Z; // as the policies do where needles have left them rough
+  if(!given && pairs_of_constants_are_left_out(fine, op)) {
+    const Eigen::Index count = (std::min)(SG::number_of_zero_eigenvalues(op), basis.F.cols());
+    basis.F.leftCols(count).setZero();
+    basis.Z.leftCols(count).setZero();
+  }
   const SG::Laplace_operator now = SG::laplace_operator(
       coarse.V, coarse.T, {options.mass, outcome.coefficients, options.boundary});
   const Eigen::SparseMatrix<double> B = now.B / basis.area;

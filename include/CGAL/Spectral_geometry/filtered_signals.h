@@ -193,7 +193,7 @@ public:
     : m_op(op)
     , m_problem(problem)
     , m_options(options)
-    , m_cutoff(double(K) * problem.shift())
+    , m_cutoff((std::max)(double(K) * problem.shift(), problem.rounding_of_values()))
     , m_factor(problem.shifted(m_cutoff), options.threads,
                Supernodal_factor::Pivots::of_either_sign)
     , m_panels((options.signals + panel_width - 1) / panel_width)
@@ -218,10 +218,11 @@ private:
   // --- the cut-off ---
 
   // Moves the cut-off until K eigenvalues are below it, to 5 %, or it is known to 5 %. Returns
-  // their number.
+  // their number. Two equal counts show a gap, of twelve powers of ten beside needles.
   Index find_cutoff(Index K)
   {
-    double lower = 0., upper = std::numeric_limits<double>::infinity();
+    double lower = m_problem.rounding_of_values(), upper = std::numeric_limits<double>::infinity();
+    Index last = -1;
     for(int attempt = 0; attempt < 64; ++attempt) {
       if(attempt > 0)
         m_factor.factorise(m_problem.shifted(m_cutoff), m_options.threads);
@@ -235,8 +236,10 @@ private:
       if(20 * std::abs(below - K) <= K || upper < 1.05 * lower)
         return below;
       const double factor = double(K) / (std::max)(0.5, double(below));
-      m_cutoff *= (std::min)(8., (std::max)(1. / 8., factor));
-      if(!(m_cutoff > lower && m_cutoff < upper))
+      const bool in_gap = below == last;
+      last = below;
+      m_cutoff *= in_gap && below < K ? 8. : (std::min)(8., (std::max)(1. / 8., factor));
+      if(std::isfinite(upper) && (in_gap || !(m_cutoff > lower && m_cutoff < upper)))
         m_cutoff = std::sqrt(lower * upper);
     }
     throw std::runtime_error(

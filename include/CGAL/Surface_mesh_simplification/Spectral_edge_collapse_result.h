@@ -55,7 +55,8 @@ struct Spectral_edge_collapse_result
 
   std::size_t signals =
       0; ///< how many steered the collapses, all at once or in mixtures: those of positive weight
-  double E = 0; ///< Eq. 2 of all signals, with their weights, for the input scaled to unit area
+  /// Eq. 2 of all signals but constants, with their weights, for the input scaled to unit area
+  double E = 0;
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`
 
   /// what `Spectral_edge_collapse_options::relocate` did. Its own `restriction` is left empty: the

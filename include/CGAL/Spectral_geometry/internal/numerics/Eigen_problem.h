@@ -168,6 +168,13 @@ public:
            (pairs.values(k) + m_scale);
   }
 
+  // What is left of eigenvalue 0 by rounding in L: beside needles it is larger than low
+  // eigenvalues.
+  double rounding_of_values() const
+  {
+    return 1e-13 * L().diagonal().cwiseQuotient(B().diagonal()).cwiseAbs().maxCoeff();
+  }
+
 private:
   const Laplace_operator& m_op;
   std::function<bool(double)> m_progress;
@@ -187,10 +194,8 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
           "Eigenpairs: B is not positive definite; pass a mass matrix.");
   require(negative(s * problem.B() - problem.L()) != 0,
           "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
-  // Beside needles rounding in L is larger than its low eigenvalues.
-  const double highest =
-      problem.L().diagonal().cwiseQuotient(problem.B().diagonal()).cwiseAbs().maxCoeff();
-  const Eigen::Index count = negative(problem.shifted(-(std::max)(1e-8 * s, 1e-13 * highest)));
+  const Eigen::Index count =
+      negative(problem.shifted(-(std::max)(1e-8 * s, problem.rounding_of_values())));
   require(count <= 0, "Eigenpairs: L is not positive semidefinite, ", count,
           " of its eigenvalues are negative; add a multiple of B to it.");
 }

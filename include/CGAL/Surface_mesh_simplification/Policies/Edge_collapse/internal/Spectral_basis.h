@@ -32,6 +32,7 @@ struct Spectral_basis
   double sum_of_squares = 0;
   bool rough =
       false; ///< whether Z = F Lambda is not good enough: signals of the user's, or rough pairs
+  Eigen::Index constants = 0; ///< the first eigenvectors, left out: P carries them over exactly
   /// with `Spectral_signal_source::filtered_noise`, at the input's scale; those that the metric
   /// sees are the first
   std::shared_ptr<const Spectral_geometry::Filtered_signals> filtered;
@@ -374,8 +375,8 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
   // cotangents of 0 take a component apart, L has more functions of eigenvalue 0, and these cost
   // something once triangles change.
   const Eigen::Index zeros = Spectral_geometry::number_of_zero_eigenvalues(op);
-  if(zeros <= components)
-    weights.head((std::min)(zeros, pairs->size())).setZero();
+  basis.constants = zeros <= components ? (std::min)(zeros, pairs->size()) : 0;
+  weights.head(basis.constants).setZero();
   const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
   basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
   for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {

@@ -102,6 +102,7 @@ public:
     m_area = basis.area;
     m_sum_of_squares = basis.sum_of_squares;
     m_has_rough_basis = basis.rough;
+    m_number_of_constants = basis.constants;
     m_filtered = basis.filtered;
     m_core.set_basis(std::move(basis), local_operator(options), options,
                      std::is_same<FT, float>::value);
@@ -301,8 +302,7 @@ public:
       return relative_error();
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
     const Eigen::Vector3d point = to_vector(*placement);
-    if(m_core.fields().moves_kept_vertex(u, v, point) ||
-       !std::isfinite(m_core.cost_at(u, v, point)))
+    if(m_core.fields().moves_kept_vertex(u, v, point))
       return relative_error();
     return relative_error(error() + m_core.change_at(v, u, weight_of(u, v, point), point));
   }
@@ -373,6 +373,8 @@ public:
   const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
   /// Whether relocation needs a Z = B^-1 L F of its own, because F Lambda is not good enough.
   bool has_rough_basis() const { return m_has_rough_basis; }
+  /// The first eigenvectors, which E leaves out.
+  Eigen::Index number_of_constants() const { return m_number_of_constants; }
   /// The signals of filtered noise at the scale of the input; null with others.
   const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
 
@@ -632,6 +634,7 @@ private:
   Spectral_refusals m_refusals;          // but for `crossing`
   double m_seconds_basis = 0, m_seconds_first_costs = 0;
   bool m_has_rough_basis = false;
+  Eigen::Index m_number_of_constants = 0;
   std::shared_ptr<const Spectral_geometry::Filtered_signals> m_filtered;
   Real_timer m_first_costs; // runs until the first edge is selected
   std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;

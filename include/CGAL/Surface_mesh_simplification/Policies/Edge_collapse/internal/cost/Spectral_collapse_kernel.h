@@ -95,11 +95,13 @@ public:
         m_invalid || !std::isfinite(m_change) ? std::numeric_limits<double>::infinity() : m_change;
   }
 
-  /// The change of E that a collapse makes, whatever triangles arise. Needs no prepare().
+  /// The change of E that a collapse makes, whatever triangles arise; 0 where the edge may not be
+  /// collapsed. Needs no prepare().
   double change(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
                 const double weight, const Eigen::Vector3d& point)
   {
-    prepare(fields, u, v);
+    if(!prepare(fields, u, v))
+      return 0;
     Spectral_sample sample{point, weight};
     evaluate(sample);
     return m_change;
@@ -169,8 +171,7 @@ private:
     return spectral_triangle(x.point, fields.points[a], fields.points[b], &mean);
   }
 
-  // `spectral_triangle()` without its search for the longest edge; a triangle whose area doubles
-  // cannot tell has none.
+  // `spectral_triangle()`, without its search for the longest edge unless the triangle is a needle.
   CGAL_SPECTRAL_INLINE static Spectral_triangle
   triangle(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b)
   {
@@ -181,7 +182,9 @@ private:
     Spectral_geometry::internal::triangle_products(xa, ab, xb, at_x, at_a, at_b, square);
     constexpr double limit = Spectral_triangle::degenerate_cotangent;
     const double sum = at_x + at_a + at_b; // of the cotangents, times twice the area
-    const double inverse = square > sum * sum * (1 / (limit * limit)) ? 1 / std::sqrt(square) : 0.;
+    if(!(square > sum * sum * (1 / (limit * limit))))
+      return spectral_triangle(x, a, b);
+    const double inverse = 1 / std::sqrt(square);
     return {at_x * inverse, at_a * inverse, at_b * inverse, square * inverse * 0.5};
   }
 

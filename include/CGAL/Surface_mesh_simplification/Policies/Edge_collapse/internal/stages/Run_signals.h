@@ -61,12 +61,13 @@ public:
     return mixed(mixing_matrix(options, weights()));
   }
 
-  /// All signals, restricted, each multiplied by the root of its weight.
+  /// All signals but constants, restricted, each multiplied by the root of its weight.
   Signals restricted(const Eigen::SparseMatrix<double>& P) const
   {
     if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
       return {P * filtered->F, P * filtered->Z};
-    const Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
+    Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
+    R.leftCols(m_state.number_of_constants()).setZero();
     Eigen::MatrixXd PF = P * given() * R;
     Eigen::MatrixXd PZ = m_state.has_rough_basis()
                              ? Eigen::MatrixXd(P * mixed(R).second)
