@@ -703,6 +703,8 @@ class Collections(Case):
         self.assertEqual([now[0] for now in seen], [1, 2, 3, 4, 5])
         with self.assertRaisesRegex(ValueError, "has results of other arguments"):
             ss.simplify_collection(files, 160, out, k=40)
+        with self.assertRaisesRegex(ValueError, r"'shapes/\*.off': pass a list of names"):
+            ss.simplify_collection("shapes/*.off", 150)
 
     def test_arrays_on_processes(self):
         meshes = ((p, F if i < 3 else F[:, :2]) for i, p in enumerate(poses(4)))

@@ -304,6 +304,11 @@ def simplify_collection(
     ValueError
         If output has results of other arguments, or an option cannot be meant.
     """
+    if isinstance(meshes, (str, os.PathLike)):
+        raise ValueError(
+            f"meshes is the one name {os.fspath(meshes)!r}: pass a list of names, such as "
+            "glob.glob('folder/*.off')."
+        )
     if "progress" in options or "eigenpairs" in options:
         raise ValueError("eigenpairs belong to one mesh: leave them out.")
     if (
