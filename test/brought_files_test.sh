@@ -424,10 +424,10 @@ refuses "a word for --faces" "it must be a number of faces above 0" torus.off o.
 } >dust.off
 for n in 100 166 167; do
   refuses "dust takes all of $n vertices" "41 components need at least 167 vertices, and 169 for .*: ask for 169 or more, or leave out the 40 components of 4 vertices or fewer" \
-    dust.off o.off --vertices $n --eigenvectors 50
+    dust.off o.off --quiet --vertices $n --eigenvectors 50
 done
 warns "dust leaves something" "components" dust.off o2.off --vertices 400 --eigenvectors 50
-refuses "a torus of six vertices" "1 component needs at least 7 vertices" torus.off o.off --vertices 6 --eigenvectors 4
+refuses "a torus of six vertices" "1 component needs at least 7 vertices" torus.off o.off --quiet --vertices 6 --eigenvectors 4
 
 # --- the examples end with a sentence ---
 

@@ -475,7 +475,7 @@ refuses "repair and its contrary" "cannot both" shape.off out.off --repair --str
 refuses "a repaired mesh without repair" "add --repair" shape.off out.off --vertices 200 --repaired new.off
 printf '%s\n' OFF '8 8 0' '0 0 0' '1 0 0' '0 1 0' '0 0 1' '5 0 0' '6 0 0' '5 1 0' '5 0 1' '3 0 2 1' '3 0 1 3' '3 0 3 2' '3 1 2 3' \
   '3 4 6 5' '3 4 5 7' '3 4 7 6' '3 5 6 7' >tetrahedra.off
-refuses "two tetrahedra of six vertices" "2 components need at least 8 vertices" tetrahedra.off new.off --vertices 6 --eigenvectors 1
+refuses "two tetrahedra of six vertices" "2 components need at least 8 vertices" tetrahedra.off new.off --vertices 6 --eigenvectors 1 --quiet
 "$program" tetrahedra.off out.off --vertices 8 --eigenvectors 1 --no-evaluation >said 2>complained ||
   fail "two components and one eigenvector: $(cat complained)"
 grep -q 'constant on each of the 2 components' complained || fail "no warning of K: $(cat complained)"

@@ -593,6 +593,8 @@ TEST_CASE("Rough eigenpairs have one E, in the collapses and for matrices")
   REQUIRE(SMS::internal::pairs_are_rough(options.eigenpairs->residuals));
   Basis basis = basis_of_pairs(op, *options.eigenpairs);
   basis.Z = signal_basis(input, 0, basis.F).Z;
+  for(Eigen::MatrixXd* const signals : {&basis.F, &basis.Z})
+    signals->col(0).setZero(); // E leaves the constant out, however rough
   Mesh mesh = make_mesh(input);
   const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
   CHECK(relative_difference(energy(SG::mesh_matrices(mesh), basis, result.restriction), result.E) <
