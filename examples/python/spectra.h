@@ -19,6 +19,7 @@
 #include <CGAL/Spectral_geometry/relocation.h>
 #include <CGAL/Spectral_toolbox/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
+#include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <Eigen/Geometry>
 
@@ -386,7 +387,7 @@ inline py::dict relocate(const Arguments& a)
   SG::Relocation_options options;
   options.signals = value_of(relocation_words, a.word("signals", words_of(relocation_words)));
   options.threads = a.threads();
-  if(op.theta >= 0.5) // as in spectral_relocation(): only a bent shape has those of a lumped mass
+  if(SMS::internal::has_reachable_eigenvalues(op))
     options.eigenvalues = pairs.op->mass.sum() * pairs.pairs->values;
   options.progress = [&](const double fraction) { return watch("relocation", fraction); };
   const SG::Relocation_result done = watch.run([&] {
