@@ -10,7 +10,7 @@
 #include <CGAL/Real_timer.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 #include <CGAL/Spectral_toolbox/curvature_coefficients.h>
-#include <CGAL/Spectral_toolbox/internal/vertex_rings.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 
 #include <algorithm>
@@ -202,11 +202,11 @@ TEST_CASE("curvature_coefficients: neighbours of a hub do not have all of its ve
 {
   const auto work = [](const int degree) {
     const shapes::Matrices disc = shapes::disc_matrices(degree);
-    const auto neighbors = SG::internal::vertex_neighbors(disc.T, disc.V.rows());
+    const auto rings = SG::internal::Vertex_rings::of_vertices(disc.T, disc.V.rows());
     std::vector<char> seen(std::size_t(disc.V.rows()), 0);
     std::size_t result = 0;
     for(int v = 0; v < int(disc.V.rows()); ++v) {
-      const std::vector<int> ring = SG::internal::rings_of(neighbors, v, 16, seen);
+      const std::vector<int> ring = rings.around(v, 16, seen);
       CHECK(ring.front() == v);
       CHECK(std::set<int>(ring.begin(), ring.end()).size() == ring.size());
       CHECK(ring.size() >= 16);

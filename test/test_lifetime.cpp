@@ -10,13 +10,12 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
-#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -149,96 +148,40 @@ TEST_CASE("A second run with a predicate that was cancelled or has reached its t
   CHECK_FALSE(stop.cancelled());
 }
 
-TEST_CASE("What a call of the pool throws reaches the caller, and the pool goes on")
+TEST_CASE("A loop does with the threads it gets, and all that is to be done is done")
 {
-  struct Scratch
-  {
-    int used = 0;
-  };
-  using Pool = CGAL::Spectral_geometry::internal::Thread_pool<Scratch>;
-  for(const int threads : {1, 2, 4}) {
-    Pool pool(threads);
-    for(const std::size_t thrower : {0, 500, 999}) {
-      const auto body = [thrower](const std::size_t i, Scratch& scratch) {
-        ++scratch.used;
-        if(i == thrower)
-          throw std::bad_alloc();
-      };
-      CHECK_THROWS_AS(pool.for_each(1000, 4, body), std::bad_alloc);
-    }
-    std::atomic<int> calls{0};
-    pool.for_each(1000, 4, [&](std::size_t, Scratch&) { ++calls; });
-    CHECK(calls == 1000);
-  }
-}
-
-TEST_CASE("Where a worker is held up the caller does the next calls alone, and is helped again "
-          "afterwards")
-{
-  struct Scratch
-  {};
-  CGAL::Spectral_geometry::internal::Thread_pool<Scratch> pool(2);
-  REQUIRE(pool.number_of_threads() == 2);
-  const std::thread::id caller = std::this_thread::get_id();
-  // Two calls, of which the worker does one at least, if it comes within five seconds.
-  const auto worker_comes = [&](const int milliseconds) {
-    std::atomic<bool> came{false};
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-    pool.for_each(2, 1, [&](std::size_t, Scratch&) {
-      if(std::this_thread::get_id() != caller) {
-        came = true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-      }
-      while(!came && std::chrono::steady_clock::now() < end)
-        std::this_thread::yield();
-    });
-    return bool(came);
-  };
-  REQUIRE(worker_comes(50));
-  std::atomic<int> by_worker{0};
-  const auto count = [&](std::size_t, Scratch&) {
-    by_worker += std::this_thread::get_id() != caller;
-  };
-  for(int loop = 0; loop < 50; ++loop)
-    pool.for_each(64, 1, count);
-  CHECK(by_worker == 0);
-  for(int loop = 0; loop < 1000; ++loop)
-    pool.for_each(64, 1, count);
-  CHECK(worker_comes(0));
-}
-
-TEST_CASE("A pool does with the threads it gets, and ends them if its construction fails")
-{
-  struct Scratch
-  {};
-  using Pool = CGAL::Spectral_geometry::internal::Thread_pool<Scratch>;
-  int left = 0;
-  const auto start = [&left](auto error) {
-    return [&left, error](auto&& worker) {
-      if(left-- == 0)
+  using CGAL::Spectral_geometry::internal::for_each_task;
+  const auto refuse_third = [](auto error) {
+    return [error, left = std::make_shared<int>(2)](const auto& worker) {
+      if((*left)-- == 0)
         throw error;
       return std::thread(worker);
     };
   };
-  left = 2;
-  CHECK(Pool(6, start(std::system_error(
-                    std::make_error_code(std::errc::resource_unavailable_try_again))))
-            .number_of_threads() == 3);
-  left = 1;
-  CHECK(Pool(6, start(std::bad_alloc())).number_of_threads() == 2);
-  left = 2;
-  CHECK_THROWS_AS(Pool(6, start(std::runtime_error("something else"))), std::runtime_error);
+  std::atomic<int> calls{0};
+  const auto count = [&](std::ptrdiff_t) { ++calls; };
+  for_each_task(1000, 6, count, 4,
+                refuse_third(std::system_error(
+                    std::make_error_code(std::errc::resource_unavailable_try_again))));
+  CHECK(calls == 1000);
+  for_each_task(1000, 6, count, 4, refuse_third(std::bad_alloc()));
+  CHECK(calls == 2000);
+  CHECK_THROWS_AS(for_each_task(1000, 6, count, 4, refuse_third(std::runtime_error("another"))),
+                  std::runtime_error);
 }
 
-TEST_CASE("What one of the tasks of a loop throws reaches the caller")
+TEST_CASE("What one of the tasks of a loop throws reaches the caller, on whichever thread")
 {
   for(const int threads : {1, 2, 4})
-    CHECK_THROWS_AS(CGAL::Spectral_geometry::internal::for_each_task(100, threads,
-                                                                     [](const int i) {
-                                                                       if(i == 50)
-                                                                         throw std::bad_alloc();
-                                                                     }),
-                    std::bad_alloc);
+    for(const int thrower : {0, 500, 999})
+      CHECK_THROWS_AS(CGAL::Spectral_geometry::internal::for_each_task(
+                          1000, threads,
+                          [thrower](const std::ptrdiff_t i) {
+                            if(i == thrower)
+                              throw std::bad_alloc();
+                          },
+                          4),
+                      std::bad_alloc);
 }
 
 } // namespace test_lifetime

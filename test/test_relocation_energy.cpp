@@ -9,7 +9,6 @@
 
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
-#include <CGAL/Spectral_geometry/internal/relocation/Surface_signals.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 

@@ -4,7 +4,7 @@
 
 #include "face_attributes.h"
 
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_of_triangle.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

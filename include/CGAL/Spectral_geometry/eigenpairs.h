@@ -84,7 +84,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>

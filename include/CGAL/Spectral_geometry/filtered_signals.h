@@ -107,7 +107,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Filtered_signals filtered_signals(
 #include <limits>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {

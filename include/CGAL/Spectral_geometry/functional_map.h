@@ -10,7 +10,6 @@
 
 #include <CGAL/number_type_config.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>

@@ -6,11 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 
 #include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 

@@ -10,7 +10,6 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>

@@ -51,9 +51,9 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
 #include <CGAL/Monge_via_jet_fitting.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_toolbox/internal/vertex_rings.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 #include <Eigen/Geometry>
@@ -76,7 +76,7 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
                     "; use a number from 0 to 1e6.");
   const double area = 3 * barycentric_corner_masses(V, T).col(0).sum();
   const double radius = std::sqrt(area / (4 * std::acos(-1.)));
-  const std::vector<std::vector<int>> neighbors = internal::vertex_neighbors(T, V.rows());
+  const auto rings = internal::Vertex_rings::of_vertices(T, V.rows());
   std::vector<char> seen(std::size_t(V.rows()), 0);
   std::vector<Point> points;
   const auto vector = [](const auto& v) { return Eigen::Vector3d(v.x(), v.y(), v.z()); };
@@ -87,7 +87,7 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
     if(progress && v % 1024 == 0 && !progress(double(v) / double(V.rows())))
       throw Cancelled();
     points.clear();
-    for(const int w : internal::rings_of(neighbors, int(v), wanted, seen)) {
+    for(const int w : rings.around(int(v), wanted, seen)) {
       const Eigen::Vector3d x = (V.row(w) - V.row(v)) / radius;
       points.emplace_back(x(0), x(1), x(2));
     }

@@ -168,20 +168,16 @@ CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_
 
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_toolbox/internal/Rank_one_terms.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
-#include <CGAL/Spectral_toolbox/internal/Tall_products.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_toolbox/internal/fit_matrices.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/number_type_config.h>
 
-#include <Eigen/Core>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <tuple>

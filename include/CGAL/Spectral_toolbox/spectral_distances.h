@@ -8,7 +8,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <cmath>

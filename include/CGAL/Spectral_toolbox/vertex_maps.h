@@ -7,7 +7,6 @@
 
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <vector>
@@ -108,8 +107,9 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_toolbox/internal/Ball_tree.h>
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_of_triangle.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -187,16 +187,14 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   internal::check_triangles(source_T, source_vectors.rows());
   const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose(),
                         queries = target_vectors.leftCols(C.rows()).transpose();
-  std::vector<std::vector<Eigen::Index>> star(static_cast<std::size_t>(source_vectors.rows()));
+  const auto star = internal::Vertex_rings::of_faces(source_T, source_vectors.rows());
   Eigen::Matrix3Xd lengths(3, source_T.rows()); // squared
   for(Eigen::Index t = 0; t < source_T.rows(); ++t)
-    for(int c = 0; c < 3; ++c) {
-      star[static_cast<std::size_t>(source_T(t, c))].push_back(t);
+    for(int c = 0; c < 3; ++c)
       lengths(c, t) =
           (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
-    }
 
-  const auto sort_unique = [](std::vector<Eigen::Index>& numbers) {
+  const auto sort_unique = [](std::vector<int>& numbers) {
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   };
@@ -207,29 +205,28 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
   };
   std::vector<Found> found(nearest.size());
   const auto look = [&](const Eigen::Index y) {
-    std::vector<Eigen::Index> faces, vertices; // within one edge of the nearest vertex, each once
-    std::vector<double> distances;             // of these vertices, squared
+    std::vector<int> faces, vertices; // within one edge of the nearest vertex, each once
+    std::vector<double> distances;    // of these vertices, squared
     const std::size_t i = static_cast<std::size_t>(y);
-    for(const Eigen::Index around : star[static_cast<std::size_t>(nearest[i])])
-      for(int c = 0; c < 3; ++c) {
-        const std::vector<Eigen::Index>& more = star[static_cast<std::size_t>(source_T(around, c))];
-        faces.insert(faces.end(), more.begin(), more.end());
-      }
+    const int near = int(nearest[i]);
+    for(const int* around = star.begin(near); around != star.end(near); ++around)
+      for(int c = 0; c < 3; ++c)
+        faces.insert(faces.end(), star.begin(source_T(*around, c)), star.end(source_T(*around, c)));
     sort_unique(faces);
-    for(const Eigen::Index t : faces)
+    for(const int t : faces)
       for(int c = 0; c < 3; ++c)
         vertices.push_back(source_T(t, c));
     sort_unique(vertices);
     const auto query = queries.col(y);
-    for(const Eigen::Index v : vertices)
+    for(const int v : vertices)
       distances.push_back((points.col(v) - query).squaredNorm());
-    const auto distance = [&](const Eigen::Index v) {
+    const auto distance = [&](const int v) {
       return distances[static_cast<std::size_t>(
           std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin())];
     };
     double best = (points.col(nearest[i]) - query).squaredNorm();
     found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};
-    for(const Eigen::Index t : faces) {
+    for(const int t : faces) {
       const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)),
                               distance(source_T(t, 2)));
       const internal::Point_of_triangle candidate =

@@ -10,8 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_post_process.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Spectral_pre_simplification.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/around_collapses.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/run_explanations.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_result.h>
@@ -22,13 +21,12 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
-#include <Eigen/SparseCore>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -42,20 +40,35 @@ namespace internal {
 
 using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
+/// Nobody who would have to know what the loop does.
+struct No_follower
+{
+  void on_finished() const {}
+  void on_stop_condition_reached() const {}
+  void on_selected() const {}
+  void on_non_collapsable() const {}
+  template <class... T>
+  void on_collapsing(const T&...) const
+  {}
+  template <class... T>
+  void on_collapsed(const T&...) const
+  {}
+};
+
 /// A visitor of the user's over several runs of the loop, which it sees as one.
 template <class UserVisitor>
-class Visitor_of_runs
+class Visitor_of_runs : public Following_visitor<No_follower, UserVisitor>
 {
 public:
   explicit Visitor_of_runs(const UserVisitor& user)
-    : m_user(user)
+    : Following_visitor<No_follower, UserVisitor>(std::make_shared<No_follower>(), user)
   {}
 
   template <class TriangleMesh>
   void OnStarted(TriangleMesh& mesh)
   {
     if(!std::exchange(m_started, true))
-      user().OnStarted(mesh);
+      this->user().OnStarted(mesh);
   }
   template <class TriangleMesh>
   void OnFinished(TriangleMesh&)
@@ -64,43 +77,10 @@ public:
   template <class TriangleMesh>
   void finish(TriangleMesh& mesh)
   {
-    user().OnFinished(mesh);
-  }
-  template <class... T>
-  void OnStopConditionReached(T&&... t)
-  {
-    user().OnStopConditionReached(std::forward<T>(t)...);
-  }
-  template <class... T>
-  void OnCollected(T&&... t)
-  {
-    user().OnCollected(std::forward<T>(t)...);
-  }
-  template <class... T>
-  void OnSelected(T&&... t)
-  {
-    user().OnSelected(std::forward<T>(t)...);
-  }
-  template <class... T>
-  void OnCollapsing(T&&... t)
-  {
-    user().OnCollapsing(std::forward<T>(t)...);
-  }
-  template <class... T>
-  void OnCollapsed(T&&... t)
-  {
-    user().OnCollapsed(std::forward<T>(t)...);
-  }
-  template <class... T>
-  void OnNonCollapsable(T&&... t)
-  {
-    user().OnNonCollapsable(std::forward<T>(t)...);
+    this->user().OnFinished(mesh);
   }
 
 private:
-  auto& user() { return std::ref(m_user).get(); } // what a reference_wrapper refers to
-
-  UserVisitor m_user;
   bool m_started = false;
 };
 
@@ -142,12 +122,6 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
         common.edge_is_constrained_map(ecm));
   } else
     return run(policies.get_placement(), common);
-}
-
-template <class TriangleMesh, class NamedParameters>
-Eigen::Index number_of_components(const TriangleMesh& mesh, const NamedParameters& np)
-{
-  return number_of_components(Spectral_geometry::mesh_matrices(mesh, np));
 }
 
 /// K, whoever brings the signals.
@@ -215,6 +189,10 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using Policies = Spectral_policies<TriangleMesh, Geom_traits, Vertex_point_map>;
   const Eigen::Index K = number_of_signals(given);
+  const auto weights = [&] {
+    return weights_for_target(target, K,
+                              number_of_components(Spectral_geometry::mesh_matrices(mesh, np)));
+  };
   // No copy where there is no need: signals may be large.
   std::optional<Spectral_edge_collapse_options> narrowed;
   if(std::isfinite(given.maximum_error)) { // a bound holds for all signals, not for an estimate
@@ -224,12 +202,11 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   } else if(is_filtered(given)) {
     narrowed = given;
     narrowed->number_of_relocation_signals = given.relocate ? 64 : 0;
-    narrowed->number_of_eigenvectors =
-        Eigen::Index(weights_for_target(target, K, number_of_components(mesh, np)).sum());
+    narrowed->number_of_eigenvectors = Eigen::Index(weights().sum());
   } else if(given.signals.size() == 0 && given.weights.size() == 0 &&
             Eigen::Index(target / 3) < K) {
     narrowed = given;
-    narrowed->weights = weights_for_target(target, K, number_of_components(mesh, np));
+    narrowed->weights = weights();
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);

@@ -11,7 +11,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>

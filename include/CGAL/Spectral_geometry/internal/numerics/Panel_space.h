@@ -6,9 +6,8 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_PANEL_SPACE_H
 
 #include <CGAL/Spectral_geometry/internal/numerics/Panel_kernels.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Thread_pool.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>

@@ -14,7 +14,6 @@
 #define CGAL_SPECTRAL_INLINE inline __attribute__((always_inline))
 #define CGAL_SPECTRAL_INLINE_LAMBDA __attribute__((always_inline))
 #ifdef __x86_64__
-#include <immintrin.h>
 #define CGAL_SPECTRAL_DISPATCH 1
 #endif
 #else
@@ -29,7 +28,7 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// What two threads write lies in lines of its own, and a row of numbers begins with one.
+/// In bytes: a row of numbers begins with one.
 constexpr std::size_t cache_line = 64;
 
 /// Numbers that begin with a cache line. A vector register that is loaded across the end of one

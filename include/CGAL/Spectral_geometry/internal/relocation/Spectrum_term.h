@@ -12,7 +12,6 @@
 
 #include <CGAL/number_type_config.h>
 
-#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 

@@ -9,7 +9,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>

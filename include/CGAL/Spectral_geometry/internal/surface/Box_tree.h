@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_BOX_TREE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_BOX_TREE_H
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>

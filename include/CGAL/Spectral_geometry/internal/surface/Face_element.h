@@ -8,7 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>

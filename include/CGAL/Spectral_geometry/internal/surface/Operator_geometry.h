@@ -10,7 +10,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstddef>

@@ -7,9 +7,8 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_of_triangle.h>
+#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>

@@ -9,7 +9,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
@@ -86,10 +85,7 @@ public:
   Eigen::SparseMatrix<double> prolongation() const
   {
     const Closest_point_query coarse(m_coarse);
-    std::vector<Eigen::Index> face_of(std::size_t(m_coarse.V.rows()), -1);
-    for(Eigen::Index f = 0; f < m_coarse.T.rows(); ++f)
-      for(int k = 0; k < 3; ++k)
-        face_of[std::size_t(m_coarse.T(f, k))] = f;
+    const std::vector<Eigen::Index> face_of = faces_at_vertices(m_coarse.T, m_coarse.V.rows());
     return interpolation(m_coarse, m_fine.V.rows(), [&](const Eigen::Index i) {
       const int row = m_row[std::size_t(i)];
       const Eigen::Index face = row < 0 ? -1 : face_of[std::size_t(row)];
@@ -152,10 +148,7 @@ private:
   // A face at the heaviest entry of each row; where a row is empty, that of a neighbour.
   void set_homes(const Eigen::SparseMatrix<double>& P)
   {
-    std::vector<Eigen::Index> face_of(std::size_t(m_fine.V.rows()), -1);
-    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
-      for(int k = 0; k < 3; ++k)
-        face_of[std::size_t(m_fine.T(f, k))] = f;
+    const std::vector<Eigen::Index> face_of = faces_at_vertices(m_fine.T, m_fine.V.rows());
     m_home.assign(std::size_t(m_coarse.V.rows()), Home());
     Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
     for(Eigen::Index j = 0; j < P.cols(); ++j)

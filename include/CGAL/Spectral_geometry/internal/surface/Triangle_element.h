@@ -8,7 +8,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cmath>

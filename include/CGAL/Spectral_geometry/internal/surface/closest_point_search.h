@@ -7,15 +7,91 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_of_triangle.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
+
+/// A point of a triangle as a convex combination of its three vertices.
+struct Point_of_triangle
+{
+  Eigen::Vector3d weights;
+  double squared_distance; // to the query
+};
+
+/// The point of a triangle that is closest to a query, in any dimension: the best of the
+/// projections on the three edges and, when it lies inside, on the plane. Each candidate is a point
+/// of the triangle and its distance is measured, by `squared_distance(weights)`, so that an
+/// ill-conditioned plane (a needle) can lose accuracy but never give a point off the triangle; a
+/// face without area is the union of its edges, a face without extent a point. The kernel's
+/// projection goes through the normal.
+///
+/// `best` is the first corner. `lengths`, squared, of the edges, the i-th of which leads from
+/// corner i to the next; `along`: its inner product with the way from corner i to the query. `ab`
+/// and `bq` are inner products of b, from the first corner to the last, with the first edge and
+/// with the way to the query.
+template <class Squared_distance>
+Point_of_triangle closest_of_projections(Point_of_triangle best, const Eigen::Vector3d& lengths,
+                                         const Eigen::Vector3d& along, const double ab,
+                                         const double bq, const double rounding,
+                                         const Squared_distance& squared_distance)
+{
+  // Strictly closer: a vertex or an edge that is tried first wins against an interior point that
+  // only rounding makes as close.
+  const auto keep_closer = [&](const Eigen::Vector3d& weights) {
+    const double d = squared_distance(weights);
+    if(d < best.squared_distance - rounding)
+      best = {weights, d};
+  };
+  for(int i = 0; i < 3; ++i) {
+    const double s = lengths(i) > 0 ? std::clamp(along(i) / lengths(i), 0., 1.) : 0.;
+    Eigen::Vector3d weights = Eigen::Vector3d::Zero();
+    weights(i) = 1 - s;
+    weights((i + 1) % 3) = s;
+    keep_closer(weights);
+  }
+  const double aa = lengths(0), bb = lengths(2), aq = along(0);
+  const double determinant = aa * bb - ab * ab; // (2 area)^2
+  const double v = (bb * aq - ab * bq) / determinant, w = (aa * bq - ab * aq) / determinant;
+  if(v > 0 && w > 0 && v + w < 1) // false for NaN as well
+    keep_closer(Eigen::Vector3d(1 - v - w, v, w));
+  return best;
+}
+
+/// Here a triangle lies in space, with one vertex per column.
+inline Point_of_triangle closest_point_of_triangle(const Eigen::Vector3d& query,
+                                                   const Eigen::Matrix3d& triangle)
+{
+  Eigen::Vector3d lengths, along;
+  for(int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d edge = triangle.col((i + 1) % 3) - triangle.col(i);
+    lengths(i) = edge.squaredNorm();
+    along(i) = edge.dot(query - triangle.col(i));
+  }
+  const Eigen::Vector3d a = triangle.col(1) - triangle.col(0),
+                        b = triangle.col(2) - triangle.col(0), q = query - triangle.col(0);
+  return closest_of_projections(
+      {Eigen::Vector3d::UnitX(), q.squaredNorm()}, lengths, along, a.dot(b), b.dot(q), 0.,
+      [&](const Eigen::Vector3d& weights) { return (triangle * weights - query).squaredNorm(); });
+}
+
+/// Finds it in a space of any dimension, from squared distances alone: d of the query from the
+/// corners, l of the edges. Exact to the rounding of the d, which is too little for a query that is
+/// all but on the triangle: a point has to be closer than that to win against a corner.
+inline Point_of_triangle closest_point_of_triangle_by_distances(const Eigen::Vector3d& d,
+                                                                const Eigen::Vector3d& l)
+{
+  const Eigen::Vector3d along = (d + l - Eigen::Vector3d(d(1), d(2), d(0))) / 2;
+  return closest_of_projections(
+      {Eigen::Vector3d::UnitX(), d(0)}, l, along, (l(0) + l(2) - l(1)) / 2, l(2) - along(2),
+      1e-14 * d.sum(), [&](const Eigen::Vector3d& w) {
+        return w.dot(d) - (w(0) * w(1) * l(0) + w(1) * w(2) * l(1) + w(2) * w(0) * l(2));
+      });
+}
 
 /// Closest points of one surface, asked for again and again.
 class Closest_point_query

@@ -72,6 +72,16 @@ inline std::vector<char> border_vertices(const Eigen::MatrixXi& T, const Eigen::
   return result;
 }
 
+/// A face at each of n vertices, or -1.
+inline std::vector<Eigen::Index> faces_at_vertices(const Eigen::MatrixXi& T, const Eigen::Index n)
+{
+  std::vector<Eigen::Index> result(std::size_t(n), -1);
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      result[std::size_t(T(f, k))] = f;
+  return result;
+}
+
 /// For each of n vertices what lies around it, sorted and each once: other vertices, or faces.
 class Vertex_rings
 {
@@ -93,6 +103,32 @@ public:
   const int* end(const int v) const { return begin(v) + m_size[std::size_t(v)]; }
   std::size_t size(const int v) const { return m_size[std::size_t(v)]; }
   bool has(const int v, const int item) const { return std::binary_search(begin(v), end(v), item); }
+
+  /// Whole rings of vertices around v, which comes first, until there are so many; only some
+  /// neighbours of a hub, spread over all: a fan would hand all of its vertices to each. `seen` has
+  /// been zero everywhere, and is again.
+  std::vector<int> around(const int v, const std::size_t wanted, std::vector<char>& seen) const
+  {
+    constexpr std::size_t most_of_a_hub = 64;
+    std::vector<int> result = {v};
+    seen[std::size_t(v)] = 1;
+    for(std::size_t first = 0; first < result.size() && result.size() < wanted;) {
+      const std::size_t last = result.size();
+      for(; first < last; ++first) {
+        const int* const ring = begin(result[first]);
+        const std::size_t n = size(result[first]),
+                          step = first == 0 ? 1 : (n + most_of_a_hub - 1) / most_of_a_hub;
+        for(std::size_t i = 0; i < n; i += step)
+          if(!seen[std::size_t(ring[i])]) {
+            seen[std::size_t(ring[i])] = 1;
+            result.push_back(ring[i]);
+          }
+      }
+    }
+    for(const int w : result)
+      seen[std::size_t(w)] = 0;
+    return result;
+  }
 
 private:
   template <class Put>

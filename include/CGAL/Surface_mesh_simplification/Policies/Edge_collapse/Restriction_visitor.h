@@ -12,7 +12,6 @@
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
-#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include <cstddef>

@@ -1,0 +1,81 @@
+// Copyright (c) 2026 The Spectral mesh simplification authors.
+//
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H
+#define CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
+
+/// Calls f(0) .. f(count - 1) in any order, `grain` of them in a row on one of at most so many
+/// threads, which `start(worker)` makes; the caller is one of them, and where the system has no
+/// more it does with those it has got.
+///
+/// What a call computes must depend on its index alone, and sums over tasks are up to the caller,
+/// in the order of the tasks, so that no result depends on the number of threads. What one throws,
+/// on whichever thread, the caller gets when all are back; calls that nobody has begun with are
+/// left out then.
+template <class Function, class Start>
+void for_each_task(const Eigen::Index count, const int threads, const Function& f, const int grain,
+                   const Start& start)
+{
+  std::atomic<Eigen::Index> next{0};
+  std::mutex mutex;
+  std::exception_ptr error; // the first
+  const auto take_part = [&] {
+    try {
+      for(Eigen::Index begin = next.fetch_add(grain); begin < count; begin = next.fetch_add(grain))
+        for(Eigen::Index i = begin; i < (std::min)(begin + grain, count); ++i)
+          f(i);
+    } catch(...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if(!error)
+        error = std::current_exception();
+      next = count;
+    }
+  };
+  {
+    struct Workers : std::vector<std::thread>
+    {
+      ~Workers()
+      {
+        for(std::thread& worker : *this)
+          worker.join();
+      }
+    } workers;
+    const Eigen::Index most = (std::min)(Eigen::Index(threads), count / grain);
+    workers.reserve(std::size_t((std::max)(most, Eigen::Index(1))));
+    try {
+      for(Eigen::Index i = 1; i < most; ++i)
+        workers.push_back(start(take_part));
+    } catch(const std::system_error&) {
+    } catch(const std::bad_alloc&) {
+    }
+    take_part();
+  }
+  if(error)
+    std::rethrow_exception(error);
+}
+
+template <class Function>
+void for_each_task(const Eigen::Index count, const int threads, const Function& f,
+                   const int grain = 1)
+{
+  for_each_task(count, threads, f, grain, [](const auto& worker) { return std::thread(worker); });
+}
+
+} // namespace CGAL::Spectral_geometry::internal
+
+#endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H
