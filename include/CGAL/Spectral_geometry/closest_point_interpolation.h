@@ -102,16 +102,6 @@ rows_off_their_part(const Mesh_matrices& coarse, const Mesh_matrices& fine,
 namespace CGAL::Spectral_geometry {
 namespace internal {
 
-inline void check_points(const Eigen::MatrixXd& points, const char* const who,
-                         const char* const what)
-{
-  require(points.rows() == 0 || points.cols() == 3, who, "the ", what, "s have ", points.cols(),
-          " columns, pass a matrix of 3 columns.");
-  for(Eigen::Index i = 0; i < points.rows(); ++i)
-    require(points.row(i).allFinite(), who, what, " ", i,
-            " has a coordinate that is not finite, remove or repair it.");
-}
-
 inline void check_surface(const Mesh_matrices& surface, const char* const who,
                           const char* const name)
 {
@@ -132,16 +122,10 @@ inline void check_surface(const Mesh_matrices& surface, const char* const who,
 }
 
 inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
-                       const char* const who)
+                       const Eigen::SparseMatrix<double>& P, const char* const who)
 {
   check_surface(coarse, who, "coarse mesh");
   check_surface(fine, who, "fine mesh");
-}
-
-inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
-                       const Eigen::SparseMatrix<double>& P, const char* const who)
-{
-  check_pair(coarse, fine, who);
   require(P.rows() == coarse.V.rows() && P.cols() == fine.V.rows(), who, "P is ", size_name(P),
           " where ", coarse.V.rows(), " x ", fine.V.rows(),
           " is needed, coarse x fine; pass matrices that belong together.");
@@ -152,9 +136,13 @@ inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
 {
-  const char* const who = "closest_point_interpolation: ";
-  internal::check_points(points, who, "point");
-  internal::check_surface(surface, who, "surface");
+  using internal::require;
+  require(points.rows() == 0 || points.cols() == 3, "closest_point_interpolation: the points have ",
+          points.cols(), " columns, pass a matrix of 3 columns.");
+  for(Eigen::Index i = 0; i < points.rows(); ++i)
+    require(points.row(i).allFinite(), "closest_point_interpolation: point ", i,
+            " has a coordinate that is not finite, remove or repair it.");
+  internal::check_surface(surface, "closest_point_interpolation: ", "surface");
   const internal::Closest_point_query closest(surface);
   return internal::interpolation(surface, points.rows(),
                                  [&](const Eigen::Index i) { return closest(points.row(i)); });
@@ -163,7 +151,8 @@ closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_restriction(const Mesh_matrices& coarse, const Mesh_matrices& fine)
 {
-  internal::check_pair(coarse, fine, "closest_point_restriction: ");
+  internal::check_surface(coarse, "closest_point_restriction: ", "coarse mesh");
+  internal::check_surface(fine, "closest_point_restriction: ", "fine mesh");
   return internal::Row_follower(coarse, fine, closest_point_interpolation(coarse.V, fine)).run().P;
 }
 

@@ -25,7 +25,6 @@ macro nobody needs this file.
 #include <CGAL/Spectral_geometry/filtered_signals.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
-#include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
 #endif // CGAL_SPECTRAL_GEOMETRY_COMPILE_H

@@ -119,10 +119,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass,
 /// coefficients are none, or one row for each of n vertices, positive (definite) and finite.
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
 
-/// Returns the cotangents of the operator at a triangle, and its area weighted by the density.
-CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(
-    const Eigen::MatrixXd& V, const int (&corners)[3], const Operator_coefficients& coefficients);
-
 /// Refuses a face without area; `who` begins the sentence, `mesh` says in a word which one it is.
 inline void check_areas(const char* const who, const char* const mesh, const Eigen::MatrixXd& V,
                         const Eigen::MatrixXi& T)
@@ -309,13 +305,6 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents local_cotangents(const Eigen::MatrixXd& V,
-                                                                   const int (&t)[3],
-                                                                   const Operator_coefficients& c)
-{
-  return cotangents_of(V.row(t[0]), V.row(t[1]), V.row(t[2]), mean_coefficients(c, t));
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
 {
   require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ",
@@ -369,10 +358,13 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op
 inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                                               Eigen::Index f, const Operator_coefficients& c = {})
 {
-  const int corners[3] = {T(f, 0), T(f, 1), T(f, 2)};
-  const Triangle_cotangents t = local_cotangents(V, corners, c);
+  const int k[3] = {T(f, 0), T(f, 1), T(f, 2)};
+  const auto cotangents = [&](const std::optional<Point_coefficients>& mean) {
+    return cotangents_of(V.row(k[0]), V.row(k[1]), V.row(k[2]), mean);
+  };
+  const Triangle_cotangents t = cotangents(mean_coefficients(c, k));
   const Eigen::Vector3d own = // of the triangle itself, whatever conducts
-      c.rows() == 0 ? t.cot : local_cotangents(V, corners, {}).cot;
+      c.rows() == 0 ? t.cot : cotangents({}).cot;
   require(own.cwiseAbs().maxCoeff() <= largest_cotangent && t.cot.allFinite() &&
               std::isfinite(t.area),
           "Laplace operator: ", face_name(f),

@@ -198,16 +198,12 @@ bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& opti
   return failed.count == 0;
 }
 
-/// The first K pairs of one part.
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem,
                                                        const Eigen::Index K,
                                                        const Eigenpairs_options& options)
 {
   Eigenpairs result;
   std::string reason;
-  const auto left = [&] {
-    return "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
-  };
   const bool dense = is_dense(problem.size(), K, options.method);
   const auto solved_by = [&](auto solver) {
     try {
@@ -216,7 +212,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
            refine(problem, solver.factor_below(), options.threads, range, pairs);
          }))
         return true;
-      reason = left();
+      reason = "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
     } catch(const Not_converged& error) {
       reason = error.what();
     }

@@ -5,52 +5,11 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H
 #define CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H
 
-#include <CGAL/Spectral_geometry/internal/separate_compilation.h>
+#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
 #include <Eigen/Core>
-
-namespace CGAL::Spectral_geometry {
-
-/// \addtogroup PkgSpectralMeshSimplificationOperators
-/// @{
-
-/// \brief returns the coefficients of \f$-\mathrm{div}(c \nabla \phi) = \lambda \rho \phi\f$.
-///
-/// \param density      n, \f$\rho\f$ at each vertex, positive, or empty: 1
-/// \param conductivity n, c at each vertex, positive, or empty: 1
-///
-/// Throws `std::invalid_argument` that names the first entry that is not positive and finite, or
-/// sizes that differ.
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
-weighted_coefficients(const Eigen::VectorXd& density, const Eigen::VectorXd& conductivity);
-
-/// \brief returns the coefficients of \f$-\mathrm{div}(D \nabla \phi) = \lambda \rho \phi\f$.
-///
-/// \param conductivity n x 6, D at each vertex as xx, xy, xz, yy, yz, zz, positive definite
-/// \param density      n, positive, or empty: 1
-///
-/// Throws `std::invalid_argument` that names the first vertex whose D is not positive definite, or
-/// whose density is not positive.
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
-anisotropic_coefficients(const Eigen::MatrixXd& conductivity, const Eigen::VectorXd& density = {});
-
-/// \brief returns coefficients at the vertices from coefficients of the faces, m x 7: the mean over
-/// the faces of a vertex, weighted by area. What jumps between faces is smoothed by that.
-///
-/// Throws `std::invalid_argument` for matrices that do not belong together, or a vertex without a
-/// face.
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
-    const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Operator_coefficients& of_faces);
-
-/// @}
-
-} // namespace CGAL::Spectral_geometry
-
-#if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
-
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <cmath>
 
@@ -66,8 +25,39 @@ inline void check_length(const char* what, const Eigen::Index found, const Eigen
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
-weighted_coefficients(const Eigen::VectorXd& density, const Eigen::VectorXd& conductivity)
+/// \addtogroup PkgSpectralMeshSimplificationOperators
+/// @{
+
+/// \brief returns the coefficients of \f$-\mathrm{div}(D \nabla \phi) = \lambda \rho \phi\f$.
+///
+/// \param conductivity n x 6, D at each vertex as xx, xy, xz, yy, yz, zz, positive definite
+/// \param density      n, positive, or empty: 1
+///
+/// Throws `std::invalid_argument` that names the first vertex whose D is not positive definite, or
+/// whose density is not positive.
+inline Operator_coefficients anisotropic_coefficients(const Eigen::MatrixXd& conductivity,
+                                                      const Eigen::VectorXd& density = {})
+{
+  const Eigen::Index n = conductivity.rows();
+  internal::require(conductivity.cols() == 6, "Local operator: the conductivity has ",
+                    conductivity.cols(), " columns; give six, xx, xy, xz, yy, yz, zz.");
+  internal::check_length("the density", density.size(), n);
+  Operator_coefficients result(n, 7);
+  result.col(0) = density.size() != 0 ? density : Eigen::VectorXd::Ones(n);
+  result.rightCols<6>() = conductivity;
+  internal::check_local_operator(Local_operator(Mass::lumped, result), n);
+  return result;
+}
+
+/// \brief returns the coefficients of \f$-\mathrm{div}(c \nabla \phi) = \lambda \rho \phi\f$.
+///
+/// \param density      n, \f$\rho\f$ at each vertex, positive, or empty: 1
+/// \param conductivity n, c at each vertex, positive, or empty: 1
+///
+/// Throws `std::invalid_argument` that names the first entry that is not positive and finite, or
+/// sizes that differ.
+inline Operator_coefficients weighted_coefficients(const Eigen::VectorXd& density,
+                                                   const Eigen::VectorXd& conductivity)
 {
   const Eigen::Index n = density.size() != 0 ? density.size() : conductivity.size();
   internal::check_length("the conductivity", conductivity.size(), n);
@@ -81,22 +71,14 @@ weighted_coefficients(const Eigen::VectorXd& density, const Eigen::VectorXd& con
   return anisotropic_coefficients(D, density);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients
-anisotropic_coefficients(const Eigen::MatrixXd& conductivity, const Eigen::VectorXd& density)
-{
-  const Eigen::Index n = conductivity.rows();
-  internal::require(conductivity.cols() == 6, "Local operator: the conductivity has ",
-                    conductivity.cols(), " columns; give six, xx, xy, xz, yy, yz, zz.");
-  internal::check_length("the density", density.size(), n);
-  Operator_coefficients result(n, 7);
-  result.col(0) = density.size() != 0 ? density : Eigen::VectorXd::Ones(n);
-  result.rightCols<6>() = conductivity;
-  internal::check_local_operator(Local_operator(Mass::lumped, result), n);
-  return result;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
-    const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Operator_coefficients& of_faces)
+/// \brief returns coefficients at the vertices from coefficients of the faces, m x 7: the mean over
+/// the faces of a vertex, weighted by area. What jumps between faces is smoothed by that.
+///
+/// Throws `std::invalid_argument` for matrices that do not belong together, or a vertex without a
+/// face.
+inline Operator_coefficients coefficients_at_vertices(const Eigen::MatrixXd& V,
+                                                      const Eigen::MatrixXi& T,
+                                                      const Operator_coefficients& of_faces)
 {
   internal::require(of_faces.rows() == T.rows(), "Local operator: there are coefficients for ",
                     of_faces.rows(), " faces, but the mesh has ", T.rows(),
@@ -115,8 +97,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Operator_coefficients coefficients_at_vertices(
   return result;
 }
 
-} // namespace CGAL::Spectral_geometry
+/// @}
 
-#endif // definitions
+} // namespace CGAL::Spectral_geometry
 
 #endif // CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H

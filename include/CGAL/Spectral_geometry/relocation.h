@@ -481,7 +481,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ",
           internal::size_name(P), " where ", V.rows(), " x ", fine.V.rows(),
           " is needed, coarse x fine; pass matrices that belong together.");
-  internal::require_signals("relocation: ", F, Z, P.cols());
+  require(F.rows() == P.cols() && Z.rows() == P.cols() && Z.cols() == F.cols() && F.cols() > 0,
+          "relocation: F is ", internal::size_name(F), " and Z ", internal::size_name(Z),
+          "; pass two matrices with one row for each of the ", P.cols(),
+          " fine vertices and one column for each signal.");
   for(Eigen::Index v = 0; v < V.rows(); ++v)
     require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
             " has a coordinate that is not a finite number; repair it.");

@@ -312,8 +312,8 @@ private:
     Index i, j;
     double weight, mass;
     std::vector<Index> opposite; // common neighbours of i and j
-    int thin = 0;                // number of negative edges that lean on this one
-    double left = 0.;            // what they leave of its weight
+    int leaning = 0;             // number of negative edges that lean on this one
+    double remaining = 0.;       // what they leave of its weight
   };
 
   void collect_terms(const Laplace_operator& own)
@@ -342,7 +342,7 @@ private:
       return found != rings[a].end() && found->first == b ? &edges[found->second] : nullptr;
     };
     for(Edge& e : edges) {
-      e.weight = e.left = (std::min)((std::max)(e.weight, -largest), largest);
+      e.weight = e.remaining = (std::min)((std::max)(e.weight, -largest), largest);
       const auto [few, many] =
           rings[e.i].size() < rings[e.j].size() ? std::pair(e.i, e.j) : std::pair(e.j, e.i);
       for(const auto& r : rings[few])
@@ -350,8 +350,8 @@ private:
           e.opposite.push_back(r.first);
       if(e.weight < 0.)
         for(const Index k : e.opposite) {
-          ++edge(e.i, k)->thin;
-          ++edge(e.j, k)->thin;
+          ++edge(e.i, k)->leaning;
+          ++edge(e.j, k)->leaning;
         }
     }
     for(Edge& e : edges)
@@ -360,8 +360,8 @@ private:
 
     Vector b = (diagonal ? own.mass : Vector(own.B.diagonal())) / m_area;
     for(const Edge& e : edges) {
-      m_stiffness.add({{e.i, 1.}, {e.j, -1.}}, e.left,
-                      m_options.smallest_weight * (std::max)(scale * 0.05, e.left), scale);
+      m_stiffness.add({{e.i, 1.}, {e.j, -1.}}, e.remaining,
+                      m_options.smallest_weight * (std::max)(scale * 0.05, e.remaining), scale);
       if(m_options.rings == 2 && e.opposite.size() == 2)
         m_stiffness.add({{e.i, 1.}, {e.j, 1.}, {e.opposite[0], -1.}, {e.opposite[1], -1.}}, 0., 0.,
                         scale);
@@ -400,7 +400,8 @@ private:
     std::vector<std::tuple<double, double, Index>> shares; // a, b, k
     for(const Index k : e.opposite) {
       const Edge &ik = *edge(e.i, k), &jk = *edge(e.j, k);
-      const double a = (std::max)(ik.weight, 0.) / ik.thin, b = (std::max)(jk.weight, 0.) / jk.thin;
+      const double a = (std::max)(ik.weight, 0.) / ik.leaning,
+                   b = (std::max)(jk.weight, 0.) / jk.leaning;
       if(a > 0. && b > 0.) {
         shares.emplace_back(a, b, k);
         capacity += a * b / (a + b);
@@ -410,9 +411,9 @@ private:
     for(const auto& [a, b, k] : shares) {
       const double q = part * (a + b), t = b / (a + b);
       m_stiffness.add({{k, 1.}, {e.i, t - 1.}, {e.j, -t}}, q, 0., scale + q);
-      edge(e.i, k)->left -= q * (1. - t);
-      edge(e.j, k)->left -= q * t;
-      e.left += q * t * (1. - t);
+      edge(e.i, k)->remaining -= q * (1. - t);
+      edge(e.j, k)->remaining -= q * t;
+      e.remaining += q * t * (1. - t);
     }
   }
 

@@ -6,12 +6,13 @@
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_SPECTRAL_RELOCATION_H
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Kept_vertices.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation.h>
 
@@ -45,12 +46,20 @@ inline bool has_reachable_eigenvalues(const Spectral_geometry::Local_operator& o
 inline double area(const Spectral_geometry::Mesh_matrices& mesh)
 {
   double result = 0;
-  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    const Eigen::RowVector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
-                             r = mesh.V.row(mesh.T(f, 2));
-    result += (q - p).cross(r - p).norm() / 2;
-  }
+  for(Eigen::Index f = 0; f < mesh.T.rows(); ++f)
+    result += Spectral_geometry::internal::face_normal(mesh.V, mesh.T, f).norm() / 2;
   return result;
+}
+
+/// Flags, of as many or no vertices before, those as well that named parameters want to stay.
+template <class TriangleMesh, class NamedParameters>
+void add_fixed_vertices(std::vector<bool>& fixed, const TriangleMesh& mesh,
+                        const NamedParameters& np)
+{
+  const std::vector<char> further = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
+  fixed.resize((std::max)(fixed.size(), further.size()), false);
+  for(std::size_t v = 0; v < further.size(); ++v)
+    fixed[v] = fixed[v] || further[v];
 }
 
 /// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices
@@ -70,11 +79,7 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   using Point = typename Geom_traits::Point_3;
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   const Eigen::MatrixXd before = coarse.V;
-  const std::vector<char> constrained =
-      fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
-  fixed.resize(std::size_t(coarse.V.rows()));
-  for(std::size_t v = 0; v < constrained.size(); ++v)
-    fixed[v] = fixed[v] || constrained[v];
+  add_fixed_vertices(fixed, mesh, np);
   Spectral_geometry::Relocation_result result =
       Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
@@ -307,11 +312,7 @@ spectral_relocation(TriangleMesh& mesh,
       return state.report(Spectral_phase::relocation, fraction);
     };
   std::vector<bool> fixed = state.fixed_vertices();
-  const std::vector<char> further =
-      internal::fixed_vertex_flags(mesh, internal::kept_vertex_flags(mesh, {}, np), np);
-  fixed.resize((std::max)(fixed.size(), further.size()), false);
-  for(std::size_t v = 0; v < further.size(); ++v)
-    fixed[v] = fixed[v] || further[v];
+  internal::add_fixed_vertices(fixed, mesh, np);
   const Eigen::SparseMatrix<double> P = policies.restriction();
   Spectral_geometry::Operator_coefficients coefficients;
   if(state.options().coefficients.rows() != 0)

@@ -58,17 +58,6 @@ auto size_name(const Matrix& M)
   return [&M] { return std::to_string(M.rows()) + " x " + std::to_string(M.cols()); };
 }
 
-/// Signals on a fine mesh of n vertices and their Laplacians. `who` begins the sentence.
-template <class Matrix>
-void require_signals(const char* const who, const Matrix& F, const Matrix& Z,
-                     const std::ptrdiff_t n)
-{
-  require(F.rows() == n && Z.rows() == n && Z.cols() == F.cols() && F.cols() > 0, who, "F is ",
-          size_name(F), " and Z ", size_name(Z),
-          "; pass two matrices with one row for each of the ", n,
-          " fine vertices and one column for each signal.");
-}
-
 /// One size of matrices from which functional maps are made, or of such a map.
 inline void check_dimension(const char* const what, const std::ptrdiff_t found,
                             const std::ptrdiff_t wanted)

@@ -79,7 +79,7 @@ public:
   void refer_to(const Positions& V, const Relocation_limits& limits)
   {
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      m_normal[std::size_t(f)] = normal_of(f, V).normalized();
+      m_normal[std::size_t(f)] = face_normal(V, m_T, f).normalized();
       m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
     }
   }
@@ -133,7 +133,7 @@ public:
     for(Eigen::Index v = 0; v < at.rows(); ++v)
       if(m_fixed[std::size_t(v)])
         direction.row(v).setZero();
-      else if(!m_boundary[std::size_t(v)].empty()) {
+      else if(is_on_boundary(v)) {
         const Boundary_segment& s = closest_segment(v, at.row(v));
         const Eigen::Vector3d t = (s.b - s.a).normalized();
         direction.row(v) = (t.dot(direction.row(v)) * t).transpose();
@@ -171,7 +171,7 @@ public:
   /// true if the triangle keeps its side and its angles.
   bool legal(const Eigen::Index f, const Positions& V) const
   {
-    const Eigen::Vector3d normal = normal_of(f, V);
+    const Eigen::Vector3d normal = face_normal(V, m_T, f);
     if(!(normal.dot(m_normal[std::size_t(f)]) >= m_largest_turn_cosine * normal.norm()))
       return false;
     return smallest_angle(f, V) >= m_smallest_angle(f);
@@ -191,13 +191,6 @@ private:
       if(is_on_boundary(v))
         to.row(v) = nearest_allowed(v, from.row(v), to.row(v)).transpose();
     }
-  }
-
-  Eigen::Vector3d normal_of(const Eigen::Index f, const Positions& V) const
-  {
-    const Eigen::Vector3d a = V.row(m_T(f, 1)) - V.row(m_T(f, 0)),
-                          b = V.row(m_T(f, 2)) - V.row(m_T(f, 0));
-    return a.cross(b);
   }
 
   double smallest_angle(const Eigen::Index f, const Positions& V) const
@@ -229,7 +222,7 @@ private:
       held.trust = 1;
       to = anchor + m_radius(v) / distance * (to - anchor);
     }
-    if(!m_boundary[std::size_t(v)].empty()) {
+    if(is_on_boundary(v)) {
       to = closest_segment(v, to).closest(to);
       if((to - anchor).norm() > 1.01 * m_radius(v)) {
         held.boundary = 1;

@@ -91,7 +91,7 @@ public:
     if(!is_active())
       return;
     const Laplace_operator op = laplace_operator(V, m_T, m_geometry.local_operator());
-    if(m_vectors.size() == 0 || !follow(op))
+    if(m_vectors.size() == 0 || !iterate(op))
       find(op);
     m_phi = m_vectors.middleCols(m_first, m_last - m_first);
   }
@@ -177,7 +177,7 @@ private:
 
   // X = ((L + s B)^-1 B)^2 Phi, then Rayleigh-Ritz in its span. False where rounding leaves one of
   // the two without a factor.
-  bool follow(const Laplace_operator& op)
+  bool iterate(const Laplace_operator& op)
   {
     const double shift =
         4 * CGAL_PI / op.mass.sum() * mean_conductivity(m_geometry.local_operator().coefficients);

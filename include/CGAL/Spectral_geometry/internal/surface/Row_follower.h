@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
 #include <Eigen/SparseCore>
@@ -196,18 +197,11 @@ private:
   {
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(mesh.V.rows(), 3);
     for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-      const Eigen::Vector3d n = normal(mesh, f);
+      const Eigen::Vector3d n = face_normal(mesh.V, mesh.T, f);
       for(int k = 0; k < 3; ++k)
         result.row(mesh.T(f, k)) += n.transpose();
     }
     return result;
-  }
-
-  static Eigen::Vector3d normal(const Mesh_matrices& mesh, const Eigen::Index f)
-  {
-    const Eigen::Vector3d a = mesh.V.row(mesh.T(f, 1)) - mesh.V.row(mesh.T(f, 0)),
-                          b = mesh.V.row(mesh.T(f, 2)) - mesh.V.row(mesh.T(f, 0));
-    return a.cross(b);
   }
 
   // Normals of the coarse vertices, turned where most of a component say that the meshes are
@@ -295,7 +289,7 @@ private:
     int face = -1;
     for(const int i : m_touched)
       for(const int* f = m_fine_faces->begin(i); f != m_fine_faces->end(i); ++f) {
-        if(!(normal(m_fine, *f).dot(m_normals.row(v)) >= 0))
+        if(!(face_normal(m_fine.V, m_fine.T, *f).dot(m_normals.row(v)) >= 0))
           continue;
         Eigen::Matrix3d corners;
         for(int k = 0; k < 3; ++k)

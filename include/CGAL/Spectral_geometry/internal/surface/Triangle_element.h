@@ -73,6 +73,14 @@ inline Triangle_element triangle_element(const Eigen::Vector3d (&edge)[3])
   return t;
 }
 
+/// The cross product of two edges of face f of the mesh (V, T): twice its area along its normal.
+template <class Positions>
+Eigen::Vector3d face_normal(const Positions& V, const Eigen::MatrixXi& T, const Eigen::Index f)
+{
+  const Eigen::Vector3d a = V.row(T(f, 1)) - V.row(T(f, 0)), b = V.row(T(f, 2)) - V.row(T(f, 0));
+  return a.cross(b);
+}
+
 /// Density, then the conductivity as xx, xy, xz, yy, yz, zz: a row of `Operator_coefficients`.
 using Point_coefficients = Eigen::Matrix<double, 7, 1>;
 

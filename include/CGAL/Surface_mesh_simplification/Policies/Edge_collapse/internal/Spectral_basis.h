@@ -11,6 +11,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/filtered_signals.h>
+#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/SparseCore>
 
@@ -52,15 +53,23 @@ inline bool is_filtered(const Spectral_options& options)
 }
 
 /// The operator that the metric takes rows of.
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
-local_operator(const Spectral_options& options);
+inline Spectral_geometry::Local_operator local_operator(const Spectral_options& options)
+{
+  return {options.mass, options.coefficients, options.boundary};
+}
 
 /// The matrices of it, or those of `Spectral_options::operator_of_eigenpairs`.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
 operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                   const Spectral_options& options);
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V);
+inline void check_extent(const Eigen::MatrixXd& V)
+{
+  require(Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)),
+          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
+          "magnitude; rescale "
+          "the mesh.");
+}
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,
                                                                const Eigen::Index K);
@@ -190,7 +199,6 @@ private:
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_LOOP)
 
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -202,7 +210,6 @@ private:
 #include <random>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
@@ -262,12 +269,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options
           ", but the mesh has ", n, " vertices; use a number from 1 to ", n - 1, ".");
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Local_operator
-local_operator(const Spectral_options& options)
-{
-  return {options.mass, options.coefficients, options.boundary};
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
 operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                   const Spectral_options& options)
@@ -281,14 +282,6 @@ operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
           " vertices and mass the blend ", Spectral_geometry::mass_blend(options.mass),
           "; return that of the mesh in this mass.");
   return op;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_extent(const Eigen::MatrixXd& V)
-{
-  require(Spectral_geometry::internal::extent_is_usable(Spectral_geometry::internal::extent_of(V)),
-          "edge collapses: the coordinates of the mesh are not between 1e-50 and 1e50 in "
-          "magnitude; rescale "
-          "the mesh.");
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,

@@ -183,13 +183,6 @@ public:
     }
   }
 
-  /// The number of neighbours of c with a larger slot.
-  std::size_t number_above(const Spectral_slot c) const
-  {
-    return std::size_t(std::count_if(m_rings[c].begin(), m_rings[c].end(),
-                                     [c](const Spectral_ring_entry& e) { return c < e.vertex; }));
-  }
-
 private:
   // Sets `back` on both sides of the i-th entry of the ring of c, and returns what it is there.
   std::size_t link(const Spectral_slot c, const std::size_t i)

@@ -10,9 +10,10 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -153,10 +154,8 @@ inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh
   for(int v = 0; v < int(mesh.V.rows()); ++v)
     ++of(v).vertices;
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
-    const Eigen::RowVector3d p = mesh.V.row(mesh.T(f, 0)), q = mesh.V.row(mesh.T(f, 1)),
-                             r = mesh.V.row(mesh.T(f, 2));
     ++of(mesh.T(f, 0)).faces;
-    of(mesh.T(f, 0)).area += (q - p).cross(r - p).norm() / 2;
+    of(mesh.T(f, 0)).area += Spectral_geometry::internal::face_normal(mesh.V, mesh.T, f).norm() / 2;
   }
   for(const auto& edge : Spectral_geometry::internal::boundary_edges(mesh.T))
     of(edge.first).closed = false;
