@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
 #define CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
 
+#include <functional>
 #include <stdexcept>
 
 namespace CGAL::Spectral_geometry {
@@ -22,6 +23,18 @@ public:
 };
 
 /// @}
+
+namespace internal {
+
+/// Tells a progress callback, if there is one, which fraction is done; throws where it asks to
+/// stop.
+inline void report_to(const std::function<bool(double)>& progress, const double fraction)
+{
+  if(progress && !progress(fraction))
+    throw Cancelled();
+}
+
+} // namespace internal
 
 } // namespace CGAL::Spectral_geometry
 

@@ -160,9 +160,7 @@ public:
     using Reason = Relocation_result::Stop_reason;
     for(result.stop_reason = Reason::steps;
         !nothing_to_gain && result.steps < m_options.maximum_steps;) {
-      if(m_options.progress &&
-         !m_options.progress(double(result.steps) / double(m_options.maximum_steps)))
-        throw Cancelled();
+      report_to(m_options.progress, double(result.steps) / double(m_options.maximum_steps));
       if(!(m_timer.time() < m_options.maximum_seconds)) {
         result.stop_reason = Reason::seconds;
         break;

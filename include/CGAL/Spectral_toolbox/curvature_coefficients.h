@@ -84,8 +84,8 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
   Eigen::MatrixXd D =
       weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>(); // the identity
   for(Eigen::Index v = 0; v < V.rows() && alpha > 0; ++v) {
-    if(progress && v % 1024 == 0 && !progress(double(v) / double(V.rows())))
-      throw Cancelled();
+    if(v % 1024 == 0)
+      internal::report_to(progress, double(v) / double(V.rows()));
     points.clear();
     for(const int w : rings.around(int(v), wanted, seen)) {
       const Eigen::Vector3d x = (V.row(w) - V.row(v)) / radius;

@@ -235,9 +235,7 @@ public:
     double f = evaluate(m_lowest + s, g);
     Vector z = (0.1 * f / n) * s.cwiseInverse();
     while(!result.converged && result.iterations < m_options.maximum_iterations) {
-      if(m_options.progress &&
-         !m_options.progress(result.iterations / double(m_options.maximum_iterations)))
-        throw Cancelled();
+      report_to(m_options.progress, result.iterations / double(m_options.maximum_iterations));
       const Vector barrier = z.cwiseQuotient(s), target = (0.2 * s.dot(z) / n) * s.cwiseInverse();
       Vector dx, Qdx;
       const double newton = newton_step(target - g, barrier, dx, Qdx);

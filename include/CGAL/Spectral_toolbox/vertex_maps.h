@@ -209,9 +209,10 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
     std::vector<double> distances;    // of these vertices, squared
     const std::size_t i = static_cast<std::size_t>(y);
     const int near = int(nearest[i]);
-    for(const int* around = star.begin(near); around != star.end(near); ++around)
+    for(const int around : star[near])
       for(int c = 0; c < 3; ++c)
-        faces.insert(faces.end(), star.begin(source_T(*around, c)), star.end(source_T(*around, c)));
+        for(const int t : star[source_T(around, c)])
+          faces.push_back(t);
     sort_unique(faces);
     for(const int t : faces)
       for(int c = 0; c < 3; ++c)

@@ -203,9 +203,8 @@ quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("quadric_edge_collapse", number_of_vertices, n);
   const auto report = [&](const std::size_t left) {
-    if(progress &&
-       !progress(double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)))))
-      throw Spectral_geometry::Cancelled();
+    Spectral_geometry::internal::report_to(
+        progress, double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1))));
   };
   Quadric_edge_collapse_result result;
   auto [log, slots] = internal::collapse_by_quadrics(mesh, number_of_vertices,

@@ -123,8 +123,7 @@ public:
   void report(double fraction) const
   {
     m_fraction = (std::min)(1., (std::max)(m_fraction, fraction));
-    if(m_progress && !m_progress(m_fraction))
-      throw Cancelled();
+    report_to(m_progress, m_fraction);
   }
 
   Eigen::VectorXd residuals(const Eigenpairs& pairs) const

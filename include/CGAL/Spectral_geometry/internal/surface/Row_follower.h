@@ -69,9 +69,9 @@ public:
     std::vector<char> settled = main_groups();
     std::vector<int> queue;
     const auto call_neighbours = [&](const int v) {
-      for(const int* w = m_rings.begin(v); w != m_rings.end(v); ++w)
-        if(!settled[std::size_t(*w)])
-          queue.push_back(*w);
+      for(const int w : m_rings[v])
+        if(!settled[std::size_t(w)])
+          queue.push_back(w);
     };
     for(int v = 0; v < int(m_rows.size()); ++v)
       if(settled[std::size_t(v)])
@@ -168,8 +168,8 @@ private:
         m_waiting[std::size_t(i)] = 2;
         --missing;
       }
-      for(const int* j = m_fine_rings.begin(i); j != m_fine_rings.end(i); ++j)
-        reach(distance + (m_fine.V.row(*j) - m_fine.V.row(i)).norm(), *j);
+      for(const int j : m_fine_rings[i])
+        reach(distance + (m_fine.V.row(j) - m_fine.V.row(i)).norm(), j);
     }
     for(const int w : targets)
       for(const auto& [j, weight] : m_rows[std::size_t(w)].entries)
@@ -235,10 +235,10 @@ private:
     for(int v = 0; v < int(m_rows.size()); ++v) {
       std::vector<int> later;
       double bound = 0;
-      for(const int* w = m_rings.begin(v); w != m_rings.end(v); ++w)
-        if(*w > v && are_comparable(v, *w)) {
-          later.push_back(*w);
-          bound = (std::max)(bound, allowed(v, *w));
+      for(const int w : m_rings[v])
+        if(w > v && are_comparable(v, w)) {
+          later.push_back(w);
+          bound = (std::max)(bound, allowed(v, w));
         }
       spread({v}, bound, later);
       for(const int w : later)
@@ -248,9 +248,9 @@ private:
     const std::vector<Eigen::Index> group =
         connected_components(Eigen::Index(m_rows.size()), [&](const auto& join) {
           for(int v = 0; v < int(m_rows.size()); ++v)
-            for(const int* w = m_rings.begin(v); w != m_rings.end(v); ++w)
-              if(!doubtful[std::size_t(v)] && !doubtful[std::size_t(*w)])
-                join(v, *w);
+            for(const int w : m_rings[v])
+              if(!doubtful[std::size_t(v)] && !doubtful[std::size_t(w)])
+                join(v, w);
         });
     std::vector<std::size_t> size(m_rows.size(), 0);
     for(const Eigen::Index g : group)
@@ -272,10 +272,10 @@ private:
   {
     std::vector<int> sources;
     double bound = 0;
-    for(const int* w = m_rings.begin(v); w != m_rings.end(v); ++w)
-      if(settled[std::size_t(*w)] && are_comparable(v, *w)) {
-        sources.push_back(*w);
-        bound = (std::max)(bound, allowed(v, *w));
+    for(const int w : m_rings[v])
+      if(settled[std::size_t(w)] && are_comparable(v, w)) {
+        sources.push_back(w);
+        bound = (std::max)(bound, allowed(v, w));
       }
     spread(sources, bound, {v});
     const bool is_reached = sources.empty() || reached(v, bound);
@@ -288,16 +288,16 @@ private:
     Point_of_triangle best{Eigen::Vector3d::Zero(), infinity};
     int face = -1;
     for(const int i : m_touched)
-      for(const int* f = m_fine_faces->begin(i); f != m_fine_faces->end(i); ++f) {
-        if(!(face_normal(m_fine.V, m_fine.T, *f).dot(m_normals.row(v)) >= 0))
+      for(const int f : (*m_fine_faces)[i]) {
+        if(!(face_normal(m_fine.V, m_fine.T, f).dot(m_normals.row(v)) >= 0))
           continue;
         Eigen::Matrix3d corners;
         for(int k = 0; k < 3; ++k)
-          corners.col(k) = m_fine.V.row(m_fine.T(*f, k)).transpose();
+          corners.col(k) = m_fine.V.row(m_fine.T(f, k)).transpose();
         const Point_of_triangle candidate = closest_point_of_triangle(p, corners);
         if(candidate.squared_distance < best.squared_distance) {
           best = candidate;
-          face = *f;
+          face = f;
         }
       }
     if(face < 0)

@@ -117,8 +117,8 @@ private:
       return true;
     if(m_rings.size(v) > m_rings.size(w))
       std::swap(v, w);
-    return std::any_of(m_rings.begin(v), m_rings.end(v),
-                       [&](const int u) { return m_rings.has(w, u); });
+    const Vertex_rings::Ring ring = m_rings[v];
+    return std::any_of(ring.first, ring.last, [&](const int u) { return m_rings.has(w, u); });
   }
 
   // Dijkstra's algorithm along the fine edges, from all entries of P at once.
@@ -139,9 +139,9 @@ private:
       if(m_row[std::size_t(i)] >= 0)
         continue;
       m_row[std::size_t(i)] = row;
-      for(const int* j = rings.begin(i); j != rings.end(i); ++j)
-        if(m_row[std::size_t(*j)] < 0)
-          queue.emplace(distance + (m_fine.V.row(*j) - m_fine.V.row(i)).norm(), *j, row);
+      for(const int j : rings[i])
+        if(m_row[std::size_t(j)] < 0)
+          queue.emplace(distance + (m_fine.V.row(j) - m_fine.V.row(i)).norm(), j, row);
     }
   }
 
@@ -164,10 +164,10 @@ private:
     if(reached.size() == m_home.size())
       return;
     for(std::size_t k = 0; k < reached.size(); ++k)
-      for(const int* w = m_rings.begin(reached[k]); w != m_rings.end(reached[k]); ++w)
-        if(m_home[std::size_t(*w)].face < 0) {
-          m_home[std::size_t(*w)] = m_home[std::size_t(reached[k])];
-          reached.push_back(*w);
+      for(const int w : m_rings[reached[k]])
+        if(m_home[std::size_t(w)].face < 0) {
+          m_home[std::size_t(w)] = m_home[std::size_t(reached[k])];
+          reached.push_back(w);
         }
   }
 

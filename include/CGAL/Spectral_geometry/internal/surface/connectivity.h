@@ -99,10 +99,23 @@ public:
     return Vertex_rings(T, n, 1, [](const Eigen::Index f, int, int* at) { *at = int(f); });
   }
 
-  const int* begin(const int v) const { return m_items.data() + m_begin[std::size_t(v)]; }
-  const int* end(const int v) const { return begin(v) + m_size[std::size_t(v)]; }
+  struct Ring
+  {
+    const int *first, *last;
+    const int* begin() const { return first; }
+    const int* end() const { return last; }
+  };
+
+  Ring operator[](const int v) const
+  {
+    const int* const first = m_items.data() + m_begin[std::size_t(v)];
+    return {first, first + m_size[std::size_t(v)]};
+  }
   std::size_t size(const int v) const { return m_size[std::size_t(v)]; }
-  bool has(const int v, const int item) const { return std::binary_search(begin(v), end(v), item); }
+  bool has(const int v, const int item) const
+  {
+    return std::binary_search((*this)[v].first, (*this)[v].last, item);
+  }
 
   /// Whole rings of vertices around v, which comes first, until there are so many; only some
   /// neighbours of a hub, spread over all: a fan would hand all of its vertices to each. `seen` has
@@ -115,7 +128,7 @@ public:
     for(std::size_t first = 0; first < result.size() && result.size() < wanted;) {
       const std::size_t last = result.size();
       for(; first < last; ++first) {
-        const int* const ring = begin(result[first]);
+        const int* const ring = (*this)[result[first]].first;
         const std::size_t n = size(result[first]),
                           step = first == 0 ? 1 : (n + most_of_a_hub - 1) / most_of_a_hub;
         for(std::size_t i = 0; i < n; i += step)
