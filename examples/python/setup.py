@@ -4,8 +4,9 @@
 #
 # pip install ./examples/python: CMake compiles the module from the folder two levels up, or from
 # what the source distribution has of it. CMAKE_ARGS are handed to CMake, JOBS says how many
-# compile at a time. SPECTRAL_PYTHON_CORE names a module that has been compiled before for this
-# Python: nothing is compiled then.
+# compile at a time. CXX names a compiler; without it Clang is taken where there is one.
+# SPECTRAL_PYTHON_CORE names a module that has been compiled before for this Python: nothing is
+# compiled then.
 
 import os
 import pathlib
@@ -30,6 +31,21 @@ if not (ROOT / "include" / "CGAL").is_dir():
 VERSION = re.search(
     r"VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text().partition("project(")[2]
 )[1]
+
+
+def has_clang():
+    """Whether there is a clang++ that finds a standard library."""
+    try:
+        return (
+            subprocess.run(
+                ["clang++", "-std=c++17", "-fsyntax-only", "-x", "c++", "-"],
+                input=b"#include <vector>\n",
+                capture_output=True,
+            ).returncode
+            == 0
+        )
+    except FileNotFoundError:
+        return False
 
 
 def pybind11_folder():
@@ -57,6 +73,9 @@ class CMake_build(build_ext):
         if shutil.which("ninja") and not (build / "CMakeCache.txt").exists():
             # as the scripts do: a machine may have no make
             os.environ.setdefault("CMAKE_GENERATOR", "Ninja")
+        if "CXX" not in os.environ and has_clang():
+            # It takes three quarters of GCC's time, and half of its memory.
+            os.environ["CXX"] = "clang++"
         configure = [
             "cmake",
             "-S",
@@ -69,6 +88,7 @@ class CMake_build(build_ext):
             "-DSPECTRAL_PYTHON_WHEEL=ON",
             "-DSPECTRAL_BUILD_TESTS=OFF",
             "-DSPECTRAL_QUICK_BUILD=ON",
+            "-DSPECTRAL_WARNINGS_AS_ERRORS=OFF",
             "-DPython_EXECUTABLE=" + sys.executable,
             *pybind11_folder(),
             *shlex.split(os.environ.get("CMAKE_ARGS", "")),
