@@ -333,9 +333,10 @@ for type in uchar short ushort int uint; do
     runs "$names of $type" a.ply o2.ply $few
     grep -q "carried attributes *$(echo $names | sed 's/ /, /g')$" said || fail "$names of $type: $(grep carried said)"
     runs "$names of $type to OBJ" a.ply o2.obj $few
-    # Opposite channels, and one that is the same everywhere.
+    # Opposite channels, and one that is the same everywhere. The first is 1 at most where it was brought: a
+    # vertex that stays in its place keeps it.
     awk '$1 == "v" { ++n; if(NF != 7 || $5 + $6 < 1.17 || $5 + $6 > 1.23 || $7 < 0.89 || $7 > 0.91) ++wrong; if($5 > most) most = $5 }
-      END { exit !(n == 60 && !wrong && most < 0.95 && most > 0.6) }' o2.obj ||
+      END { exit !(n == 60 && !wrong && most <= 1 && most > 0.6) }' o2.obj ||
       fail "$names of $type: $(grep '^v' o2.obj | head -3)"
   done
 done
