@@ -194,6 +194,10 @@ class Results(Shapes):
         self.assertEqual((pairs.zeros, pairs.mass, pairs.complete), (1, "lumped", True))
         two = ss.eigenpairs(np.vstack([self.V, self.V + 9]), np.vstack([self.F, self.F + len(self.V)]), 5)
         self.assertEqual(two.zeros, 2)
+        with self.assertWarnsRegex(UserWarning, "did not reach their tolerance of 1e-15, the largest residual is"):
+            self.assertFalse(ss.eigenpairs(self.V, self.F, 20, tolerance=1e-15).complete)
+        with self.assertWarnsRegex(UserWarning, "ask for a larger tolerance"):
+            ss.eigsh(L, M, 20, tolerance=1e-15)
 
     def test_restriction_and_prolongation(self):
         run = self.run_

@@ -29,6 +29,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -143,6 +144,19 @@ inline SG::Eigenpairs first_pairs(const SG::Eigenpairs& all, const Index k)
   return result;
 }
 
+// Pairs that were asked for, with a word where they missed their tolerance.
+inline Pairs checked(const SG::Eigenpairs_options& options, Pairs pairs)
+{
+  if(!pairs.pairs->complete && pairs.pairs->residuals.size() != 0) {
+    std::ostringstream sentence;
+    sentence << "The eigenpairs did not reach their tolerance of " << options.tolerance
+             << ", the largest residual is " << pairs.pairs->residuals.maxCoeff()
+             << ": ask for a larger tolerance.";
+    warn(sentence.str());
+  }
+  return pairs;
+}
+
 inline Pairs eigenpairs(const Arguments& a)
 {
   const SG::Mesh_matrices mesh = a.mesh("V", "F");
@@ -155,11 +169,11 @@ inline Pairs eigenpairs(const Arguments& a)
     of.operator_of_eigenpairs = intrinsic_operator(of.mass);
   Watch watch(a);
   SG::Eigenpairs_options options = solver_options(a, watch);
-  return watch.run([&] {
+  return checked(options, watch.run([&] {
     auto op = std::make_shared<SG::Laplace_operator>(operator_of(mesh, of, "V, F"));
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(*op, k, options));
     return Pairs{std::move(pairs), std::move(op), SG::mass_name(of.mass)};
-  });
+  }));
 }
 
 // Eigenpairs of a pencil that has no mesh.
@@ -172,10 +186,10 @@ inline Pairs eigsh(const Arguments& a)
   const Index k = a.integer("k", 1, op->L.rows(), ", the rows of L");
   Watch watch(a);
   SG::Eigenpairs_options options = solver_options(a, watch);
-  return watch.run([&] {
+  return checked(options, watch.run([&] {
     auto pairs = std::make_shared<SG::Eigenpairs>(SG::eigenpairs(op->L, op->B, k, options));
     return Pairs{std::move(pairs), std::move(op), "given"};
-  });
+  }));
 }
 
 // Pairs that another solver found, or that were stored.
