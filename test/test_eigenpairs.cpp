@@ -804,6 +804,48 @@ TEST_CASE("Eigenvalues that are missing are counted")
   }
 }
 
+TEST_CASE("Further eigenvalues are the next ones, to a thousandth, and none is left out")
+{
+  const auto check = [](const SG::Laplace_operator& op, const Eigen::Index K,
+                        const Eigen::Index least, const double tolerance = 1e-8) {
+    const auto options = SG::Eigenpairs_options::with_tolerance(tolerance);
+    const SG::Eigenpairs pairs = SG::eigenpairs(op, K, options);
+    const Eigen::Index n = pairs.further_values.size();
+    INFO(pairs.solver << ", K = " << K << ", further: " << n);
+    CHECK(n >= least);
+    CHECK(n <= K / 2);
+    const Eigen::VectorXd known = pairs.all_values();
+    REQUIRE(known.size() == K + n);
+    const Eigen::VectorXd more = SG::eigenpairs(op, K + n, options).values;
+    for(Eigen::Index k = 0; k < known.size(); ++k)
+      CHECK(std::abs(known[k] - more[k]) <= 1e-3 * more[k] + 1e-6);
+  };
+  const auto bumpy = [](const int subdivisions) {
+    Surface_mesh mesh;
+    shapes::make_bumpy_icosphere(mesh, subdivisions);
+    return SG::mesh_matrices(mesh);
+  };
+  const SG::Mesh_matrices waves = bumpy(4), small = bumpy(2);
+  const SG::Laplace_operator op = SG::laplace_operator(waves.V, waves.T);
+  for(const Eigen::Index K : {1, 7, 15}) // the shift is below
+    check(op, K, K / 3);
+  for(const Eigen::Index K : {40, 100})
+    check(op, K, K / 5);
+  check(op, 100, 20, 1e-4);
+  check(op, 100, 20, 1e-12);
+  check(op, 600, 10);                                    // in slices
+  check(SG::laplace_operator(small.V, small.T), 40, 20); // dense
+  check(SG::laplace_operator(small.V, small.T), 161, 1); // all but one
+  check(SG::laplace_operator(small.V, small.T), 162, 0);
+  // Parts of different sizes: what one does not know another must not pass by.
+  Eigen::MatrixXd V(waves.V.rows() + small.V.rows(), 3);
+  V << waves.V, (0.6 * small.V).rowwise() + Eigen::RowVector3d(5, 0, 0);
+  Eigen::MatrixXi F(waves.T.rows() + small.T.rows(), 3);
+  F << waves.T, small.T.array() + int(waves.V.rows());
+  for(const Eigen::Index K : {10, 60})
+    check(SG::laplace_operator(V, F), K, 2);
+}
+
 TEST_CASE("Eigenpairs are the same in every run")
 {
   const Laplace_operator op = laplace(shapes::bumpy_icosphere_matrices(3));

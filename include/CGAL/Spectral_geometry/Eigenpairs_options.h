@@ -33,8 +33,18 @@ struct Eigenpairs
   /// values the first min(`zeros`, K). To be set where pairs are filled by hand, see
   /// `number_of_zero_eigenvalues()`; negative: not known
   Eigen::Index zeros = -1;
+  /// the next eigenvalues after the K-th, to a thousandth: as many, up to K / 2, as the solver
+  /// knows at no further cost, some 0.4 K of `block`
+  Eigen::VectorXd further_values{};
 
   Eigen::Index size() const { return values.size(); } ///< K
+  /// `values`, then `further_values`
+  Eigen::VectorXd all_values() const
+  {
+    Eigen::VectorXd result(values.size() + further_values.size());
+    result << values, further_values;
+    return result;
+  }
 };
 
 /// \brief how eigenpairs are computed.

@@ -107,6 +107,8 @@ inline Eigenpairs dense_eigenpairs(const Eigen_problem& problem, const Eigen::In
   Eigenpairs result;
   result.values = s * solver.eigenvalues().head(K);
   result.vectors = std::sqrt(s) * solver.eigenvectors().leftCols(K);
+  result.further_values =
+      s * solver.eigenvalues().segment(K, (std::min)(K / 2, problem.size() - K));
   result.solver = "dense";
   result.complete = true;
   return result;
@@ -281,6 +283,25 @@ inline Laplace_operator operator_of_part(const Laplace_operator& op, const std::
   return result;
 }
 
+/// The eigenvalues after the K-th, up to the first that a part may have and does not know.
+inline Eigen::VectorXd further_values_of_parts(const std::vector<Eigenpairs>& pairs,
+                                               const std::vector<std::vector<int>>& parts,
+                                               const Eigen::Index K)
+{
+  std::vector<double> values;
+  double end = std::numeric_limits<double>::infinity();
+  for(std::size_t p = 0; p < parts.size(); ++p) {
+    const Eigen::VectorXd known = pairs[p].all_values();
+    values.insert(values.end(), known.data(), known.data() + known.size());
+    if(known.size() < Eigen::Index(parts[p].size()))
+      end = (std::min)(end, known.maxCoeff());
+  }
+  std::sort(values.begin(), values.end());
+  const auto first = values.begin() + K,
+             last = std::upper_bound(first, first + (std::min)(K / 2, values.end() - first), end);
+  return Eigen::VectorXd::Map(values.data() + K, last - first);
+}
+
 /// The pairs of several parts are those of each, in the order of their values: as many as there are
 /// like parts are copies of each other, and a Krylov space of the whole would find eight at a time.
 inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
@@ -341,6 +362,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
     for(std::size_t i = 0; i < parts[from.part].size(); ++i)
       result.vectors(parts[from.part][i], k) = pairs[from.part].vectors(Eigen::Index(i), from.k);
   }
+  result.further_values = further_values_of_parts(pairs, parts, K);
   return result;
 }
 

@@ -194,6 +194,11 @@ class Eigenpairs(_Result):
         return self._core.mass
 
     @property
+    def further_values(self) -> numpy.ndarray:
+        """Some of the next eigenvalues, to a thousandth: those that cost nothing more to know."""
+        return self._core.further_values
+
+    @property
     def zeros(self) -> int:
         """How many eigenvalues are zero, one for each component."""
         return self._core.zeros
@@ -321,6 +326,7 @@ class Eigenpairs(_Result):
                 values=numpy.maximum(w, 0),
                 vectors=U,
                 residuals=residuals,
+                further_values=numpy.empty(0),
                 L=L,
                 M=M,
                 row_masses=row_masses,
@@ -340,6 +346,7 @@ class Eigenpairs(_Result):
             "values",
             "vectors",
             "residuals",
+            "further_values",
             "L",
             "M",
             "row_masses",

@@ -132,6 +132,7 @@ public:
   {
     const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
     Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
+    const Eigen::VectorXd further = further_values();
     make_orthonormal(C);
     compress(rounded_up(m_K));
     m_basis.erase(m_basis.begin() + m_panels,
@@ -143,6 +144,7 @@ public:
       m_space.subtract(m_basis[k / panel_width], m_W, minus_C);
     }
     Eigenpairs result{lambda(), Eigen::MatrixXd(m_problem.size(), m_K), {}, "block", m_complete};
+    result.further_values = further;
     const double scale = std::sqrt(m_problem.shift());
     for_each_task(static_cast<int>(m_K), m_options.threads, [&](int k) {
       const Panel& panel = m_basis[k / panel_width];
@@ -524,6 +526,24 @@ private:
     for(Index k = 0; k < m_K; ++k)
       worst = (std::max)(worst, link.col(k).norm() * weight_of_residual(m_theta(k)));
     return worst;
+  }
+
+  // Ritz values after the K-th up to the first whose residual shows that it is off by more than a
+  // thousandth, which is about the square of the residual.
+  Eigen::VectorXd further_values() const
+  {
+    const Index m = dimension();
+    std::vector<double> result;
+    for(Index k = m_K; k < m && Index(result.size()) < m_K / 2; ++k) {
+      if(m_theta(k) < 0.) // of no eigenvalue: those below the shift are among the K
+        continue;
+      const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, k, panel_width, 1),
+                            link = m_link * bottom;
+      if(!(link.norm() * weight_of_residual(m_theta(k)) < 0.03))
+        break;
+      result.push_back(m_sigma + m_problem.shift() / m_theta(k));
+    }
+    return Eigen::VectorXd::Map(result.data(), Index(result.size()));
   }
 
   // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much

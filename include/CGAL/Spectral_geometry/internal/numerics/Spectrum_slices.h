@@ -75,6 +75,7 @@ private:
     if(K != left)
       m_end = 0.5 * (slice.values(kept) + slice.values(kept - 1));
     append(slice, kept);
+    m_pairs.further_values = slice.further_values; // those of the last slice stay
   }
 
   // Moves the shift until about half of K values are between the end of the last slice and it, and
