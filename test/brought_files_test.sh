@@ -424,7 +424,7 @@ refuses "a word for --faces" "it must be a number of faces above 0" torus.off o.
   awk 'BEGIN { for(c = 0; c < 40; ++c) { a = 288 + 4 * c; print 3, a, a + 2, a + 1; print 3, a, a + 1, a + 3; print 3, a, a + 3, a + 2; print 3, a + 1, a + 2, a + 3 } }'
 } >dust.off
 for n in 100 166 167; do
-  refuses "dust takes all of $n vertices" "41 components need at least 167 vertices, and 169 for .*: ask for 169 or more, or leave out the 40 components of 4 vertices or fewer" \
+  refuses "dust takes all of $n vertices" "41 components need at least 167 vertices, and 170 for .*: ask for 170 or more, or leave out the 40 components of 4 vertices or fewer" \
     dust.off o.off --quiet --vertices $n --eigenvectors 50
 done
 warns "dust leaves something" "components" dust.off o2.off --vertices 400 --eigenvectors 50

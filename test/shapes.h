@@ -15,6 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <array>
 #include <map>
 #include <utility>
 #include <vector>
@@ -257,6 +258,47 @@ inline Matrices equilateral_matrices(int n)
         triangles.emplace_back(a + 1, above + 1, above);
     }
   return matrices(points, triangles);
+}
+
+/// A slab of unit cubes with a x b holes: a closed surface of genus a b, a little bent.
+inline Matrices lattice_matrices(const int a, const int b)
+{
+  const auto solid = [&](const std::array<int, 3>& c) {
+    return c[2] == 0 && c[0] >= 0 && c[1] >= 0 && c[0] <= 2 * a && c[1] <= 2 * b &&
+           (c[0] % 2 == 0 || c[1] % 2 == 0);
+  };
+  std::map<std::array<int, 3>, int> index;
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Eigen::Vector3i> triangles;
+  const auto vertex = [&](const std::array<int, 3>& c) {
+    const auto [at, is_new] = index.insert({c, int(positions.size())});
+    if(is_new)
+      positions.emplace_back(c[0] + 0.05 * std::sin(1.3 * c[1] + 2. * c[2]),
+                             c[1] + 0.05 * std::sin(1.1 * c[0] + 1.), c[2]);
+    return at->second;
+  };
+  for(int i = 0; i <= 2 * a; ++i)
+    for(int j = 0; j <= 2 * b; ++j)
+      for(int side = 0; side < 6; ++side) {
+        const std::array<int, 3> cube{i, j, 0};
+        const std::size_t axis = std::size_t(side / 2), u = (axis + 1) % 3, v = (axis + 2) % 3;
+        std::array<int, 3> next = cube;
+        next[axis] += side % 2 == 0 ? 1 : -1;
+        if(!solid(cube) || solid(next))
+          continue;
+        std::array<int, 3> corner = cube;
+        corner[axis] += side % 2 == 0;
+        int q[4];
+        for(int k = 0; k < 4; ++k) {
+          std::array<int, 3> c = corner;
+          c[u] += k == 1 || k == 2;
+          c[v] += k >= 2;
+          q[side % 2 == 0 ? k : 3 - k] = vertex(c);
+        }
+        triangles.emplace_back(q[0], q[1], q[2]);
+        triangles.emplace_back(q[0], q[2], q[3]);
+      }
+  return matrices(positions, triangles);
 }
 
 inline Matrices torus_matrices(int nu, int nv, double major = 1., double minor = 0.4)

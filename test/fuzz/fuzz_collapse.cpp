@@ -424,7 +424,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
     const std::string sentence = error.what();
     bool expected = false;
     for(const char* const part :
-        {"both to be kept", "where functions vanish", "vertices, but 1 component needs at least",
+        {"both to be kept", "where functions vanish", "but 1 component needs at least",
          "components need at least"})
       expected = expected || sentence.find(part) != std::string::npos;
     return expected && unchanged(mesh, before) ? "" : "refused: " + sentence;

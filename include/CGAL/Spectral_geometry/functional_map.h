@@ -342,7 +342,8 @@ laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fi
   const double norm = C.norm();
   internal::require(
       norm > 0 && std::isfinite(norm),
-      "functional map: C is zero or not finite, its commutativity is undefined, check P.");
+      "functional map: C is zero or not finite, its commutativity is undefined; check P, and take "
+      "more eigenvectors than the mesh has components.");
   return (C * fine_values.asDiagonal() - coarse_values.asDiagonal() * C).norm() / norm;
 }
 

@@ -68,9 +68,9 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
                                        " times so that no face goes through another, as "
                                        "keep_free_of_self_intersections asks") +
          "; constrained edges are never collapsed): it has " + to_string(components) +
-         (components == 1 ? " component" : " components") +
-         ", each of which needs at least 3 (open) or 4 (closed) vertices, genus " +
-         to_string(handles) + (handles == 0 ? "" : ", as handles need more,") + " and " +
+         (components == 1 ? " component, which needs at" : " components, each of which needs at") +
+         " least 3 (open) or 4 (closed) vertices, genus " + to_string(handles) +
+         (handles == 0 ? "" : ", as handles need more,") + " and " +
          to_string(Spectral_geometry::internal::boundary_edges(mesh.T).size()) + " border edges; " +
          (refusals.filter > refusals.topology && refusals.filter > refusals.crossing
               ? "ask for more vertices, or loosen the filter."
@@ -133,12 +133,12 @@ struct Component_size
     return (std::min)(vertices, std::size_t(std::ceil(bound - 1e-9)));
   }
 
-  /// With how many a little of the shape is left: 3 for each handle beside 4, where collapses of a
-  /// lattice of 81 handles end a little earlier.
+  /// With how many a little of the shape is left: collapses of lattices of 1 to 81 handles end at
+  /// some 3.5 for each handle.
   std::size_t of_shape() const
   {
     const std::size_t genus = closed ? (2 + faces / 2 - vertices) / 2 : 0;
-    return (std::max)(least(), genus == 0 ? 0 : 4 + 3 * genus);
+    return (std::max)(least(), genus == 0 ? 0 : 6 + 4 * genus);
   }
 };
 
@@ -231,7 +231,7 @@ inline void check_useful_target(const Spectral_geometry::Mesh_matrices& mesh,
       largest_small = (std::max)(largest_small, c.vertices);
       largest_area = (std::max)(largest_area, c.area);
     }
-  require(false, "spectral_edge_collapse: the target is ", target, " vertices, but ",
+  require(false, "The target is ", target, target == 1 ? " vertex, but " : " vertices, but ",
           counted(components.size(), components.size() == 1 ? " needs" : " need"), " at least ",
           least, " vertices",
           useful == least
