@@ -615,7 +615,7 @@ class Maps(Case):
         # The coarse map is off by 0.16. With 30 modes the last one is exchanged with the next.
         for k in 20, 30, None:
             T = ss.lift_point_map(coarse, self.run_, RUN, k)
-            self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.03)
+            self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.05)
 
 
 class Poses(Case):

@@ -296,6 +296,37 @@ TEST_CASE("Where the target cannot be reached the result says why")
   }
 }
 
+TEST_CASE("Relocation leaves no larger |C|_L than the collapses, also far below 3 K")
+{
+  int relocated = 0;
+  for(const shapes::Matrices& input :
+      {shapes::torus_matrices(7, 5), shapes::bumpy_icosphere_matrices(1),
+       shapes::grid_matrices(9, 9)})
+    for(const Eigen::Index K : {5, 7, 10})
+      for(const std::size_t N : {4, 5, 6, 7, 10}) {
+        if(N < 10 && input.V.rows() == 35)
+          continue; // a handle needs more
+        const SG::Laplace_operator fine = SG::laplace_operator(input.V, input.T);
+        const SG::Eigenpairs fine_pairs = SG::eigenpairs(fine, K);
+        const auto norm = [&](const bool relocate) {
+          SMS::Spectral_edge_collapse_options options = options_with(K);
+          options.relocate = relocate;
+          Mesh mesh = make_mesh(input);
+          const auto result = SMS::spectral_edge_collapse(mesh, N, options);
+          relocated += result.relocation.moved_vertices > 0;
+          const SG::Mesh_matrices m = SG::mesh_matrices(mesh);
+          const SG::Laplace_operator coarse = SG::laplace_operator(m.V, m.T);
+          const Eigen::Index modes = (std::min)(K, coarse.L.rows());
+          return SG::evaluate_spectrum(fine, fine_pairs, coarse, SG::eigenpairs(coarse, modes),
+                                       result.restriction, K)
+              .norm_L;
+        };
+        CAPTURE(input.V.rows(), K, N);
+        CHECK(norm(true) <= 1.001 * norm(false));
+      }
+  CHECK(relocated > 20);
+}
+
 TEST_CASE("A target that leaves nothing of the shape is refused with the number to ask for")
 {
   // What is refused at N, and is not at the number that the sentence names.
@@ -307,6 +338,7 @@ TEST_CASE("A target that leaves nothing of the shape is refused with the number 
       Mesh mesh = make_mesh(input);
       try {
         SMS::spectral_edge_collapse(mesh, asked, options_with(K));
+        CHECK(mesh.number_of_vertices() == asked);
         return sentence;
       } catch(const std::invalid_argument& error) {
         CHECK(sentence == "");
@@ -356,12 +388,23 @@ TEST_CASE("A target that leaves nothing of the shape is refused with the number 
   }
   SECTION("one component")
   {
-    CHECK_THAT(refusal(shapes::torus_matrices(8, 6), 6, 40),
-               ContainsSubstring("1 component needs at least 7 vertices: ask for 7"));
+    CHECK_THAT(
+        refusal(shapes::torus_matrices(8, 6), 6, 40),
+        ContainsSubstring("1 component needs at least 7 vertices, and 10 for something of its "
+                          "handles to be left: ask for 10"));
     CHECK_THAT(refusal(shapes::bumpy_icosphere_matrices(1), 3, 5),
                ContainsSubstring("1 component needs at least 4 vertices: ask for 4"));
     CHECK(refusal(shapes::bumpy_icosphere_matrices(1), 4, 5) == "");
     CHECK_THAT(refusal(shapes::grid_matrices(3, 3), 2, 5), ContainsSubstring("ask for 3"));
+    CHECK_THAT(refusal(shapes::grid_matrices(3, 3), 1, 5), ContainsSubstring("is 1 vertex, but"));
+  }
+  SECTION("lattices")
+  {
+    for(const int holes : {1, 2, 5}) {
+      const int genus = holes * holes;
+      CHECK_THAT(refusal(shapes::lattice_matrices(holes, holes), 4, 8),
+                 ContainsSubstring("ask for " + std::to_string(6 + 4 * genus)));
+    }
   }
 }
 

@@ -217,6 +217,8 @@ inline py::object pairs_of_arrays(const Arguments& a)
   if(pairs->vectors.cols() != k || pairs->residuals.size() != k)
     refuse("vectors has " + to_string(pairs->vectors.cols()) + " columns, but values has " +
            to_string(k) + ": give one column for each.");
+  pairs->further_values =
+      a.array<double>("further_values", 0, "eigenvalue").cast<Eigen::VectorXd>();
   pairs->solver = a["solver"].cast<std::string>();
   pairs->complete = a.flag("complete");
   pairs->zeros = a.has("zeros") ? a.integer("zeros", 0) : SG::number_of_zero_eigenvalues(op);
@@ -401,8 +403,9 @@ inline py::dict relocate(const Arguments& a)
   SG::Relocation_options options;
   options.signals = value_of(relocation_words, a.word("signals", words_of(relocation_words)));
   options.threads = a.threads();
+  options.eigenpairs = pairs.pairs.get();
   if(SMS::internal::has_reachable_eigenvalues(op))
-    options.eigenvalues = pairs.op->mass.sum() * pairs.pairs->values;
+    options.eigenvalues = pairs.op->mass.sum() * pairs.pairs->all_values();
   options.progress = [&](const double fraction) { return watch("relocation", fraction); };
   const SG::Relocation_result done = watch.run([&] {
     const SG::Eigenpairs& phi = *pairs.pairs;

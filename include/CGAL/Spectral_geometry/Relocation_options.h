@@ -7,6 +7,7 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/SparseCore>
@@ -51,20 +52,24 @@ struct Relocation_options
   /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not
   /// negative.
   Eigen::Index modes = 0;
+  /// Eigenpairs of the fine mesh, which judge the result: |C|_L before and after is that of the
+  /// first K of them, or of as many as there are coarse vertices, as in `evaluate_spectrum()`. Not
+  /// owned. Null: F and Z judge it.
+  const Eigenpairs* eigenpairs = nullptr;
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
-  /// coarse ones are drawn to them, as many as a sixth of the vertices; those beyond the first K
-  /// may be among them. Not for lumped masses, where the shape would make up for the error of the
-  /// elements. Where |C|_L would be larger than before, the relocation is done anew without them.
-  /// Empty: no such term.
+  /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of
+  /// those that follow, at most up to a quarter of the vertices, the mean. Not for lumped masses,
+  /// where the shape would make up for the error of the elements. Where |C|_L would be larger than
+  /// before, the relocation is done anew without them. Empty: no such term.
   Eigen::VectorXd eigenvalues;
   /// epsilon: relative errors of the first K eigenvalues of this size in the mean square cost as
   /// much as all that is minimised does at the start. With 0.03 errors fall to 0.6 times what they
   /// are without the term (0.36 for modes 2 to 20) and |C|_L stays; with 0.02 |C|_L is 1.15 times
   /// as large, with 0.01 1.5 times (twelve meshes). Not negative; 0: no such term.
   double eigenvalue_error = 0.03;
-  /// So many of the coarse modes beyond K, in parts of K, keep their eigenvalues in the mean, at
-  /// unit area, where `eigenvalues` has none for them: they are too low with the averaged mass, and
-  /// without this the descent lowers them further. 0: they may fall. In [0, 10].
+  /// So many of the coarse modes beyond K, in parts of K, do not fall in the mean, at unit area,
+  /// and rise as `eigenvalues` say: they are too low with the averaged mass, and without this the
+  /// descent lowers them further. 0: they may fall. In [0, 10].
   double beyond = 0.5;
   /// No vertex moves further than this from the fine surface unless it was; in the unit of the
   /// mesh.

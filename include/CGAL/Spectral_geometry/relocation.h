@@ -97,9 +97,44 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <set>
+#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
+
+/// A vertex of the border has its row of P from the closest point of the border, among the loops
+/// that its row in `carried` came from; where it came from none its row stays.
+inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
+                                       const Eigen::SparseMatrix<double>& carried,
+                                       const Mesh_matrices& fine, const Mesh_matrices& coarse)
+{
+  const Border_polyline border(fine);
+  if(border.is_empty())
+    return;
+  std::vector<char> on_border = border_vertices(coarse.T, coarse.V.rows());
+  const std::vector<std::set<Eigen::Index>> own = border.loops_of_rows(carried);
+  std::vector<Eigen::Triplet<double>> entries;
+  for(std::size_t w = 0; w < own.size(); ++w) {
+    on_border[w] = on_border[w] && !own[w].empty();
+    if(!on_border[w])
+      continue;
+    const auto point =
+        border.closest(coarse.V.row(Eigen::Index(w)), [&](const std::size_t segment) {
+          return own[w].count(border.loop(segment)) != 0;
+        });
+    const auto [i, j] = border.segment(point.segment);
+    if(point.weight < 1)
+      entries.emplace_back(int(w), i, 1 - point.weight);
+    if(point.weight > 0)
+      entries.emplace_back(int(w), j, point.weight);
+  }
+  Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
+  rows.setFromTriplets(entries.begin(), entries.end());
+  P.prune(
+      [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
+  P += rows;
+}
 
 /// One relocation from the set-up of its objective to the repair at its end.
 class Relocation
@@ -191,6 +226,8 @@ public:
     V = repaired(descent.positions());
     result.resampled = m_options.signals == Relocation_options::Signals::sampled;
     result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
+    if(result.resampled)
+      keep_border_rows_on_border(result.restriction, m_P, m_fine, {V, m_T});
     result.norm_after = norm(V, result.restriction);
     if(nothing_to_gain || result.norm_after > result.norm_before) {
       result.stop_reason = Reason::no_gain;
@@ -220,8 +257,11 @@ private:
   double norm(const Positions& V, const Eigen::SparseMatrix<double>& P) const
   {
     const Laplace_operator op = laplace_operator(V, m_T, m_op);
-    const Eigen::Index modes =
-        (std::min)(m_options.modes > 0 ? m_options.modes : m_F.cols(), V.rows() - op.vanishing);
+    const Eigenpairs* const fine_pairs = m_options.eigenpairs;
+    const Eigen::Index modes = (std::min)(fine_pairs != nullptr ? fine_pairs->size()
+                                          : m_options.modes > 0 ? m_options.modes
+                                                                : m_F.cols(),
+                                          V.rows() - op.vanishing);
     if(modes < 1 || !(op.mass.minCoeff() > 0))
       return 0;
     Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
@@ -229,7 +269,14 @@ private:
     options.threads = m_options.threads;
     const Eigenpairs pairs = eigenpairs(op, modes, options);
     const Eigen::MatrixXd BPhi = op.B * pairs.vectors;
-    const Eigen::MatrixXd C = BPhi.transpose() * (P * m_F), D = BPhi.transpose() * (P * m_Z);
+    Eigen::MatrixXd C, D;
+    if(fine_pairs != nullptr) {
+      C = BPhi.transpose() * (P * fine_pairs->vectors.leftCols(modes));
+      D = C * fine_pairs->values.head(modes).asDiagonal();
+    } else {
+      C = BPhi.transpose() * (P * m_F);
+      D = BPhi.transpose() * (P * m_Z);
+    }
     const auto [area, fine_area] = m_size.areas(V);
     const double result = (fine_area * D - area * (pairs.values.asDiagonal() * C)).norm() /
                           (std::max)(C.norm(), (std::numeric_limits<double>::min)());
@@ -486,6 +533,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   for(Eigen::Index v = 0; v < V.rows(); ++v)
     require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
             " has a coordinate that is not a finite number; repair it.");
+  require(options.eigenpairs == nullptr || options.eigenpairs->vectors.rows() == P.cols(),
+          "relocation: the eigenpairs are not of the fine mesh, which has ", P.cols(),
+          " vertices.");
   require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
           "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
           " vertices; pass one for each, or none.");

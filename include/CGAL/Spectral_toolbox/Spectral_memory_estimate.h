@@ -51,7 +51,7 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * pairs; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2
  * doubles where the solve is dense, see `Eigenpairs_method`), and the loop, which keeps the
  * eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or mixtures that the metric
- * sees. Relocation keeps F and Z of at most 64 mixtures, twice; `fit_operators_of_run()` solves
+ * sees. Relocation keeps F and Z of these, twice; `fit_operators_of_run()` solves
  * once more beside them. Filtered noise takes a factor and the signals. The constants were measured
  * on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
  *
@@ -82,8 +82,6 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
   const double seen =
       options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
-  const double mixed =
-      options.number_of_mixtures == 0 ? K : (std::min)(K, 2. * double(options.number_of_mixtures));
   const double noise = options.relocate ? 64 : double(options.number_of_mixtures);
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.
@@ -102,7 +100,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const double given = filtered ? 2 * noise : options.signals.size() != 0 ? 3 * K : K;
   const double collapses = n * (8 * given + loop);
   // F and Z twice: as they are, and by rows.
-  const double after = !options.relocate ? 0 : filtered ? 4 * noise : 4 * mixed;
+  const double after = !options.relocate ? 0 : filtered ? 4 * noise : 4 * seen;
   // A fit solves for those of the whole input.
   const double fit =
       fits_operators && !options.eigenpairs

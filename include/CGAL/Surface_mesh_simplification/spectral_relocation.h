@@ -106,41 +106,6 @@ void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<doubl
   own += carried;
 }
 
-/// A vertex of the border has its row of P from the closest point of the border, among the loops
-/// that its row in `carried` came from; where it came from none its row stays.
-inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
-                                       const Eigen::SparseMatrix<double>& carried,
-                                       const Spectral_geometry::Mesh_matrices& fine,
-                                       const Spectral_geometry::Mesh_matrices& coarse)
-{
-  const Spectral_geometry::internal::Border_polyline border(fine);
-  if(border.is_empty())
-    return;
-  std::vector<char> on_border =
-      Spectral_geometry::internal::border_vertices(coarse.T, coarse.V.rows());
-  const std::vector<std::set<Eigen::Index>> own = border.loops_of_rows(carried);
-  std::vector<Eigen::Triplet<double>> entries;
-  for(std::size_t w = 0; w < own.size(); ++w) {
-    on_border[w] = on_border[w] && !own[w].empty();
-    if(!on_border[w])
-      continue;
-    const auto point =
-        border.closest(coarse.V.row(Eigen::Index(w)), [&](const std::size_t segment) {
-          return own[w].count(border.loop(segment)) != 0;
-        });
-    const auto [i, j] = border.segment(point.segment);
-    if(point.weight < 1)
-      entries.emplace_back(int(w), i, 1 - point.weight);
-    if(point.weight > 0)
-      entries.emplace_back(int(w), j, point.weight);
-  }
-  Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
-  rows.setFromTriplets(entries.begin(), entries.end());
-  P.prune(
-      [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
-  P += rows;
-}
-
 /// Relocation after the collapses of a run, whose P leads to `mesh`: signals, mass, operator and
 /// what must stay are those of the run. `coefficients`: of the operator of `mesh`, or none.
 template <class TriangleMesh, class State, class NamedParameters>
@@ -154,17 +119,16 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const Run_signals signals(state, options);
   const auto [F, Z] = signals.for_relocation();
   relocation.modes = signals.modes();
+  relocation.eigenpairs = state.eigenpairs().get();
   const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
   if(const auto pairs = state.eigenpairs();
      pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
-    relocation.eigenvalues = state.area() * pairs->values;
+    relocation.eigenvalues = state.area() * pairs->all_values();
   relocation.threads = (std::max)(relocation.threads, options.threads);
   Spectral_geometry::Relocation_result result =
       relocate_mesh(mesh, P, state.fine(), F, Z, op, relocation, std::move(fixed), np);
   if(!result.resampled)
     return result;
-  keep_border_rows_on_border(result.restriction, P, state.fine(),
-                             Spectral_geometry::mesh_matrices(mesh, np));
   // Where the input has several points in one place, the closest may be another's.
   if(const std::vector<bool> kept = state.kept_vertices(); !kept.empty())
     keep_rows(result.restriction, P, kept);
@@ -239,9 +203,10 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const NamedParameters& np = parameters::default_values())
 {
   Spectral_geometry::Relocation_options with_goals = options;
+  with_goals.eigenpairs = &pairs;
   if(options.eigenvalues.size() == 0 && internal::has_reachable_eigenvalues(op) &&
      op.coefficients.size() == 0)
-    with_goals.eigenvalues = pairs.values * internal::area(fine);
+    with_goals.eigenvalues = pairs.all_values() * internal::area(fine);
   return internal::relocate_mesh(mesh, P, fine, pairs.vectors,
                                  pairs.vectors * pairs.values.asDiagonal(), op, with_goals, {}, np);
 }
