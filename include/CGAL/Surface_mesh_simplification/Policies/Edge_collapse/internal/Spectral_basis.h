@@ -145,7 +145,7 @@ public:
 
   /// What the relocation sees: as many mixtures as the collapses, others. Of eigenvectors the low
   /// ones weigh more, 1 / lambda: |C|_L is 0.98 times as large, biharmonic distances are 0.94 times
-  /// as far off. Twice as many mixtures take 1.3 times as long, with |C|_L 0.98 times as large and
+  /// as far off. Twice as many mixtures take 1.2 times as long, with |C|_L 0.98 times as large and
   /// errors of eigenvalues 1.03 times.
   Signals for_relocation() const
   {
