@@ -34,7 +34,8 @@ struct Eigenpairs
   /// `number_of_zero_eigenvalues()`; negative: not known
   Eigen::Index zeros = -1;
   /// the next eigenvalues after the K-th, to a thousandth: as many, up to K / 2, as the solver
-  /// knows at no further cost, some 0.4 K of `block`
+  /// knows at no further cost, some 0.4 K of `block`. Nobody counts them: one of many copies may be
+  /// missing
   Eigen::VectorXd further_values{};
 
   Eigen::Index size() const { return values.size(); } ///< K

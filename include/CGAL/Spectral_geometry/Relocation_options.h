@@ -52,9 +52,9 @@ struct Relocation_options
   /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not
   /// negative.
   Eigen::Index modes = 0;
-  /// Eigenpairs of the fine mesh, which judge the result: |C|_L before and after is that of the
-  /// first K of them, or of as many as there are coarse vertices, as in `evaluate_spectrum()`. Not
-  /// owned. Null: F and Z judge it.
+  /// Eigenpairs of the fine mesh, which judge the result: |C|_L before and after is that of all of
+  /// them, or of as many as there are coarse vertices, as in `evaluate_spectrum()`. Not owned.
+  /// Null: those that `spectral_relocation()` has, otherwise F and Z judge it.
   const Eigenpairs* eigenpairs = nullptr;
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
   /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of

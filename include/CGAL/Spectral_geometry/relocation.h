@@ -98,43 +98,9 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 #include <limits>
 #include <memory>
 #include <set>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
-
-/// A vertex of the border has its row of P from the closest point of the border, among the loops
-/// that its row in `carried` came from; where it came from none its row stays.
-inline void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P,
-                                       const Eigen::SparseMatrix<double>& carried,
-                                       const Mesh_matrices& fine, const Mesh_matrices& coarse)
-{
-  const Border_polyline border(fine);
-  if(border.is_empty())
-    return;
-  std::vector<char> on_border = border_vertices(coarse.T, coarse.V.rows());
-  const std::vector<std::set<Eigen::Index>> own = border.loops_of_rows(carried);
-  std::vector<Eigen::Triplet<double>> entries;
-  for(std::size_t w = 0; w < own.size(); ++w) {
-    on_border[w] = on_border[w] && !own[w].empty();
-    if(!on_border[w])
-      continue;
-    const auto point =
-        border.closest(coarse.V.row(Eigen::Index(w)), [&](const std::size_t segment) {
-          return own[w].count(border.loop(segment)) != 0;
-        });
-    const auto [i, j] = border.segment(point.segment);
-    if(point.weight < 1)
-      entries.emplace_back(int(w), i, 1 - point.weight);
-    if(point.weight > 0)
-      entries.emplace_back(int(w), j, point.weight);
-  }
-  Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
-  rows.setFromTriplets(entries.begin(), entries.end());
-  P.prune(
-      [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
-  P += rows;
-}
 
 /// One relocation from the set-up of its objective to the repair at its end.
 class Relocation
@@ -227,7 +193,7 @@ public:
     result.resampled = m_options.signals == Relocation_options::Signals::sampled;
     result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
     if(result.resampled)
-      keep_border_rows_on_border(result.restriction, m_P, m_fine, {V, m_T});
+      keep_border_rows_on_border(result.restriction, V);
     result.norm_after = norm(V, result.restriction);
     if(nothing_to_gain || result.norm_after > result.norm_before) {
       result.stop_reason = Reason::no_gain;
@@ -251,6 +217,35 @@ public:
   }
 
 private:
+  // A vertex of the border has its row from the closest point of the border, among the loops that
+  // its row in P came from before; where it came from none its row stays.
+  void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P, const Positions& V) const
+  {
+    if(m_border.is_empty())
+      return;
+    std::vector<char> on_border = border_vertices(m_T, V.rows());
+    const std::vector<std::set<Eigen::Index>> own = m_border.loops_of_rows(m_P);
+    std::vector<Eigen::Triplet<double>> entries;
+    for(std::size_t w = 0; w < own.size(); ++w) {
+      on_border[w] = on_border[w] && !own[w].empty();
+      if(!on_border[w])
+        continue;
+      const auto point = m_border.closest(V.row(Eigen::Index(w)), [&](const std::size_t segment) {
+        return own[w].count(m_border.loop(segment)) != 0;
+      });
+      const auto [i, j] = m_border.segment(point.segment);
+      if(point.weight < 1)
+        entries.emplace_back(int(w), i, 1 - point.weight);
+      if(point.weight > 0)
+        entries.emplace_back(int(w), j, point.weight);
+    }
+    Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
+    rows.setFromTriplets(entries.begin(), entries.end());
+    P.prune(
+        [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
+    P += rows;
+  }
+
   // |C|_L (Eq. 3) of both meshes at unit area, for signals of any kind: || A D - A~ Lambda~ C || /
   // || C ||, where C and D are Phi~^T B~ P F and Phi~^T B~ P Z. 0 where a vertex without mass
   // leaves no modes, and where signals that are constant on each component leave but rounding.

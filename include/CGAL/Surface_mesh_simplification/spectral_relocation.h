@@ -11,7 +11,6 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation.h>
@@ -25,7 +24,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -119,7 +117,8 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const Run_signals signals(state, options);
   const auto [F, Z] = signals.for_relocation();
   relocation.modes = signals.modes();
-  relocation.eigenpairs = state.eigenpairs().get();
+  if(relocation.eigenpairs == nullptr)
+    relocation.eigenpairs = state.eigenpairs().get();
   const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
   if(const auto pairs = state.eigenpairs();
      pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
@@ -203,7 +202,8 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const NamedParameters& np = parameters::default_values())
 {
   Spectral_geometry::Relocation_options with_goals = options;
-  with_goals.eigenpairs = &pairs;
+  if(options.eigenpairs == nullptr)
+    with_goals.eigenpairs = &pairs;
   if(options.eigenvalues.size() == 0 && internal::has_reachable_eigenvalues(op) &&
      op.coefficients.size() == 0)
     with_goals.eigenvalues = pairs.all_values() * internal::area(fine);
