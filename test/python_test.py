@@ -10,6 +10,7 @@ import io
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -733,14 +734,19 @@ class Documentation(unittest.TestCase):
 
     def test_help_says_what_each_argument_is(self):
         functions = [getattr(ss, name) for name in ss.__all__ if inspect.isfunction(getattr(ss, name))]
+        functions += [method for kind in (ss.Level, ss.Simplification, ss.Eigenpairs) for name, method in
+                      inspect.getmembers(kind, callable) if name[0] != "_" and name != "save"]
         self.assertEqual(set(dir(ss)), set(ss.__all__) | {"__version__", "__doc__"})
         for function in functions:
-            self.assertEqual(function.__module__, "spectral_simplification")
+            self.assertTrue(function.__module__.startswith("spectral_simplification"))
             doc = inspect.getdoc(function)
-            for name, parameter in inspect.signature(function).parameters.items():
+            sections = re.findall(r"(?m)^(\w+)\n---+$", doc)
+            parameters = {name: p for name, p in inspect.signature(function).parameters.items() if name != "self"}
+            wanted = ["Parameters"] * bool(parameters) + ["Returns"] * (function is not ss.write_mesh) + ["Raises"] * bool(parameters)
+            self.assertEqual([s for s in sections if s in ("Parameters", "Returns", "Raises")], wanted, function.__name__)
+            for name, parameter in parameters.items():
                 self.assertIsNot(parameter.annotation, parameter.empty)
                 self.assertRegex(doc, r"(?m)^([\w*]+, )*[*]*%s(, \w+)*( : |$)" % name, function.__name__)
-            self.assertIn("Parameters\n----------", doc)
             self.assertLess(max(map(len, doc.split("\n"))), 140)
 
     def test_objects_are_described(self):

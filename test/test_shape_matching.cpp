@@ -17,6 +17,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -181,6 +182,13 @@ TEST_CASE("Nearest rows are those of a search through all of them")
   CHECK_THROWS_AS(SG::nearest_rows(points, queries.leftCols(3)), std::invalid_argument);
   CHECK_THROWS_AS(SG::nearest_rows(points.topRows(0), queries), std::invalid_argument);
   CHECK_THROWS_AS(SG::nearest_rows(points, queries, 0), std::invalid_argument);
+  for(const int threads : {1, 3}) {
+    std::atomic<int> calls{0};
+    const auto stop = [&](double) { return ++calls < 20; };
+    CHECK_THROWS_AS(SG::nearest_rows(points, queries, threads, stop), SG::Cancelled);
+    CHECK(calls < 20 + threads);
+    CHECK(SG::nearest_rows(points, queries, threads, [](double) { return true; }) == found);
+  }
 }
 
 TEST_CASE("Nearest rows in many dimensions: the first of those that are equally near, whatever was "

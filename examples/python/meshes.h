@@ -9,6 +9,7 @@
 #include "../programs/io/mesh_io.h"
 #include "arguments.h"
 #include "arrays.h"
+#include "watch.h"
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
@@ -89,8 +90,13 @@ inline py::dict clean(const Arguments& a)
   const Mending mending = a.flag("repair") ? Mending::full : Mending::plain;
   Input_mesh input;
   try {
-    const py::gil_scoped_release no_gil;
-    input = input_mesh(std::move(soup), "V, F", mending);
+    Watch watch;
+    input = watch.run([&] {
+      return input_mesh(std::move(soup), "V, F", mending, false, 0,
+                        [&] { return watch("repair", 0); });
+    });
+  } catch(const py::error_already_set&) {
+    throw; // before pybind11 2.10 it is a runtime_error
   } catch(const std::runtime_error& error) {
     // The programs speak of their option.
     std::string said = error.what();
@@ -125,11 +131,15 @@ inline py::tuple read_mesh(const std::string& path, const bool repair)
   Polygon_soup soup;
   Input_mesh input;
   try {
-    const py::gil_scoped_release no_gil;
+    Watch watch;
+    soup = watch.run([&] { return read_polygon_soup(path); });
     if(repair)
-      input = read_input_mesh(path, Mending::full);
-    else
-      soup = read_polygon_soup(path);
+      input = watch.run([&] {
+        return input_mesh(std::move(soup), "'" + path + "'", Mending::full, false, 0,
+                          [&] { return watch("repair", 0); });
+      });
+  } catch(const py::error_already_set&) {
+    throw;
   } catch(const std::runtime_error& error) {
     refuse(error.what());
   }

@@ -24,7 +24,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -442,26 +441,12 @@ inline py::array point_map(const Arguments& a)
   const Index rows = a.array<double>("C", -1, "mode of the target").shape(0);
   const Eigen::MatrixXd C = a.matrix("C", rows, "the target");
   const int threads = a.threads();
-  const std::vector<Index> map = interruptible([&] {
-    const Eigen::MatrixXd& phi = target.pairs->vectors;
-    std::vector<Index> all;
-    // Vertices between two questions for signals, as many as take about 0.3 s: each call sorts the
-    // source anew, and a search in a map of noise takes ten times as long as in a good one.
-    Index step = 2000;
-    for(Index first = 0; first < phi.rows();) {
-      const auto begin = std::chrono::steady_clock::now();
-      const std::vector<Index> part = SG::target_to_source_map(
-          C, source.pairs->vectors, phi.middleRows(first, (std::min)(step, phi.rows() - first)),
-          threads);
-      all.insert(all.end(), part.begin(), part.end());
-      check_signals();
-      first += step;
-      const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-      step = Index(double(step) * (std::max)(0.5, (std::min)(0.3 / took.count(), 4.))) + 1;
-    }
-    return all;
-  });
-  return array_of(map);
+  Watch watch;
+  return array_of(watch.run([&] {
+    return SG::target_to_source_map(
+        C, source.pairs->vectors, target.pairs->vectors, threads,
+        [&](const double fraction) { return watch("point_map", fraction); });
+  }));
 }
 
 #endif // SPECTRAL_PYTHON_SPECTRA_H

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <thread>
 #include <utility>
 
 // Raises what Ctrl-C raises. For code without the GIL.
@@ -36,10 +37,13 @@ auto interruptible(const Work& work)
 }
 
 // Between a computation, which has no GIL, and Python: asks for signals and calls the callback
-// twenty times a second and at the begin of each phase. May be asked by several threads.
+// twenty times a second and at the begin of each phase. May be asked by several threads; signals
+// reach the one that made it.
 class Watch
 {
 public:
+  Watch() = default; // for signals alone
+
   explicit Watch(const Arguments& a)
     : m_callback(a["progress"])
   {
@@ -50,6 +54,8 @@ public:
   // False to stop.
   bool operator()(const char* phase, const double fraction)
   {
+    if(m_callback.is_none() && std::this_thread::get_id() != m_thread)
+      return !m_stopped;
     const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
     constexpr auto pause = std::chrono::duration_cast<std::chrono::steady_clock::duration>(
                                std::chrono::milliseconds(50))
@@ -103,7 +109,8 @@ private:
       throw SG::Cancelled();
   }
 
-  py::object m_callback;
+  py::object m_callback = py::none();
+  std::thread::id m_thread = std::this_thread::get_id();
   std::exception_ptr m_error;
   std::atomic<bool> m_stopped{false};
   std::atomic<const char*> m_phase{nullptr};

@@ -421,7 +421,8 @@ Input_mesh read_input_mesh(const std::string& path, const Mending mending,
 }
 
 Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending mending,
-                      const bool with_attributes, const double debris)
+                      const bool with_attributes, const double debris,
+                      const std::function<bool()>& keep_going)
 {
   Input_mesh input;
   const Corner_texture texture = with_attributes ? texture_of(soup) : Corner_texture();
@@ -436,7 +437,7 @@ Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending 
     input.attributes = std::move(soup.attributes);
   }
   soup = Polygon_soup{std::move(soup.points), std::move(soup.polygons)}; // no more is needed
-  Repair_log log;
+  Repair_log log(keep_going);
   std::vector<std::size_t> vertex(soup.points.size()), origin;
   std::iota(vertex.begin(), vertex.end(), std::size_t(0));
   if(mending == Mending::full) {

@@ -11,6 +11,7 @@
 
 #include <CGAL/Spectral_toolbox/mesh_diagnosis.h>
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,8 +56,10 @@ inline Mending mending(const bool strict, const bool repair)
 Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false,
                            double debris = 0);
 
-// A mesh that has been read, or was never in a file; `name` begins what is said of it.
+// A mesh that has been read, or was never in a file; `name` begins what is said of it. The repair
+// throws `Cancelled` when `keep_going` has returned false.
 Input_mesh input_mesh(Polygon_soup soup, const std::string& name, Mending mending,
-                      bool with_attributes = false, double debris = 0);
+                      bool with_attributes = false, double debris = 0,
+                      const std::function<bool()>& keep_going = {});
 
 #endif // SPECTRAL_EXAMPLES_IO_INPUT_MESH_H

@@ -142,6 +142,7 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
   std::vector<std::pair<Vertices, std::size_t>> faces; // each with the place of its polygon
   std::vector<bool> turned(soup.polygons.size());
   for(std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    log.go_on();
     auto [vertices, is_turned] = undirected(soup.polygons[i]);
     turned[i] = is_turned;
     faces.emplace_back(std::move(vertices), i);
@@ -181,6 +182,7 @@ void remove_fins(Exact_soup& soup, Repair_log& log)
       edges[sorted(ends(folded[f], i))].folded.push_back(f);
   double whole = 0;
   for(std::size_t f = 0; f < fold_of.size(); ++f) {
+    log.go_on();
     const Vertices& polygon = soup.polygons[f];
     whole += area(soup, polygon);
     for(std::size_t i = 0; i < polygon.size() && fold_of[f] == none; ++i) {
@@ -238,6 +240,7 @@ void clean(Exact_soup& soup, Repair_log& log)
     log.add("copy of a face removed", "copies of faces removed",
             PMP::merge_duplicate_polygons_in_polygon_soup(soup.points, soup.polygons));
   const std::size_t before = soup.polygons.size();
+  log.go_on();
   PMP::repair_polygon_soup(soup.points, soup.polygons);
   if(soup.polygons.size() < before)
     log.add("face removed that used a vertex twice", "faces removed that used a vertex twice",
@@ -251,15 +254,18 @@ void close_cracks(Exact_soup& soup, Polygon_soup& input, Repair_log& log)
   std::map<std::array<double, 3>, Kernel::Point_3> moved;
   const auto position = [](const auto& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
   for(const auto& [v, w] : diagnose(soup).cracks) { // w stays
+    log.go_on();
     moved.emplace(position(soup.points[v]),
                   Kernel::Point_3(soup.points[w].x(), soup.points[w].y(), soup.points[w].z()));
     soup.points[v] = soup.points[w];
   }
   if(moved.empty())
     return;
-  for(Kernel::Point_3& p : input.points)
+  for(Kernel::Point_3& p : input.points) {
+    log.go_on();
     if(const auto found = moved.find(position(p)); found != moved.end())
       p = found->second;
+  }
   log.add("vertex of a crack moved onto another", "vertices of cracks moved onto others",
           moved.size());
   clean(soup, log);
@@ -296,7 +302,7 @@ void add_parts(const Split_triangle& t, std::vector<std::vector<std::size_t>>& t
 // The border vertices that lie on border edges, within the distance of cracks, in the order of each
 // edge.
 std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
-vertices_on_edges(const Exact_soup& soup)
+vertices_on_edges(const Exact_soup& soup, const Repair_log& log)
 {
   using Vector = Exact_predicates::Vector_3;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
@@ -321,6 +327,7 @@ vertices_on_edges(const Exact_soup& soup)
   const double largest = 1e-5 * std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) +
                                           CGAL::square(box.z_span()));
   for(const auto& [edge, corners] : opposite) {
+    log.go_on();
     if(corners.size() != 1)
       continue;
     const auto &p = soup.points[edge.first], &q = soup.points[edge.second];
@@ -350,7 +357,7 @@ vertices_on_edges(const Exact_soup& soup)
 // neighbour is finer.
 void close_t_junctions(Exact_soup& soup, Repair_log& log)
 {
-  const auto on_edge = vertices_on_edges(soup);
+  const auto on_edge = vertices_on_edges(soup, log);
   if(on_edge.empty())
     return;
   std::vector<std::vector<std::size_t>> triangles;
@@ -468,6 +475,7 @@ void triangulate(Exact_soup& soup, Repair_log& log)
   std::vector<std::vector<std::size_t>> triangles;
   std::size_t polygons = 0;
   for(const std::vector<std::size_t>& polygon : soup.polygons) {
+    log.go_on();
     if(polygon.size() == 3) {
       triangles.push_back(polygon);
       continue;

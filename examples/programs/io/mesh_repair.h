@@ -7,8 +7,12 @@
 
 #include "mesh_io.h"
 
+#include <CGAL/Spectral_geometry/Cancelled.h>
+
 #include <cstddef>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 // Something that was changed, and how often: "1 copy of a face removed", "2 copies of faces
@@ -25,8 +29,20 @@ struct Repair
 class Repair_log
 {
 public:
+  // `keep_going` is asked between the steps and within them, and returns false to stop.
+  explicit Repair_log(std::function<bool()> keep_going = {})
+    : m_keep_going(std::move(keep_going))
+  {}
+
+  void go_on() const
+  {
+    if(m_keep_going && !m_keep_going())
+      throw CGAL::Spectral_geometry::Cancelled();
+  }
+
   void add(const std::string& one, const std::string& many, const std::size_t count)
   {
+    go_on();
     if(count == 0)
       return;
     for(Repair& known : m_changes)
@@ -41,12 +57,14 @@ public:
 
 private:
   std::vector<Repair> m_changes;
+  std::function<bool()> m_keep_going;
 };
 
 // Makes what can be made an oriented 2-manifold of triangles with area out of the polygons of a
 // file, with CGAL's own repair functions. Vertices keep their order as far as they stay: `vertex`
 // says which is each of the file, or `no_vertex`, and `origin` which of the file each is. What is
-// still wrong afterwards is for `diagnose_polygon_soup()` to say.
+// still wrong afterwards is for `diagnose_polygon_soup()` to say. Throws `Cancelled` where the log
+// says so.
 Polygon_soup repaired_soup(const Polygon_soup& soup, Repair_log& log,
                            std::vector<std::size_t>& vertex, std::vector<std::size_t>& origin);
 

@@ -49,8 +49,9 @@ public:
     // A vertex that is one of several in the mesh has the copies of the one that the file's is.
     const Eigen::SparseMatrix<double> copies =
         m_picked * m_spread * Eigen::SparseMatrix<double>(m_spread.transpose());
-    const Eigen::VectorXd number = copies * Eigen::VectorXd::Ones(n);
-    m_mean = number.cwiseInverse().asDiagonal() * copies;
+    // A vector of its own: the product would copy that of an expression at every column.
+    const Eigen::VectorXd share = (copies * Eigen::VectorXd::Ones(n)).cwiseInverse();
+    m_mean = share.asDiagonal() * copies;
   }
 
   std::size_t number_of_file_vertices() const { return m_mesh_vertices.size(); }

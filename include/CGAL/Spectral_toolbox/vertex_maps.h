@@ -9,6 +9,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <functional>
 #include <vector>
 
 /*!
@@ -38,13 +39,16 @@ near to the next.
 @param points n x d, n and d positive, finite
 @param queries m x d, finite
 @param threads how many share the queries, at least 1; the result does not depend on it
+@param progress is called by each thread, at every query, with the fraction done; returns false to
+cancel
 @return m indices in [0, n)
 
 Throws `std::invalid_argument` for sizes that do not match, an empty set of points or a number that
-is not finite.
+is not finite; `Cancelled` when the progress callback returned false.
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
-nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads = 1);
+nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads = 1,
+             const std::function<bool(double)>& progress = {});
 
 /*!
 returns the functional map \f$ C_{X,Y} = \Phi_Y^\top B_Y \Pi \Phi_X \f$ of a vertex map T from Y to
@@ -70,7 +74,7 @@ et al. 2012; with C of a vertex map this is the step of ZoomOut, Melzi et al. 20
 @param C k_Y x k_X
 @param source_vectors \f$ \Phi_X \f$, at least k_X columns, of which the first are used
 @param target_vectors \f$ \Phi_Y \f$, at least k_Y columns
-@param threads of the search
+@param threads, progress of the search
 @return one vertex of X for each vertex of Y
 
 Throws `std::invalid_argument` if there are fewer eigenvectors than C needs, or a number that is not
@@ -78,7 +82,8 @@ finite.
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
 target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads = 1);
+                     const Eigen::MatrixXd& target_vectors, int threads = 1,
+                     const std::function<bool(double)>& progress = {});
 
 /*!
 returns the map from the vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$: for
@@ -104,6 +109,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
+#include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_toolbox/internal/Ball_tree.h>
@@ -117,7 +123,8 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 namespace CGAL::Spectral_geometry {
 
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
-nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads)
+nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads,
+             const std::function<bool(double)>& progress)
 {
   internal::require(points.size() != 0,
                     "nearest rows: there is no point to search for, pass at least one.");
@@ -137,8 +144,10 @@ nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int 
   internal::for_each_task(
       static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
         std::size_t place = 0;
-        for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i)
+        for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i) {
+          internal::report_to(progress, double(i) / double(queries.rows()));
           result[static_cast<std::size_t>(i)] = tree.nearest(query_columns.col(i), place);
+        }
       });
   return result;
 }
@@ -167,14 +176,15 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd functional_map_of_vertex_map(
 
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
 target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads)
+                     const Eigen::MatrixXd& target_vectors, int threads,
+                     const std::function<bool(double)>& progress)
 {
   internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
                     "vertex map: C is ", internal::size_name(C), ", but there are ",
                     target_vectors.cols(), " target and ", source_vectors.cols(),
                     " source eigenvectors, pass as many.");
   return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(),
-                      target_vectors.leftCols(C.rows()), threads);
+                      target_vectors.leftCols(C.rows()), threads, progress);
 }
 
 CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::SparseMatrix<double>

@@ -19,9 +19,10 @@ from typing import Any
 
 import numpy
 
+from ._core import Wrong_type as _Wrong_type
 from ._interface import eigenpairs, simplify
 from ._meshes import clean, read_mesh
-from ._results import Level, Simplification, _Result, load
+from ._results import Level, Simplification, _integer, _Result, load
 
 _DIED = "the process that computed it died each time: it may need more memory."
 _ATTEMPTS = 3  # of a mesh whose process dies
@@ -70,6 +71,11 @@ def _taken(mesh: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
     """V and F of an item, which may be a file's name."""
     if isinstance(mesh, (str, os.PathLike)):
         return read_mesh(mesh)
+    if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
+        raise _Wrong_type(
+            f"a mesh is of the type {type(mesh).__name__}, it must be the name of a file or a "
+            "pair (V, F)."
+        )
     V, F = mesh
     return numpy.asarray(V), numpy.asarray(F)
 
@@ -187,7 +193,7 @@ def _on_dask(tasks, client):
     if isinstance(client, str):
         try:
             client = own = distributed.Client(client, timeout=10)
-        except OSError as error:
+        except (OSError, ValueError) as error:
             raise ValueError(f"no scheduler of Dask answers at {client}: {error}.") from None
     running, futures, tasks = {}, {}, iter(tasks)
     try:
@@ -304,6 +310,12 @@ def simplify_collection(
     ValueError
         If output has results of other arguments, or an option cannot be meant.
     """
+    n = _integer("n", n, 1)
+    if not isinstance(meshes, Iterable):
+        raise _Wrong_type(
+            f"meshes is of the type {type(meshes).__name__}, it must be a list of names or of "
+            "pairs (V, F)."
+        )
     if isinstance(meshes, (str, os.PathLike)):
         raise ValueError(
             f"meshes is the one name {os.fspath(meshes)!r}: pass a list of names, such as "

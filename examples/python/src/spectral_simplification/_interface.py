@@ -332,6 +332,8 @@ def eigsh(
     >>> print((w / w[1]).round(2))
     [0. 1. 4.]
     """
+    if scipy.sparse.issparse(L) and 0 in L.shape:
+        raise ValueError(f"L has the shape {L.shape}, it must have a row: pass a larger matrix.")
     if not scipy.sparse.issparse(L) or len(L.shape) != 2:
         raise _core.Wrong_type(
             f"L is of the type {type(L).__name__}, it must be a sparse matrix: pass "
@@ -514,6 +516,7 @@ def weighted_coefficients(
     Returns
     -------
     (v, 7) array
+        Density, xx, xy, xz, yy, yz, zz, in the units of both.
 
     Raises
     ------
@@ -534,6 +537,11 @@ def curvature_coefficients(V: numpy.ndarray, F: numpy.ndarray, anisotropy: float
         as of simplify(), but faces need not form a manifold
     anisotropy : float
         from 0, the Laplacian itself
+
+    Returns
+    -------
+    (v, 7) array
+        Without a unit: a density, and the tensor xx, xy, xz, yy, yz, zz.
 
     Raises
     ------
@@ -611,8 +619,8 @@ def distances(
     -----
     To compare two meshes pass the time or the energies of one of them for both.
     """
-    if squared not in (None, True, False):
-        raise ValueError(f"squared is {squared!r}, it must be None, True or False.")
+    if squared is not None and not isinstance(squared, (bool, numpy.bool_)):
+        raise _core.Wrong_type(f"squared is {squared!r}, it must be None, True or False.")
     if squared and kind == "wave_kernel":
         raise ValueError(
             "squared is True, but the distance 'wave_kernel' is no root: leave it out."

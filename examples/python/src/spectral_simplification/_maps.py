@@ -14,7 +14,7 @@ import numpy
 import scipy.sparse
 
 from . import _core
-from ._results import Alignment, Eigenpairs, Simplification
+from ._results import Alignment, Eigenpairs, Simplification, _array, _integer
 
 
 def _pairs(name: str, value) -> Eigenpairs:
@@ -27,26 +27,35 @@ def _pairs(name: str, value) -> Eigenpairs:
     return value
 
 
+def _run(name: str, value) -> Simplification:
+    if not isinstance(value, Simplification):
+        raise _core.Wrong_type(
+            f"{name} is of the type {type(value).__name__}, it must be a Simplification: pass "
+            "what simplify() returns."
+        )
+    return value
+
+
 def _modes(name: str, C, target: Eigenpairs, source: Eigenpairs) -> numpy.ndarray:
-    C = numpy.asarray(C, float)
-    if C.ndim != 2 or C.shape[0] > len(target) or C.shape[1] > len(source):
+    C = _array(name, C.toarray() if scipy.sparse.issparse(C) else C)
+    if C.ndim != 2 or not 0 < C.shape[0] <= len(target) or not 0 < C.shape[1] <= len(source):
         raise ValueError(
             f"{name} has the shape {C.shape}, it must be modes of the target x modes of the "
             "source, at most "
             f"({len(target)}, {len(source)})."
         )
     if not numpy.isfinite(C).all():
-        raise ValueError(f"{name} holds a number that is not finite.")
+        row, column = numpy.argwhere(~numpy.isfinite(C))[0]
+        raise ValueError(f"{name}[{row}, {column}] is not a finite number: correct the map.")
     return C
 
 
 def _point_map(name: str, T, target: int, source: int) -> numpy.ndarray:
-    T = numpy.asarray(T)
-    if T.shape != (target,) or T.dtype.kind not in "iu":
+    T = _array(name, T, "iu")
+    if T.shape != (target,):
         raise ValueError(
-            f"{name} has the shape {T.shape} and the dtype {T.dtype}, it must be ({target},) "
-            "integers, for each vertex of "
-            "the target one of the source."
+            f"{name} has the shape {T.shape}, it must be ({target},), for each vertex of the "
+            "target one of the source."
         )
     if T.min(initial=0) < 0 or T.max(initial=0) >= source:
         bad = int(((T < 0) | (T >= source)).argmax())
@@ -72,6 +81,12 @@ def functional_map_of_point_map(
     Returns
     -------
     (k_target, k_source) array
+        Without a unit where the areas agree.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
     """
     source, target = _pairs("source", source), _pairs("target", target)
     T = _point_map("T", T, len(target.vectors), len(source.vectors))
@@ -96,6 +111,12 @@ def point_map(
     Returns
     -------
     (target vertices,) int64
+        Vertices of the source.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
     """
     C = _modes("C", C, _pairs("target", target), _pairs("source", source))
     return _core.point_map(locals())
@@ -131,6 +152,11 @@ def zoom_out(
         The refined map.
     T : (target vertices,) int64
         The point map of it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
     """
     C = _modes("C", C, _pairs("target", target), _pairs("source", source))
     most = min(len(source), len(target))
@@ -139,13 +165,8 @@ def zoom_out(
         raise ValueError(
             f"C has the shape {C.shape}, it must be square: pass as many modes of both."
         )
-    if not len(C) <= k <= most:
-        raise ValueError(
-            f"k is {k}, it must be from {len(C)}, the modes of C, to {most}, those of both "
-            "eigenpairs."
-        )
-    if step < 1:
-        raise ValueError(f"step is {step}, it must be 1 or more.")
+    k = _integer("k", k, len(C), most, ", the modes of C and those of both eigenpairs")
+    step = _integer("step", step, 1)
     phi, image = source.vectors, target.M @ target.vectors
     T = point_map(C, source, target, threads)
     while len(C) < k:
@@ -181,6 +202,11 @@ def lift_functional_map(
     -------
     (fine modes of target, fine modes of source) array
         In run.fine_eigenpairs of both, at the scale of the meshes.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
     """
     C = _modes(
         "C",
@@ -189,15 +215,10 @@ def lift_functional_map(
         _pairs("source_eigenpairs", source_eigenpairs),
     )
     down = []
-    for run, pairs, modes in (source, source_eigenpairs, C.shape[1]), (
-        target,
-        target_eigenpairs,
-        C.shape[0],
+    for run, pairs, modes in (
+        (_run("source", source), source_eigenpairs, C.shape[1]),
+        (_run("target", target), target_eigenpairs, C.shape[0]),
     ):
-        if not isinstance(run, Simplification):
-            raise _core.Wrong_type(
-                "source and target must be Simplifications: pass what simplify() returns."
-            )
         if len(pairs.vectors) != len(run.V):
             raise ValueError(
                 f"eigenpairs of {len(pairs.vectors)} vertices were given for a mesh of "
@@ -237,13 +258,15 @@ def lift_point_map(
     -------
     (u,) int64
         For each vertex of the target's input that was used one of the source's.
+
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
     """
-    most = min(
-        source.report["eigenvectors"], target.report["eigenvectors"], len(source.V), len(target.V)
-    )
-    k = most if k is None else k
-    if not 1 <= k <= most:
-        raise ValueError(f"k is {k}, it must be from 1 to {most}, what both runs kept.")
+    runs = _run("source", source), _run("target", target)
+    most = min(min(run.report["eigenvectors"], len(run.V)) for run in runs)
+    k = _integer("k", most if k is None else k, 1, most, ", what both runs kept")
     pairs = source.coarse_eigenpairs(k), target.coarse_eigenpairs(k)
     # Where the last mode is exchanged with the next its singular value is small, and what it says
     # is noise: cut off at 0.05 it moved a map by half an edge.
@@ -279,6 +302,11 @@ def align(
     Alignment
         vectors, rotation, clusters; of as many modes as both have.
 
+    Raises
+    ------
+    ValueError, TypeError
+        In one sentence that names the first thing that is wrong.
+
     Examples
     --------
     Vectors of another sign are turned round:
@@ -295,8 +323,8 @@ def align(
            [ 0.,  0.,  1.]])
     """
     first, second = _pairs("first", first), _pairs("second", second)
-    if not 0 <= mixing <= 1:
-        raise ValueError(f"mixing is {mixing}, it must be from 0 to 1.")
+    if _array("mixing", mixing).ndim != 0 or not 0 <= mixing <= 1:
+        raise ValueError(f"mixing is {mixing}, it must be a number from 0 to 1.")
     n, m = len(first.vectors), len(second.vectors)
     k = min(len(first), len(second))
     phi = second.vectors[:, :k]
@@ -308,7 +336,9 @@ def align(
         moved = phi
     elif scipy.sparse.issparse(T):
         if T.shape != (n, m):
-            raise ValueError(f"T has the shape {T.shape}, it must be ({n}, {m}).")
+            raise ValueError(
+                f"T has the shape {T.shape}, it must be ({n}, {m}), vertices of first x second."
+            )
         moved = T @ phi
     else:
         moved = phi[_point_map("T", T, n, m)]

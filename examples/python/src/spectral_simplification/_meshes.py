@@ -19,7 +19,7 @@ import scipy.sparse
 import scipy.sparse.csgraph
 
 from . import _core
-from ._results import _Result
+from ._results import _check_folder, _path, _Result
 
 
 class Cleaned(_Result):
@@ -100,6 +100,8 @@ def clean(V: numpy.ndarray, F: numpy.ndarray, repair: bool = False) -> Cleaned:
     ------
     ValueError
         If the mesh cannot be used afterwards, with the first obstacle.
+    KeyboardInterrupt
+        Ctrl-C ends a repair as well.
 
     Examples
     --------
@@ -133,6 +135,11 @@ def diagnose(V: numpy.ndarray, F: numpy.ndarray) -> Diagnosis:
     -------
     Diagnosis
         usable, obstacles, remarks, components.
+
+    Raises
+    ------
+    ValueError, TypeError
+        If V and F are no arrays of these shapes.
     """
     return Diagnosis._from_state(_core.diagnose(locals()))
 
@@ -279,7 +286,7 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
     FileNotFoundError
         If there is no such file.
     """
-    path = pathlib.Path(path)
+    path = pathlib.Path(_path(path))
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist.")
     ending = path.suffix.lower()
@@ -346,13 +353,21 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
     ------
     ValueError
         If the ending is not known, the package is missing that writes it, or V and F are no mesh.
+    FileNotFoundError
+        If its folder does not exist.
     """
-    path = pathlib.Path(path)
+    path = pathlib.Path(_path(path))
+    _check_folder(str(path))
     V, F = _mesh(V, F, "what is to be written")
     if F.min() < 0 or F.max() >= len(V):
-        raise ValueError(f"F has an index that is not one of the {len(V)} vertices of V.")
+        face, corner = numpy.argwhere((F < 0) | (F >= len(V)))[0]
+        raise ValueError(
+            f"F[{face}, {corner}] is {F[face, corner]}, but V has {len(V)} vertices: they are "
+            "counted from 0."
+        )
     if not numpy.isfinite(V).all():
-        raise ValueError("V holds a number that is not finite.")
+        vertex = int((~numpy.isfinite(V)).any(axis=1).argmax())
+        raise ValueError(f"V[{vertex}] is not finite: correct the position.")
     ending = path.suffix.lower()
     if ending not in _OWN + _FREESURFER + _MESHIO + (".gii", ".vtp"):
         raise ValueError(_unknown(path))

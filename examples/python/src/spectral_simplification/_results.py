@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import operator
 import os
 import zipfile
 from collections.abc import Callable, Iterable, Sequence
@@ -22,6 +23,49 @@ from . import _core
 Progress = Callable[[str, float], bool | None]
 
 _KINDS: dict[str, type] = {}  # of results, by name
+
+
+def _array(name: str, value: Any, kinds: str = "fiu") -> numpy.ndarray:
+    """An array of numbers of these kinds, or the sentence that says why it is none."""
+    try:
+        array = numpy.asarray(value)
+    except ValueError:
+        raise _core.Wrong_type(
+            f"{name} is not an array of numbers: give each row the same length."
+        ) from None
+    if array.dtype.kind not in kinds:
+        raise _core.Wrong_type(
+            f"{name} has the dtype {array.dtype}, it must hold "
+            + ("real numbers: pass float64." if "f" in kinds else "integers: pass int64.")
+        )
+    return array.astype(float) if "f" in kinds else array
+
+
+def _integer(name: str, value: Any, least: int, most: int | None = None, why: str = "") -> int:
+    """An integer in the range, or the sentence that says why it is none."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise _core.Wrong_type(f"{name} is {value!r}, it must be an integer.") from None
+    if number < least or most is not None and number > most:
+        to = "" if most is None else f" to {most}"
+        raise ValueError(f"{name} is {number}, it must be from {least}{to}{why}.")
+    return number
+
+
+def _path(value: Any) -> str:
+    """A path as text, or the sentence that says why it is none."""
+    if not isinstance(value, (str, os.PathLike)):
+        raise _core.Wrong_type(
+            f"path is of the type {type(value).__name__}, it must be the name of a file."
+        )
+    return os.fspath(value)
+
+
+def _check_folder(path: str) -> None:
+    folder = os.path.dirname(path)
+    if folder and not os.path.isdir(folder):
+        raise FileNotFoundError(f"{folder} is no folder: make it, or write {path} elsewhere.")
 
 
 class _Result:
@@ -50,10 +94,17 @@ class _Result:
         ----------
         path : str or path
             Of the file, an .npz of NumPy's: arrays, and no pickled objects.
+
+        Raises
+        ------
+        FileNotFoundError
+            If its folder does not exist.
         """
+        path = _path(path)
+        _check_folder(path)
         arrays: dict[str, numpy.ndarray] = {}
         text = json.dumps(_packed(self, "r", arrays))
-        part = os.fspath(path) + ".part"
+        part = path + ".part"
         try:
             with open(part, "wb") as file:
                 numpy.savez_compressed(file, spectral_simplification=numpy.array(text), **arrays)
@@ -130,7 +181,12 @@ def load(path: Any) -> Any:
     ------
     ValueError
         If the file was written by something else.
+    FileNotFoundError
+        If there is no such file.
     """
+    path = _path(path)
+    if not os.path.exists(path):
+        raise FileNotFoundError(f"{path} does not exist.")
     try:
         with numpy.load(path, allow_pickle=False) as arrays:
             if "spectral_simplification" not in arrays:
@@ -237,6 +293,11 @@ class Eigenpairs(_Result):
             'lumped', 'averaged', 'consistent' or 'voronoi'. None: what the diagonal of M says,
             'lumped' for a diagonal one.
 
+        Returns
+        -------
+        Eigenpairs
+            Of the mass 'given' where M is none of these.
+
         Raises
         ------
         ValueError
@@ -247,7 +308,7 @@ class Eigenpairs(_Result):
                 f"mass is {mass!r}, it must be None, 'lumped', 'averaged', 'consistent' or "
                 "'voronoi'."
             )
-        w, U = numpy.asarray(values, float), numpy.asarray(vectors, float)
+        w, U = _array("values", values), _array("vectors", vectors)
         for name, matrix in ("L", L), ("M", M):
             if not scipy.sparse.issparse(matrix):
                 raise _core.Wrong_type(
@@ -621,6 +682,12 @@ class Level(_Result):
         Returns
         -------
         (n, ...) array
+            In the unit of the values.
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong.
         """
         return self._carried(self.P, values, unit, nan)
 
@@ -631,7 +698,20 @@ class Level(_Result):
         vertex: measurements with noise, thickness or activity. Every vertex of V counts, while P
         leaves most without weight.
 
-        Parameters and result as of interpolate().
+        Parameters
+        ----------
+        values, unit, nan : array, bool, str
+            As of interpolate().
+
+        Returns
+        -------
+        (n, ...) array
+            In the unit of the values.
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong.
         """
         return self._carried(self.A, values, unit, nan)
 
@@ -649,6 +729,12 @@ class Level(_Result):
         Returns
         -------
         (n,) array or pandas.Categorical
+            Some of the labels.
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong, a label that is missing too.
         """
         if by not in ("restriction", "area"):
             raise ValueError(f"by is {by!r}, it must be 'restriction' or 'area'.")
@@ -735,6 +821,16 @@ class Simplification(Level):
         ----------
         n : int
             From the vertices of the result to those of the input.
+
+        Returns
+        -------
+        Level
+            Without eigenpairs and report.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If n is outside of this range.
         """
         V, F = self.part()
         return Level._of(
@@ -776,6 +872,13 @@ class Simplification(Level):
         -------
         Eigenpairs
             For 'fitted' Fitted_operators.
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong.
+        Cancelled
+            Where progress returns False.
         """
         k = min(self.report["eigenvectors"], len(self.V)) if k is None else k
         if mass != "fitted":
@@ -851,6 +954,14 @@ class Simplification(Level):
         Returns
         -------
         Level
+            Without eigenpairs and report.
+
+        Raises
+        ------
+        ValueError, TypeError
+            In one sentence that names the first thing that is wrong.
+        Cancelled
+            Where progress returns False.
         """
         if by not in ("restriction", "merges"):
             raise ValueError(f"by is {by!r}, it must be 'restriction' or 'merges'.")
@@ -858,7 +969,7 @@ class Simplification(Level):
             raise _core.Wrong_type(f"relocate is {relocate!r}, it must be True or False.")
         if not relocate and (k is not None or eigenpairs is not None):
             raise ValueError("k and eigenpairs belong to relocate=True: leave them out.")
-        V_other = numpy.array(V_other, float)
+        V_other = _array("V_other", V_other)
         if V_other.shape != self.fine_V.shape:
             raise ValueError(
                 f"V_other has the shape {V_other.shape}, it must be {self.fine_V.shape}, as V "
@@ -866,7 +977,9 @@ class Simplification(Level):
             )
         bad = ~numpy.isfinite(V_other[self.used]).all(axis=1)
         if bad.any():
-            raise ValueError(f"V_other[{int(self.used[bad.argmax()])}] is not finite.")
+            raise ValueError(
+                f"V_other[{int(self.used[bad.argmax()])}] is not finite: correct the position."
+            )
         V_other[~numpy.isfinite(V_other).all(axis=1)] = 0  # of vertices without faces
         P = self.P if by == "restriction" else self._merge_restriction()
         V, F = _part_of(V_other, self.fine_F, self._used)
