@@ -206,34 +206,35 @@ TEST_CASE("Vertices that are fixed stay, and the unit of length does not matter"
     CHECK(scaled.points()[i] == unit * log.points()[i]);
 }
 
-TEST_CASE("The vertex where several fans of faces meet is named")
+TEST_CASE("The vertex where several fans of faces meet is named, whatever collapses first")
 {
-  // Two tetrahedra on one vertex.
-  shapes::Matrices one = shapes::tetrahedron_matrices();
-  Mesh mesh = make_mesh(one);
-  shapes::Matrices input{Eigen::MatrixXd(7, 3), Eigen::MatrixXi(8, 3)};
-  input.V << one.V, -one.V.bottomRows(3) + one.V.row(0).replicate(3, 1) * 2;
-  for(int f = 0; f < 4; ++f)
-    for(int k = 0; k < 3; ++k) {
-      input.T(f, k) = one.T(f, k);
-      input.T(4 + f, 2 - k) = one.T(f, k) == 0 ? 0 : one.T(f, k) + 3;
-    }
-  SMS::internal::Triangle_arrays arrays;
-  arrays.V = input.V;
-  for(Eigen::Index f = 0; f < 8; ++f)
-    for(int k = 0; k < 3; ++k)
-      arrays.vertex.push_back(input.T(f, k));
-  for(int c = 0; c < 24; ++c)
-    for(int d = 0; d < 24; ++d) {
-      const auto end = [&](const int corner) {
-        return arrays.vertex[std::size_t(3 * (corner / 3) + (corner + 1) % 3)];
-      };
-      if(arrays.vertex[std::size_t(c)] == end(d) && end(c) == arrays.vertex[std::size_t(d)])
-        arrays.opposite.push_back(d);
-    }
-  REQUIRE(arrays.opposite.size() == 24);
-  CHECK_THROWS_WITH(SMS::internal::quadric_collapses(arrays, false, 4, [](std::size_t) {}),
-                    ContainsSubstring("vertex 0") && ContainsSubstring("several fans"));
+  // Two sheets of a grid, which have a corner in common.
+  const shapes::Matrices sheet = shapes::grid_matrices(5, 5);
+  const int n = int(sheet.V.rows());
+  shapes::Matrices input{Eigen::MatrixXd(2 * n - 1, 3), Eigen::MatrixXi(2 * sheet.T.rows(), 3)};
+  input.V << sheet.V, -sheet.V.bottomRows(n - 1);
+  input.T << sheet.T, (sheet.T.array() == 0).select(0, sheet.T.array() + (n - 1));
+  REQUIRE(sheet.V.row(0).norm() == 0);
+  Mesh mesh = make_mesh(input);
+  REQUIRE(mesh.number_of_faces() == std::size_t(input.T.rows()));
+  const auto named = ContainsSubstring("vertex 0 (counted from 0) joins several fans");
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 5;
+  SECTION("quadrics alone")
+  {
+    CHECK_THROWS_WITH(SMS::quadric_edge_collapse(mesh, 30), named);
+  }
+  SECTION("the policies")
+  {
+    CHECK_THROWS_WITH(SMS::Spectral_policies(mesh, options), named);
+  }
+  SECTION("the one call")
+  {
+    options.pre_simplify = GENERATE(0, 50);
+    options.quadrics_above = GENERATE(1., std::numeric_limits<double>::infinity());
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 30, options), named);
+  }
+  CHECK(mesh.number_of_vertices() == std::size_t(input.V.rows()));
 }
 
 TEST_CASE("Vertices that are fixed take no values from a border that is apart")

@@ -94,12 +94,7 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
   // What is wrong and stays so is refused before anything changes. Needles and faces without area
   // need not stay.
   check_extent(matrices.V);
-  Eigen::Index i = 0;
-  for(const auto v : vertices(mesh)) {
-    require(halfedge(v, mesh) != boost::graph_traits<TriangleMesh>::null_halfedge(),
-            "edge collapses: ", vertex_name(i), " is isolated, no face uses it; remove it.");
-    ++i;
-  }
+  check_fans(mesh, matrices.T);
   check_kept_vertices_apart(kept, matrices.V, matrices.T);
   Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;

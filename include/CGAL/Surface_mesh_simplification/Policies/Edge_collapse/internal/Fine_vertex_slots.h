@@ -280,6 +280,29 @@ std::vector<char> fixed_vertex_flags([[maybe_unused]] const TriangleMesh& mesh,
   return fixed;
 }
 
+/// Throws for the first vertex that no face uses, or where several fans of faces meet: a walk
+/// around it sees one of them, or crosses two gaps. `T`: the faces.
+template <class TriangleMesh>
+void check_fans(const TriangleMesh& mesh, const Eigen::MatrixXi& T)
+{
+  std::vector<int> own(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end())), 0);
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    for(int k = 0; k < 3; ++k)
+      ++own[std::size_t(T(f, k))];
+  std::size_t i = 0;
+  for(const auto v : vertices(mesh)) {
+    require(own[i] != 0, "edge collapses: ", vertex_name(Eigen::Index(i)),
+            " is isolated, no face uses it; remove it.");
+    int faces = 0, gaps = 0;
+    for(const auto h : halfedges_around_target(halfedge(v, mesh), mesh))
+      ++(is_border(h, mesh) ? gaps : faces);
+    require(faces == own[i] && gaps <= 1, "edge collapses: ", vertex_name(Eigen::Index(i)),
+            " joins several fans of faces; duplicate it "
+            "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
+    ++i;
+  }
+}
+
 /// Throws where two vertices to be kept are joined by edges without length: `edge_collapse()`
 /// merges their ends before it asks for a cost. `kept`: empty, or one flag for each row of V.
 inline void check_kept_vertices_apart(const std::vector<char>& kept, const Eigen::MatrixXd& V,

@@ -92,6 +92,7 @@ public:
     Real_timer timer;
     timer.start();
     m_fine = Spectral_geometry::mesh_matrices(mesh, np);
+    check_fans(mesh, m_fine.T);
     std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
     check_kept_vertices_apart(kept, m_fine.V, m_fine.T);
     m_core.set_kept(std::move(kept));

@@ -65,7 +65,7 @@ spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eige
 }
 
 /// A neighbour in the ring of a vertex c, and the triangle (c; vertex, next vertex of the ring) if
-/// `face` is set. Border vertices have an entry without a face; a pinched vertex has several.
+/// `face` is set. A vertex of the border has one entry without a face.
 struct Spectral_ring_entry
 {
   Spectral_slot vertex = null_spectral_slot;

@@ -56,7 +56,6 @@ struct Triangle_arrays
  * @param progress is called with the number of vertices left, each time a hundredth of the
  *        collapses is done and before refused edges are looked at again; what it throws comes
  *        through
- * @throws std::invalid_argument that names the first vertex where several fans of faces meet
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */
 CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
@@ -214,7 +213,6 @@ public:
     m_mark.assign(n, 0);
     for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
       add_corner(c);
-    check_fans();
     if(keep_free_of_self_intersections)
       m_crossing.set_geometry(m_points, *this);
   }
@@ -328,17 +326,6 @@ private:
       m_outgoing[at(v)] = c;
     m_quadrics[at(v)].add_corner(p, m_points[at(target(c))] - p, is_border(c),
                                  m_points[at(source(previous(c)))] - p, is_border(previous(c)));
-  }
-
-  void check_fans() const
-  {
-    for(int v = 0; v < int(m_points.size()); ++v) {
-      int degree = 0;
-      for_neighbours(v, [&](int) { ++degree; });
-      require(degree == m_degree[at(v)], "edge collapses: ", vertex_name(v),
-              " joins several fans of faces; duplicate it "
-              "(CGAL::Polygon_mesh_processing::duplicate_non_manifold_vertices).");
-    }
   }
 
   void push(const int c) { push(c, placement(c).first); }
