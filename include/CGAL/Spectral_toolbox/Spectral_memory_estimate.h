@@ -82,7 +82,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
   const double seen =
       options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
-  const double noise = options.relocate ? 64 : double(options.number_of_mixtures);
+  const double noise = (std::max)(64., double(options.number_of_mixtures));
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.
   const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;

@@ -37,8 +37,10 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// target, but not below 10,000 vertices, and signals of filtered noise are made there; quadrics
   /// go on to 7 times the target. Relocation sees 64 of the signals and takes 40 steps at most: on
   /// twelve meshes 10 times and 60 steps gave 0.92 times the |C|_L, and collapses and relocation
-  /// took 1.4 times as long. E and the relative error are estimates; signals or eigenpairs cannot
-  /// be given, and it takes neither filter nor visitor.
+  /// took 1.4 times as long. Where K is at most 32, or N below 2 K, eigenpairs judge the
+  /// relocation, unless K and N are above 100: noise alone would let |C|_L rise there. E and the
+  /// relative error are estimates; signals or eigenpairs cannot be given, and it takes neither
+  /// filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;

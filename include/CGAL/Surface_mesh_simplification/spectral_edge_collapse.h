@@ -201,7 +201,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->number_of_mixtures = 0;
   } else if(is_filtered(given)) {
     narrowed = given;
-    narrowed->number_of_relocation_signals = given.relocate ? 64 : 0;
+    narrowed->number_of_relocation_signals = 64; // without it as well: S is that of all of them
     narrowed->number_of_eigenvectors = Eigen::Index(weights().sum());
   } else if(given.signals.size() == 0 && given.weights.size() == 0 &&
             Eigen::Index(target / 3) < K) {
