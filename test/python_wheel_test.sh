@@ -52,6 +52,8 @@ done
 "$python" -m venv --system-site-packages env2
 env2/bin/python -m pip install --quiet --no-build-isolation --no-deps --no-index ./sdist/*.tar.gz
 env2/bin/python -m spectral_simplification --version
+env2/bin/python -c "import spectral_simplification as ss, sys; assert ss.__file__.startswith(sys.prefix), ss.__file__"
+env2/bin/python "$here/python_package_test.py" Package Careless_calls Results_live
 # A module of another Python is refused.
 if SPECTRAL_PYTHON_CORE=/nowhere/_core.so env2/bin/python -m pip wheel --no-build-isolation --no-deps --no-index ./clone >said 2>&1; then
   echo "FAILED: a module of another name was taken"

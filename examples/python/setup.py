@@ -88,7 +88,6 @@ class CMake_build(build_ext):
             "-DSPECTRAL_PYTHON_WHEEL=ON",
             "-DSPECTRAL_BUILD_TESTS=OFF",
             "-DSPECTRAL_QUICK_BUILD=ON",
-            "-DSPECTRAL_WARNINGS_AS_ERRORS=OFF",
             "-DPython_EXECUTABLE=" + sys.executable,
             *pybind11_folder(),
             *shlex.split(os.environ.get("CMAKE_ARGS", "")),
