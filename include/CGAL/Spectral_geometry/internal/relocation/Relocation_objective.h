@@ -235,12 +235,6 @@ public:
     }
   }
 
-  /// Lets inner products of the sampled signals come near those of the fine mesh, where F has them.
-  void keep_inner_products(const Laplace_operator& fine, const Eigen::MatrixXd& F)
-  {
-    m_S.keep_inner_products(fine, F, m_scale / (inner_product_error * inner_product_error));
-  }
-
   /// Brings what changes slowly up to date; true if that changes the values.
   bool refresh(const Positions& V)
   {
@@ -262,12 +256,6 @@ public:
   }
 
 private:
-  // So large a difference, in parts of the sum of squares, costs as much as all does at the start.
-  // Heat kernel signatures are 0.74 times as far off, biharmonic and diffusion distances 0.82 and
-  // 0.83 times (ten meshes), with 0.99 times the |C|_L and 1.04 times the errors of eigenvalues.
-  // With 0.02 biharmonic distances are 0.76 times as far off, |C|_L is 1.03 times that with 0.025.
-  static constexpr double inner_product_error = 0.025;
-
   Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
   Spectrum_term m_spectrum;
