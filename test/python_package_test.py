@@ -250,7 +250,7 @@ class Results_live(Case):
             calls(20)
             before = used()
             calls(200)
-            self.assertLess(used() - before, 1)  # 0.1, and 2.4 where run.apply() alone is kept
+            self.assertLess(used() - before, 1)  # 0.1, and 2.4 where poses and pairs are kept
 
 
 class Careless_calls(Case):

@@ -133,7 +133,8 @@ private:
   // it must be that of their volume.
   Input_mesh read(const std::string& path) const
   {
-    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));
+    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair), false,
+                                       0, not_interrupted);
     SG::Mesh_matrices matrices = SG::mesh_matrices(input.mesh);
     const std::vector<Eigen::Index> turned = inside_out(matrices.V, matrices.T);
     if(turned.empty())

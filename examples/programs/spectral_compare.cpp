@@ -115,7 +115,8 @@ public:
 private:
   Input_mesh read(const std::string& path)
   {
-    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair));
+    Input_mesh input = read_input_mesh(path, mending(m_arguments.strict, m_arguments.repair), false,
+                                       0, not_interrupted);
     if(!input.changes.empty())
       m_comparison.notes.push_back(input.changes_of(path));
     return input;

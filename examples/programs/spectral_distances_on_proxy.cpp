@@ -138,7 +138,8 @@ constexpr const char* ways[] = {"prolongation", "through the spectrum", "vertex 
 
 Pair simplify(const Distance_arguments& a)
 {
-  Input_mesh input = read_input_mesh(a.mesh, mending(a.strict, a.repair));
+  Input_mesh input =
+      read_input_mesh(a.mesh, mending(a.strict, a.repair), false, 0, not_interrupted);
   Mesh& mesh = input.mesh;
   const std::size_t n = mesh.number_of_vertices(), N = a.target.of(n);
   if(N > n || static_cast<long>(N) < a.eigenvectors)

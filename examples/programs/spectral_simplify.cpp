@@ -706,8 +706,8 @@ int run(Arguments a)
   CGAL::Real_timer timer;
   timer.start();
   bar.show("reading", 0);
-  Input_mesh input =
-      read_input_mesh(a.input, mending(a.strict, a.repair), !a.no_attributes, a.drop_debris);
+  Input_mesh input = read_input_mesh(a.input, mending(a.strict, a.repair), !a.no_attributes,
+                                     a.drop_debris, not_interrupted);
   const std::string lost_edges = lost_seams(a, input);
   const std::optional<Texture_seams> seams = seams_of(a, input);
   if(seams) // at corners instead

@@ -415,9 +415,11 @@ std::string Input_mesh::changes_of(const std::string& path) const
 }
 
 Input_mesh read_input_mesh(const std::string& path, const Mending mending,
-                           const bool with_attributes, const double debris)
+                           const bool with_attributes, const double debris,
+                           const std::function<bool()>& keep_going)
 {
-  return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes, debris);
+  return input_mesh(read_polygon_soup(path), "'" + path + "'", mending, with_attributes, debris,
+                    keep_going);
 }
 
 Input_mesh input_mesh(Polygon_soup soup, const std::string& name, const Mending mending,

@@ -54,7 +54,7 @@ inline Mending mending(const bool strict, const bool repair)
 // Throws with the first obstacle that is left. `with_attributes`: keeps what vertices and corners
 // have beside positions. Leaves out components of less than the share `debris` of the area.
 Input_mesh read_input_mesh(const std::string& path, Mending mending, bool with_attributes = false,
-                           double debris = 0);
+                           double debris = 0, const std::function<bool()>& keep_going = {});
 
 // A mesh that has been read, or was never in a file; `name` begins what is said of it. The repair
 // throws `Cancelled` when `keep_going` has returned false.

@@ -31,6 +31,11 @@ extern "C" inline void interrupt(int signal)
   std::signal(signal, SIG_DFL);
 }
 
+inline bool not_interrupted()
+{
+  return !interrupted;
+}
+
 inline void stop_if_interrupted()
 {
   if(interrupted)

@@ -101,7 +101,8 @@ public:
             "Eigenpairs: the number of eigenvectors must lie between 1 and the number of vertices ",
             n, ", but is ", K, ".");
     require(K <= coupled, "Eigenpairs: ", K, " eigenvectors are asked for, but only ", coupled,
-            " vertices are off the border, where functions vanish; ask for fewer.");
+            coupled == 1 ? " vertex is" : " vertices are",
+            " off the border, where functions vanish; ask for fewer.");
   }
 
   Eigen::Index size() const { return L().rows(); }
