@@ -935,6 +935,9 @@ class Command_line(Case):
             for word in re.findall(r"--[a-z-]+", ours):
                 if word not in ("--help", "--version", "--mask", "--save"):
                     self.assertIn(word, known)
+            for word, choices in re.findall(r"(--[a-z-]+) {([a-z_,]+)}", ours):
+                self.assertIn(f"{word} {choices.replace(',', '|')}", known)
+            self.assertNotIn("%%", ours)
 
     def test_what_cannot_be_meant(self):
         ss.write_mesh(self.path("in.off"), V, F)

@@ -89,6 +89,7 @@ TEST_CASE("Vertices to keep are more than the target: the run ends when nothing 
   CHECK(result.output_vertices < 2 * options.kept_vertices.size());
   CHECK(survivors(options.kept_vertices, input, mesh, result.restriction, result.vertex_map) == 81);
   CHECK(result.refusals.placement > 0);
+  CHECK_THAT(result.explanation, ContainsSubstring("constrain and keep less"));
 }
 
 TEST_CASE("Vertices to keep and edge constraints hold at the same time, in one stage or two")

@@ -64,3 +64,13 @@ macro(in_words_of_cgal)
   in_bibliography([[(Marfurt 1984, Ainsworth and Wajid 2010)]] [[\cgalCite{cgal:m-afd-84}, \cgalCite{cgal:aw-obs-10}]])
   in_bibliography([[…]] [[...]])
 endmacro()
+
+# References in the comments of a public header, `text`.
+macro(references_cited)
+  string(REGEX REPLACE ", \\*Spectral Mesh Simplification\\*, Computer Graphics Forum 39\\(2\\),[ \n/*]+2020"
+                       " \\\\cgalCite{cgal:lltjbo-sms-20}" text "${text}")
+  string(REGEX REPLACE "(Lescoat et al\\.) 2020" "\\1 \\\\cgalCite{cgal:lltjbo-sms-20}" text "${text}")
+  string(REPLACE "Ovsjanikov et al. 2012" "Ovsjanikov et al. \\cgalCite{cgal:obsbg-fm-12}" text "${text}")
+  string(REPLACE "Pinkall and Polthier 1993" "Pinkall and Polthier \\cgalCite{cgal:pp-cdms-93}" text "${text}")
+  string(REPLACE "Meyer et al. 2003" "Meyer et al. \\cgalCite{cgal:mdsb-ddg-03}" text "${text}")
+endmacro()

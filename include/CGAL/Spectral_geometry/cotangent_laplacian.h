@@ -202,8 +202,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::Mat
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm the mesh
-/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go
-/// through `CGAL::to_double`
+/// \param np an optional sequence of named parameters among the one below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the positions of the vertices, which `CGAL::to_double()` reads}
+///     \cgalParamType{a model of `ReadablePropertyMap` from vertices to points}
+///     \cgalParamDefault{the mesh's own map}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
 ///
 /// \throws std::invalid_argument that names the first face that is not a triangle, or the first
 ///         vertex with a coordinate that is not finite; faces and vertices are counted from 0 in
@@ -237,8 +244,16 @@ Mesh_matrices mesh_matrices(const TriangleMesh& tm,
 ///
 /// \tparam TriangleMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param tm   the mesh; rows and columns follow `vertices(tm)`
-/// \param mass averaged (default), lumped or voronoi
-/// \param np   named parameters: `vertex_point_map`
+/// \param mass the mass matrix
+/// \param np   an optional sequence of named parameters among the one below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the positions of the vertices, which `CGAL::to_double()` reads}
+///     \cgalParamType{a model of `ReadablePropertyMap` from vertices to points}
+///     \cgalParamDefault{the mesh's own map}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
 ///
 /// \throws std::invalid_argument as these two functions do
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>

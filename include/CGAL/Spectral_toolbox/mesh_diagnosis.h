@@ -130,8 +130,15 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Mesh_diagnosis diagnose_polygon_soup(
 ///
 /// \tparam PolygonMesh a model of `FaceListGraph` and `HalfedgeGraph`
 /// \param pm the mesh
-/// \param np named parameters: `vertex_point_map` (default: the internal one); coordinates go
-/// through `CGAL::to_double`
+/// \param np an optional sequence of named parameters among the one below
+///
+/// \cgalNamedParamsBegin
+///   \cgalParamNBegin{vertex_point_map}
+///     \cgalParamDescription{the positions of the vertices, which `CGAL::to_double()` reads}
+///     \cgalParamType{a model of `ReadablePropertyMap` from vertices to points}
+///     \cgalParamDefault{the mesh's own map}
+///   \cgalParamNEnd
+/// \cgalNamedParamsEnd
 template <class PolygonMesh, class NamedParameters = parameters::Default_named_parameters>
 Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm,
                              const NamedParameters& np = parameters::default_values())

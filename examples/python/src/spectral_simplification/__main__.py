@@ -2,8 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python3 -m spectral_simplification IN OUT --vertices N: the words of the program
-# spectral_simplify, and files of more formats.
+# python3 -m spectral_simplification IN OUT --vertices N: most words of the
+# program spectral_simplify, a mask, and files of more formats.
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def _arguments() -> argparse.ArgumentParser:
     add("OUT")
     add(
         "--vertices",
-        metavar="N|P%%",
+        metavar="N|P%",
         required=True,
         help="how many vertices OUT has, such as 600 or 3%%",
     )
@@ -46,7 +46,7 @@ def _arguments() -> argparse.ArgumentParser:
         help="how many to keep, the constant one included (100)",
     )
     add("--preset", choices=["best", "fast", "paper"], default="best")
-    add("--mass", choices=["lumped", "averaged", "voronoi"])
+    add("--mass", choices=["lumped", "averaged", "voronoi", "consistent"])
     add("--placement", choices=["on_edge", "midpoint", "free"])
     add("--shape", metavar="G", type=float, help="weight of the shape beside the spectrum")
     add("--self-intersections", choices=["allow", "refuse"])

@@ -29,8 +29,8 @@ namespace CGAL::Surface_mesh_simplification {
  * The error is \f$ \epsilon = \sqrt{E / \sum_k \lambda_k^2} \f$,
  * `Spectral_policies::relative_error()`: 0 for the input, independent of its scale and size, and
  * for the lumped mass an upper bound of the commutativity norm,
- * \f$ |C|_L \le \epsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of Lescoat
- * et al.).
+ * \f$ |C|_L \le \epsilon \sqrt{\sum_k \lambda_k^2} / |C| \f$ (section 4 and appendix B of
+ * Lescoat et al. 2020).
  *
  * *Choosing the bound.* With Weyl's law, \f$ \lambda_k \approx 4 \pi k \f$ at unit area, and \f$
  * |C| \approx \sqrt K \f$: \f$ |C|_L \le 7.3 K \epsilon \f$. In practice the norm is a tenth of

@@ -159,7 +159,7 @@ struct Spectral_options
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's;
   /// `averaged`, the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within
-  /// 1-2 %; `voronoi` is Meyer et al.'s; `consistent` is that of finite elements.
+  /// 1-2 %; `voronoi` is that of Meyer et al. 2003; `consistent` is that of finite elements.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
   /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of

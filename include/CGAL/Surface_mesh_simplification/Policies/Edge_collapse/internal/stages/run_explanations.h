@@ -74,9 +74,9 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
          to_string(Spectral_geometry::internal::boundary_edges(mesh.T).size()) + " border edges; " +
          (refusals.filter > refusals.topology && refusals.filter > refusals.crossing
               ? "ask for more vertices, or loosen the filter."
-          : refusals.crossing > refusals.topology
-              ? "ask for more vertices, or set keep_free_of_self_intersections to false."
-          : components > 1 || handles > 0
+          : refusals.crossing > refusals.topology && 2 * refusals.crossing > refusals.placement
+              ? "ask for more vertices, or allow self-intersections."
+          : refusals.topology >= refusals.placement && (components > 1 || handles > 0)
               ? "ask for more vertices, or take small components and handles away."
               : "ask for more vertices, or constrain and keep less.");
 }
@@ -111,8 +111,9 @@ inline void warn_of_error(std::vector<std::string>& warnings, const double relat
 {
   if(relative_error > 0.5)
     warnings.push_back("The relative error is " + std::to_string(relative_error) +
-                       ": more than half of the signals is lost; ask for more vertices, for fewer "
-                       "eigenvectors, or take small components away.");
+                       ": more than half of the signals is lost, or kept vertices have tiny "
+                       "faces; ask for more vertices, for fewer eigenvectors, keep fewer "
+                       "vertices, or take small components away.");
 }
 
 /// A connected component, and what a target needs for it.
