@@ -155,7 +155,7 @@ class Results_live(Case):
         self.assertEqual((given.mass, given.zeros, len(given)), ("averaged", 1, 40))
         # The solvers turn eigenvectors of equal eigenvalues differently: other mixtures, another run.
         run = ss.simplify(V, F, 150, 40, eigenpairs=given)
-        judged = ss.evaluate(V, F, run.V, run.F, run.P, 40, eigenpairs=given)
+        judged = ss.evaluate(V, F, run.V, run.F, run.P, eigenpairs=given)
         reference = ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40)
         self.assertLess(abs(judged.C_L - reference.C_L), 0.5 * reference.C_L)
         for mass in "lumped", "consistent":
@@ -803,6 +803,29 @@ class Collections(Case):
             rows[2].result
         np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
         self.assertEqual(rows[1].result.P.shape, (150, 642))
+
+    def test_repairs(self):
+        # A quadrilateral in the file, and a seam in the arrays.
+        with open(self.path("quad.off"), "w") as file:
+            print("OFF", len(V), len(F) - 1, 0, file=file)
+            np.savetxt(file, V, "%.17g")
+            a, b, c = F[0]
+            beside = next(i for i in range(1, len(F)) if {a, b} <= set(F[i]))
+            (d,) = set(F[beside]) - {a, b}
+            print(4, a, d, b, c, file=file)
+            for i in set(range(1, len(F))) - {beside}:
+                print(3, *F[i], file=file)
+        seam = np.vstack([V, V[F[0]]]), np.vstack([len(V) + np.arange(3), F[1:]])
+        meshes = [self.path("quad.off"), seam]
+        refused = ss.simplify_collection(meshes, 150, k=40, progress=False)
+        self.assertIn("repair=True", refused[0].error)
+        rows = ss.simplify_collection(meshes, 150, k=40, repair=True, progress=False)
+        self.assertEqual([row.error for row in rows], [None, None])
+        self.assertEqual([row.result.P.shape for row in rows], [(150, 642), (150, 645)])
+        self.assertEqual(rows[1].result.report["output_vertices"], 150)
+        for more in dict(keep=[1]), dict(shared_connectivity=True):
+            with self.assertRaisesRegex(ValueError, f"repair renumbers.*{[*more][0]}"):
+                ss.simplify_collection(meshes, 150, repair=True, progress=False, **more)
 
     def test_in_this_process_and_again(self):
         files, seen, out = self.files(), [], self.path("out")

@@ -21,7 +21,7 @@ import numpy
 
 from ._core import Wrong_type as _Wrong_type
 from ._interface import eigenpairs, simplify
-from ._meshes import clean, read_mesh
+from ._meshes import _OWN, clean, read_mesh
 from ._results import Level, Simplification, _integer, _Result, load
 
 _DIED = "the process that computed it died each time: it may need more memory."
@@ -67,10 +67,11 @@ class Collection_row(_Result):
         return f"<Collection_row: {self.name}, {self.error or f'{self.seconds:.1f} s'}>"
 
 
-def _taken(mesh: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """V and F of an item, which may be a file's name."""
+def _taken(mesh: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """V and F of an item, which may be a file's name. A repair is of the file where it may hold
+    polygons, otherwise left to clean()."""
     if isinstance(mesh, (str, os.PathLike)):
-        return read_mesh(mesh)
+        return read_mesh(mesh, repair and pathlib.Path(mesh).suffix.lower() in _OWN)
     if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
         raise _Wrong_type(
             f"a mesh is of the type {type(mesh).__name__}, it must be the name of a file or a "
@@ -80,14 +81,14 @@ def _taken(mesh: Any) -> tuple[numpy.ndarray, numpy.ndarray]:
     return numpy.asarray(V), numpy.asarray(F)
 
 
-def _one(mesh: Any, n: int, options: dict[str, Any]) -> Simplification:
+def _one(mesh: Any, n: int, repair: bool, options: dict[str, Any]) -> Simplification:
     """A mesh as it comes: cleaned as the programs do, and numbered as it came."""
-    V, F = _taken(mesh)
+    V, F = _taken(mesh, repair)
     if options.get("mask") is not None or any(
         options.get(name) is not None for name in ("keep", "signals", "coefficients")
     ):
         return simplify(V, F, n, **options)  # these number the vertices as they come
-    cleaned = clean(V, F)
+    cleaned = clean(V, F, repair)
     run = simplify(cleaned.V, cleaned.F, n, **options)
     return (
         run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin)
@@ -267,6 +268,7 @@ def simplify_collection(
     *,
     workers: Any = 1,
     shared_connectivity: bool = False,
+    repair: bool = False,
     progress: bool | Callable[[int, Any, str], Any] | None = None,
     **options: Any,
 ) -> list[Collection_row]:
@@ -293,6 +295,9 @@ def simplify_collection(
         All meshes have the same faces, as poses of one figure: the results have one connectivity,
         too, and vertex i of them is in the same place. The merges are decided by the eigenvectors
         of all, and each result is relocated for its own.
+    repair : bool
+        Does what --repair does to each mesh. Results of files are numbered as
+        read_mesh(name, repair=True) numbers these.
     progress : bool or function, optional
         True: a bar on stderr, the default at a terminal. A function gets how many are done, of
         how many, or None, and the name; where it returns False the call ends, with Cancelled, and
@@ -333,6 +338,18 @@ def simplify_collection(
             f"workers is {workers!r}, it must be 1 or more, 'all', an address or a "
             "distributed.Client."
         )
+    if not isinstance(repair, bool):
+        raise _Wrong_type(f"repair is {repair!r}, it must be True or False.")
+    numbering = [
+        name
+        for name in ("mask", "keep", "signals", "coefficients")
+        if options.get(name) is not None
+    ]
+    if repair and (shared_connectivity or numbering):
+        raise ValueError(
+            f"repair renumbers vertices, and {(numbering or ['shared_connectivity'])[0]} needs them "
+            "as they come: repair first."
+        )
     import inspect
 
     for name in options:
@@ -347,6 +364,7 @@ def simplify_collection(
         settings = {
             "n": n,
             "shared_connectivity": shared_connectivity,
+            **({"repair": True} if repair else {}),
             **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"},
         }
         kept = folder / "settings.json"
@@ -415,7 +433,7 @@ def simplify_collection(
             for i, mesh in enumerate(meshes):
                 named(i, mesh)
                 if not there(i):
-                    yield i, _one, (mesh, n, options)
+                    yield i, _one, (mesh, n, repair, options)
 
         for i, result, error, seconds in _scheduled(tasks(), workers):
             ended(i, result, error, seconds)

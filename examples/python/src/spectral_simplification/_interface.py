@@ -76,7 +76,7 @@ def simplify(
         signals has columns
     preset : str
         'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 30 n, at least
-        10000; 'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification,
+        10000, and filtered noise in place of eigenvectors; 'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification,
         2020). Each of the next five, quadrics_above and pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
@@ -112,7 +112,7 @@ def simplify(
         what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
     quadrics_above : float, optional
         while there are more than this many times n vertices, collapse edges by quadrics alone:
-        much faster, and as good (best, fast: 15, paper: infinity, never). Levels above that are
+        much faster, and as good (best: 15, fast: 7, paper: infinity, never). Levels above that are
         those of quadrics
     pre_simplify : int, optional
         first reduce a larger mesh to this number of vertices by quadrics alone; 0: do not. None:
@@ -134,8 +134,8 @@ def simplify(
         'neumann' or 'dirichlet': on the border the derivative of functions across it is zero, or
         they are
     threads : int, optional
-        for eigenpairs, costs and relocation, all cores by default and at most; the result does
-        not depend on it
+        for eigenpairs and relocation, all cores by default and at most; the result does not depend
+        on it
     progress : function, optional
         is called with a phase and the fraction of it that is done, at most twenty times a second;
         raises Cancelled where it returns False. Ctrl-C raises KeyboardInterrupt without it
@@ -351,7 +351,7 @@ def evaluate(
     Vc: numpy.ndarray,
     Fc: numpy.ndarray,
     P: scipy.sparse.csr_matrix,
-    k: int = 100,
+    k: int | None = None,
     mass: str = 'averaged',
     *,
     eigenpairs: Eigenpairs | None = None,
@@ -376,8 +376,8 @@ def evaluate(
     P : csr_matrix
         (vc, v) sparse matrix that carries functions from fine to coarse, rows that sum to 1. After
         mask= V, F are those of run.part(), and P is run.P[:, run.used]
-    k : int
-        modes to judge
+    k : int, optional
+        modes to judge: as many as eigenpairs has, or 100
     mass : str
         'lumped', 'averaged', 'consistent' or 'voronoi', of both operators
     eigenpairs : Eigenpairs, optional
@@ -407,6 +407,8 @@ def evaluate(
     Cancelled
         Where progress returns False.
     """
+    if k is None:
+        k = numpy.size(getattr(eigenpairs, "values", ())) or 100
     return Evaluation._from_state(_core.evaluate(locals()))
 
 
