@@ -349,7 +349,7 @@ function(helpers_of result needs_simplification file)
   set(${needs_simplification} ${needs} PARENT_SCOPE)
 endfunction()
 
-# Each test is a program; Spectral_test.h stands for Catch2. Those of the programs stay behind, and OpenMesh's.
+# Each test is a program; Spectral_test.h stands for Catch2. Those of programs and pages stay behind, and OpenMesh's.
 function(copy_test file folder name)
   file(READ "${root}/test/${file}" text)
   string(REPLACE "#include \"catch.h\"" "#include \"Spectral_test.h\"" text "${text}")
@@ -362,7 +362,7 @@ endfunction()
 file(GLOB tests RELATIVE "${root}/test" "${root}/test/test_*.cpp")
 foreach(test IN LISTS tests)
   file(READ "${root}/test/${test}" text)
-  if(text MATCHES "#include [<\"](\\.\\./examples/programs/|OpenMesh/|spectra_eigenpairs\\.h)")
+  if(text MATCHES "#include [<\"](\\.\\./examples/programs/|OpenMesh/|spectra_eigenpairs\\.h)|SPECTRAL_SOURCE_DIR")
     continue()
   endif()
   helpers_of(helpers needs_simplification "${test}")

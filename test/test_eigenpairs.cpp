@@ -648,9 +648,7 @@ TEST_CASE("Two thousand random scenes: what has no small residual is reported", 
 {
   std::mt19937 random(1);
   const auto below = [&](const int n) { return int(random() % unsigned(n)); };
-  int solves = 0, reported = 0;
-  double worst_residual = 0, worst_value = 0;
-  while(solves < 2000) {
+  for(int solves = 0; solves < 2000; ++solves) {
     const int subdivisions = below(3), most[] = {400, 100, 25};
     const shapes::Matrices part = shapes::icosphere_matrices(subdivisions);
     const int copies = 1 + below(below(2) == 0 ? 8 : most[subdivisions]);
@@ -666,22 +664,14 @@ TEST_CASE("Two thousand random scenes: what has no small residual is reported", 
     const bool whole = n > 1000 || below(4) != 0;
     const Eigenpairs pairs =
         whole ? SG::eigenpairs(op, K) : SG::internal::pairs_of_part(problem, K, {});
-    ++solves;
-    const double residual = problem.residuals(pairs).maxCoeff();
-    if(!pairs.complete) {
-      ++reported;
-      continue;
-    }
+    if(!pairs.complete)
+      continue; // reported
     const Eigen::ArrayXd values = expected.head(K).array();
     const double error =
         ((pairs.values.array() - values).abs() / (values + problem.scale())).maxCoeff();
-    CHECK(residual <= 10. * SG::Eigenpairs_options().tolerance);
+    CHECK(problem.residuals(pairs).maxCoeff() <= 10. * SG::Eigenpairs_options().tolerance);
     CHECK(error < 1e-8);
-    worst_residual = (std::max)(worst_residual, residual);
-    worst_value = (std::max)(worst_value, error);
   }
-  WARN(solves << " solves, " << reported << " reported; of the others the largest residual is "
-              << worst_residual << ", the largest error of a value " << worst_value);
 }
 
 TEST_CASE("The Dirichlet problem is that of the rows off the border")
