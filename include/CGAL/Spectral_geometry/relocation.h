@@ -37,6 +37,11 @@ when \f$ \widetilde\lambda_i \f$ does, although these eigenvalues are too low al
 lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and
 nothing of the fine one.
 
+Nor does the residual speak for how area is spread over the mesh, which distances and heat kernels
+depend on. Inner products of signals that are `sampled` are therefore drawn to those on the fine
+mesh, `Relocation_energy::keep_inner_products()`; without coefficients alone, since the density of
+the fine mesh is not known here, and not where `smoothing` is 0.
+
 Made for the averaged mass. With the lumped mass (theta = 0) the leading error of the elements has
 the size of what is to be repaired, and a descent cancels it by distorting the shape.
 
@@ -144,6 +149,8 @@ public:
     if(m_options.keep_hausdorff_distance)
       measure_fine();
   }
+
+  bool keeps_inner_products() const { return m_keeps_inner_products; }
 
   Positions run(Relocation_result& result)
   {
@@ -349,11 +356,16 @@ private:
             own.push_back({m_border.end(s, 0), m_border.end(s, 1)});
         m_guards.keep_on(Eigen::Index(v), own);
       }
-    if(m_options.signals != Relocation_options::Signals::carried)
-      m_guards.set_leaps(
-          [this](const Eigen::Index v, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-            return m_followed->leaps(v, from, to);
-          });
+    if(m_options.signals != Relocation_options::Signals::carried) {
+      std::vector<char> beside(std::size_t(m_start.rows()));
+      for(Eigen::Index v = 0; v < m_start.rows(); ++v)
+        beside[std::size_t(v)] = m_followed->is_beside_another_part(v, m_start.row(v));
+      m_guards.set_leaps([this, beside](const Eigen::Index v, const Eigen::Vector3d& from,
+                                        const Eigen::Vector3d& to) {
+        return m_followed->leaps(v, from, to) ||
+               (!beside[std::size_t(v)] && m_followed->is_beside_another_part(v, to));
+      });
+    }
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
         return ((*m_followed)(v, p).point - p).norm() <= m_options.largest_distance;
@@ -369,10 +381,14 @@ private:
     if(m_options.signals != Relocation_options::Signals::carried)
       m_sampled =
           std::make_unique<Surface_signals>(m_fine, *m_followed, m_F, m_Z, m_options.threads);
+    const double tau = largest > 0 ? m_options.smoothing / largest : 0.;
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
-        m_options.signals != Relocation_options::Signals::sampled,
-        largest > 0 ? m_options.smoothing / largest : 0., m_options);
+        m_options.signals != Relocation_options::Signals::sampled, tau, m_options);
+    m_keeps_inner_products =
+        m_limits.keep_inner_products && m_sampled && tau > 0 && m_op.coefficients.rows() == 0;
+    if(m_keeps_inner_products)
+      m_objective->keep_inner_products(laplace_operator(m_fine.V, m_fine.T, m_op), m_F);
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and
@@ -484,6 +500,7 @@ private:
   std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
   double m_furthest = 0;               // the largest distance then
   std::size_t m_reverted = 0;          // vertices that went back, and stay
+  bool m_keeps_inner_products = false;
 };
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
@@ -495,14 +512,18 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
   Relocation_result result;
   Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
   const Eigen::MatrixXd moved = relocation.run(result);
+  // Nothing gained: without inner products and with half the weight of eigenvalues, then with none.
+  const bool eigenvalues = options.eigenvalues.size() > 0 && options.eigenvalue_error > 0;
   if(result.stop_reason == Relocation_result::Stop_reason::no_gain && result.norm_before > 0 &&
-     options.eigenvalues.size() > 0 && options.eigenvalue_error > 0) {
+     (relocation.keeps_inner_products() || eigenvalues)) {
     Relocation_options without = options;
-    without.eigenvalue_error = 0;
+    Relocation_limits fewer = limits;
+    fewer.keep_inner_products = false;
+    without.eigenvalue_error *= relocation.keeps_inner_products() ? std::sqrt(2.) : 0.;
     without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
     if(options.progress) // a fraction never decreases
       without.progress = [&](double) { return options.progress(1.); };
-    Relocation_result second = relocate_within(V, T, P, fine, F, Z, op, fixed, without, limits);
+    Relocation_result second = relocate_within(V, T, P, fine, F, Z, op, fixed, without, fewer);
     second.seconds += result.seconds;
     return second;
   }

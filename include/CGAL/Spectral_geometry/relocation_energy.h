@@ -14,6 +14,7 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -56,6 +57,15 @@ them. With \f$ \tau \f$ near \f$ 1/\lambda_K \f$ the denominator takes them out.
 E \f$ keeps E from rising. With \f$ \tau = 0 \f$ the first term is left out: S is \f$ \mu E \f$.
 
 The signals may be given (carried by a restriction), depend on the positions, or both: S is the sum.
+
+S does not see how area is spread over the mesh: a commutator of C is as small where all of a column
+is too large. Distances and heat kernels do, they are sums of squared eigenvectors. Of signals that
+depend on the positions `keep_inner_products()` therefore adds \f[ \nu \sum_p \left\| \frac{F_p^\top
+B F_p}{\mathrm{tr} M} - T_p \right\|^2 \Big/ \sum_p (\mathrm{tr}\, T_p)^2 \f] with \f$ F_p \f$ 32
+signals each and \f$ T_p \f$ what they should be: on the fine mesh \f[ T = F^\top \Big( B -
+\frac{\theta\, \mathrm{tr} M}{4 \sqrt 3\, n} L \Big) F \Big/ \mathrm{tr} M, \f] since an even mesh
+of n vertices, edges of length h, finds \f$ 1 - \theta \lambda h^2 / 8 \f$ for the square of a unit
+eigenvector that is read off at its vertices.
 
 The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each
 triangle into derivatives with respect to its three cotangents and its area, and go on from there to
@@ -113,6 +123,25 @@ public:
   /// The weight of E; the gradient follows.
   void set_mu(const double mu) { m_mu = mu; }
 
+  /// Adds nu times the differences of inner products of moving signals to S; F, fine x K: these
+  /// signals on the fine mesh.
+  void keep_inner_products(const Laplace_operator& fine, const Eigen::MatrixXd& F, const double nu)
+  {
+    internal::require(F.rows() == fine.B.rows(), "relocation: F has ", F.rows(),
+                      " rows, but the fine mesh has ", fine.B.rows(),
+                      " vertices; pass one row for each.");
+    m_inner_products.clear();
+    const double area = fine.mass.sum(), lost = m_geometry.local_operator().theta * area /
+                                                (4 * std::sqrt(3.) * double(number_of_vertices()));
+    double size = 0;
+    for(Index first = 0; first < F.cols(); first += width) {
+      const Eigen::MatrixXd f = panel(F, first);
+      m_inner_products.push_back(f.transpose() * (fine.B * f - lost * (fine.L * f)) / area);
+      size += std::pow(m_inner_products.back().trace(), 2);
+    }
+    m_nu = size > 0 ? nu / size : 0.;
+  }
+
   /// Threads to use, from 1; no result depends on them.
   void set_threads(const int threads) { m_threads = threads; }
 
@@ -152,9 +181,9 @@ private:
   // What 32 signals add, and the memory to find it.
   struct Work
   {
-    double smoothed, plain;
+    double smoothed, plain, inner = 0;
     Entries derivatives;
-    Panel Y, X, multiplier, scratch;
+    Panel Y, X, multiplier, scratch, BF, by_F;
   };
 
   double evaluate(const Positions& V, Positions* gradient)
@@ -171,21 +200,29 @@ private:
       by_Z.resize(F.rows(), F.cols());
     }
     const int given = int(m_given.size()), moving = int((F.cols() + width - 1) / width);
+    internal::require(m_nu == 0 || m_inner_products.size() == std::size_t(moving),
+                      "relocation: there are ", F.cols(), " moving signals, but inner products of ",
+                      "another number; pass the same signals to keep_inner_products().");
     m_work.resize(std::size_t(given + moving));
     internal::for_each_task(given + moving, m_threads, [&](const int i) {
       Work& work = m_work[std::size_t(i)];
       if(i < given)
         return add(m_given[std::size_t(i)], gradient != nullptr, work);
       const Index first = Index(i - given) * width;
-      add({panel(F, first), panel(Z, first)}, gradient != nullptr, work);
+      const Signals signals = {panel(F, first), panel(Z, first)};
+      add(signals, gradient != nullptr, work);
       if(gradient)
         internal::on_vector_units([&] { add_linear(first, work, by_F, by_Z); });
+      if(m_nu > 0)
+        add_inner_products(first, signals.F, gradient != nullptr, work, by_F);
     });
     m_smoothed = m_plain = 0;
+    double inner = 0;
     Entries derivatives = m_geometry.zero_entries();
     for(const Work& work : m_work) {
       m_smoothed += work.smoothed;
       m_plain += work.plain;
+      inner += work.inner;
       if(gradient)
         derivatives += work.derivatives;
     }
@@ -197,7 +234,40 @@ private:
       }
       m_geometry.add_gradient(derivatives, V, *gradient);
     }
-    return m_smoothed + m_mu * m_plain;
+    return m_smoothed + m_mu * m_plain + m_nu * inner;
+  }
+
+  // With a = tr M, G = F^T B F / a and D = G - T: d|D|^2 = 2 D . (2 F^T B dF + F^T dB F - G da) /
+  // a.
+  void add_inner_products(const Index first, const Panel& F, const bool derive, Work& work,
+                          Rows& by_F) const
+  {
+    Panel& BF = work.BF;
+    BF = m_entries.B_diagonal.asDiagonal() * F;
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      BF.row(i) += m_entries.B(Index(e)) * F.row(j);
+      BF.row(j) += m_entries.B(Index(e)) * F.row(i);
+    }
+    const double area = m_entries.mass.sum();
+    const Eigen::MatrixXd G = F.transpose() * BF / area,
+                          D = G - m_inner_products[std::size_t(first / width)];
+    work.inner = D.squaredNorm();
+    if(!derive)
+      return;
+    const Eigen::MatrixXd by_G = 2 * m_nu / area * D;
+    const Index columns = (std::min)(Index(width), by_F.cols() - first);
+    work.by_F = 2 * BF * by_G;
+    by_F.middleCols(first, columns) += work.by_F.leftCols(columns);
+    Entries& d = work.derivatives;
+    d.mass.array() -= by_G.cwiseProduct(G).sum();
+    work.by_F = F * by_G;
+    for(Index w = 0; w < number_of_vertices(); ++w)
+      d.B_diagonal(w) += F.row(w).dot(work.by_F.row(w));
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      d.B(Index(e)) += 2 * F.row(i).dot(work.by_F.row(j));
+    }
   }
 
   void clear_vanishing(Rows& rows) const
@@ -416,7 +486,8 @@ private:
   std::vector<Signals> m_given;
   Entries m_entries;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
-  double m_smoothed = 0, m_plain = 0;
+  double m_smoothed = 0, m_plain = 0, m_nu = 0;
+  std::vector<Eigen::MatrixXd> m_inner_products; // of the fine mesh, of 32 signals each
   int m_threads = 1;
   std::vector<Work> m_work;
 };
