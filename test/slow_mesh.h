@@ -5,7 +5,7 @@
 #ifndef SPECTRAL_TEST_SLOW_MESH_H
 #define SPECTRAL_TEST_SLOW_MESH_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 
 #include "spectral_test_helpers.h"
 

@@ -4,7 +4,7 @@
 
 // Strategy (iii), a placement off the edge, against the slow mesh.
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_placement_search.h>
 
 #include "catch.h"
 #include "core_helpers.h"

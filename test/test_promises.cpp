@@ -66,10 +66,8 @@ SMS::Spectral_options options_of(const Source source, const shapes::Matrices& in
 {
   SMS::Spectral_options options;
   options.number_of_eigenvectors = 20;
-  if(source == Source::noise) {
+  if(source == Source::noise)
     options.source = SMS::Spectral_signal_source::filtered_noise;
-    options.number_of_relocation_signals = 64;
-  }
   if(source == Source::own_signals) {
     const SG::Eigenpairs pairs =
         SG::eigenpairs(SG::laplace_operator(input.V, input.T, options.mass), 20);

@@ -133,8 +133,8 @@ inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
-closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& surface)
+Eigen::SparseMatrix<double> closest_point_interpolation(const Eigen::MatrixXd& points,
+                                                        const Mesh_matrices& surface)
 {
   using internal::require;
   require(points.rows() == 0 || points.cols() == 3, "closest_point_interpolation: the points have ",
@@ -148,25 +148,25 @@ closest_point_interpolation(const Eigen::MatrixXd& points, const Mesh_matrices& 
                                  [&](const Eigen::Index i) { return closest(points.row(i)); });
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
-closest_point_restriction(const Mesh_matrices& coarse, const Mesh_matrices& fine)
+Eigen::SparseMatrix<double> closest_point_restriction(const Mesh_matrices& coarse,
+                                                      const Mesh_matrices& fine)
 {
   internal::check_surface(coarse, "closest_point_restriction: ", "coarse mesh");
   internal::check_surface(fine, "closest_point_restriction: ", "fine mesh");
   return internal::Row_follower(coarse, fine, closest_point_interpolation(coarse.V, fine)).run().P;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
-closest_point_prolongation(const Mesh_matrices& fine, const Mesh_matrices& coarse,
-                           const Eigen::SparseMatrix<double>& P)
+Eigen::SparseMatrix<double> closest_point_prolongation(const Mesh_matrices& fine,
+                                                       const Mesh_matrices& coarse,
+                                                       const Eigen::SparseMatrix<double>& P)
 {
   internal::check_pair(coarse, fine, P, "closest_point_prolongation: ");
   return internal::Surface_regions(coarse, fine, P).prolongation();
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE std::vector<Eigen::Index>
-rows_off_their_part(const Mesh_matrices& coarse, const Mesh_matrices& fine,
-                    const Eigen::SparseMatrix<double>& P)
+std::vector<Eigen::Index> rows_off_their_part(const Mesh_matrices& coarse,
+                                              const Mesh_matrices& fine,
+                                              const Eigen::SparseMatrix<double>& P)
 {
   internal::check_pair(coarse, fine, P, "rows_off_their_part: ");
   return internal::Row_follower(coarse, fine, P).run().off;

@@ -276,7 +276,7 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::a
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
+Eigen::Index number_of_zero_eigenvalues(const Laplace_operator& op)
 {
   using Entry = Eigen::SparseMatrix<double>::InnerIterator;
   const double rounding = 1e-6; // of a row's sum, relative to its entries
@@ -291,7 +291,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
                         size = op.L.cwiseAbs() * ones;
   std::vector<char> kernel;
   for(Eigen::Index v = 0; v < op.L.cols(); ++v) {
-    const std::size_t c = std::size_t(component[std::size_t(v)]);
+    const std::size_t c = std::size_t(component[v]);
     kernel.resize((std::max)(kernel.size(), c + 1), true);
     kernel[c] = kernel[c] && std::abs(sum(v)) <= rounding * size(v);
   }
@@ -320,7 +320,7 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
+void check_positions(const Eigen::MatrixXd& V)
 {
   require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ",
           V.cols(), " columns.");
@@ -329,7 +329,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V)
             " has a coordinate that is not a finite number; repair or remove it.");
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
+void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
 {
   require(T.cols() == 3 && T.rows() != 0,
           "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T),
@@ -344,8 +344,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eig
   }
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op,
-                                                        const Eigen::Index n)
+void check_local_operator(const Local_operator& op, const Eigen::Index n)
 {
   require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ",
           op.theta, ".");
@@ -389,7 +388,7 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
   return t;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
+void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
 {
   for(Eigen::Index v = 0; v < mass.size(); ++v) {
     require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ",
@@ -405,7 +404,7 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass, const
 // See `Boundary_condition`.
 inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& op)
 {
-  const auto on_border = [&](const Eigen::Index v) { return border[std::size_t(v)] != 0; };
+  const auto on_border = [&](const Eigen::Index v) { return border[v] != 0; };
   const double unit = op.L.diagonal().cwiseAbs().mean() / std::sqrt(12.);
   const double beyond = 100 * std::acos(-1.) * double(op.L.rows()) * unit / op.mass.sum();
   for(Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
@@ -424,15 +423,13 @@ inline void impose_dirichlet(const std::vector<char>& border, Laplace_operator& 
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p,
-                                                                      const Eigen::Vector3d& q,
-                                                                      const Eigen::Vector3d& r)
+Triangle_cotangents triangle_cotangents(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                        const Eigen::Vector3d& r)
 {
   return internal::cotangents_of(p, q, r, {});
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V,
-                                                                        const Eigen::MatrixXi& T)
+Eigen::MatrixXd barycentric_corner_masses(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
@@ -442,9 +439,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd barycentric_corner_masses(const Ei
   return corner_masses;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator
-laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                 const Eigen::MatrixXd& corner_masses, double theta)
+Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                  const Eigen::MatrixXd& corner_masses, double theta)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());
@@ -456,9 +452,8 @@ laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
   });
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Laplace_operator laplace_operator(const Eigen::MatrixXd& V,
-                                                                const Eigen::MatrixXi& T,
-                                                                const Local_operator& op)
+Laplace_operator laplace_operator(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                  const Local_operator& op)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());

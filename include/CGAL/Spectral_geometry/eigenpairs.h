@@ -200,9 +200,8 @@ bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& opti
   return failed.count == 0;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& problem,
-                                                       const Eigen::Index K,
-                                                       const Eigenpairs_options& options)
+Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
+                         const Eigenpairs_options& options)
 {
   Eigenpairs result;
   std::string reason;
@@ -247,7 +246,7 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
   const Eigen::Index n = op.L.rows();
   std::vector<char> vanishes(std::size_t(n), 0);
   for(const int v : op.vanishing_vertices)
-    vanishes[std::size_t(v)] = 1;
+    vanishes[v] = 1;
   const std::vector<Eigen::Index> component = connected_components(n, [&](const auto& join) {
     for(const Eigen::SparseMatrix<double>* matrix : {&op.L, &op.B})
       for(Eigen::Index j = 0; j < n; ++j)
@@ -257,9 +256,9 @@ inline std::vector<std::vector<int>> parts_of(const Laplace_operator& op)
   });
   std::vector<std::vector<int>> result;
   for(Eigen::Index v = 0; v < n; ++v) {
-    const std::size_t c = std::size_t(component[std::size_t(v)]);
+    const std::size_t c = std::size_t(component[v]);
     result.resize((std::max)(result.size(), c + 1));
-    if(!vanishes[std::size_t(v)])
+    if(!vanishes[v])
       result[c].push_back(int(v));
   }
   result.erase(
@@ -346,7 +345,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
         order.push_back({pairs[p].values(k), p, k});
     std::stable_sort(order.begin(), order.end());
     if(Eigen::Index(order.size()) >= K)
-      bound = order[std::size_t(K - 1)].value;
+      bound = order[K - 1].value;
   }
   Eigenpairs result{Eigen::VectorXd(K), Eigen::MatrixXd::Zero(problem.size(), K),
                     Eigen::VectorXd(K), "dense", true};
@@ -356,7 +355,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
     result.complete = result.complete && part.complete;
   }
   for(Eigen::Index k = 0; k < K; ++k) {
-    const Part_pair& from = order[std::size_t(k)];
+    const Part_pair& from = order[k];
     result.values(k) = from.value;
     result.residuals(k) = pairs[from.part].residuals(from.k);
     for(std::size_t i = 0; i < parts[from.part].size(); ++i)
@@ -392,8 +391,7 @@ inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* 
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
-                                                    const Eigenpairs_options& options)
+Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K, const Eigenpairs_options& options)
 {
   const internal::Eigen_problem problem(op, options.progress);
   problem.check(K);
@@ -412,10 +410,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, 
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L,
-                                                    const Eigen::SparseMatrix<double>& B,
-                                                    Eigen::Index K,
-                                                    const Eigenpairs_options& options)
+Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L, const Eigen::SparseMatrix<double>& B,
+                      Eigen::Index K, const Eigenpairs_options& options)
 {
   internal::check_pencil(L, "L");
   internal::check_pencil(B, "B");

@@ -256,7 +256,7 @@ private:
     m_roots = permuted(m_op.B, m_factor.order());
     m_rest = Eigen::VectorXd::Zero(m_problem.size());
     for(Index i = 0; i < m_problem.size(); ++i) {
-      const int v = m_factor.order()[std::size_t(i)];
+      const int v = m_factor.order()[i];
       double rest = 0., diagonal = 0.;
       for(Sparse_matrix::InnerIterator it(m_roots, i); it; ++it) {
         rest += it.row() == i ? it.value() : -std::abs(it.value());
@@ -274,19 +274,20 @@ private:
   // b = factor B w / sqrt(r), eight columns.
   void make_noise(Index panel, double factor, Panel& b) const
   {
+    using Row = Eigen::Array<double, panel_width, 1>;
     const Signs signs(m_options.seed, panel);
     factor /= std::sqrt(double(m_options.signals));
     for_each_range([&](Index first, Index last) {
       for(Index i = first; i < last; ++i) {
-        const int v = m_factor.order()[std::size_t(i)];
-        Panel_row sum = m_rest[i] * Panel_row::Map(signs(v, v));
+        const int v = m_factor.order()[i];
+        Row sum = m_rest[i] * Row::Map(signs(v, v));
         for(Sparse_matrix::InnerIterator it(m_roots, i); it; ++it) {
           // One end of a pair of negative mass has the other sign.
-          const int u = m_factor.order()[std::size_t(it.row())];
+          const int u = m_factor.order()[it.row()];
           const double root = u > v ? it.value() : std::abs(it.value());
-          sum += root * Panel_row::Map(signs(u, v));
+          sum += root * Row::Map(signs(u, v));
         }
-        Panel_row::Map(b.row(i)) = factor * sum;
+        Row::Map(b.row(i)) = factor * sum;
       }
     });
   }
@@ -335,7 +336,7 @@ private:
                     columns = (std::min)(Index(panel_width), r - column);
         for(Index i = first; i < end; ++i)
           for(Index c = 0; c < columns; ++c) {
-            const int v = m_factor.order()[std::size_t(i)];
+            const int v = m_factor.order()[i];
             result.F(v, column + c) = x.row(i)[c];
             result.Z(v, column + c) = s * (y.row(i)[c] - x.row(i)[c]);
           }
@@ -391,14 +392,14 @@ inline void check_filtered_signals_options(const Filtered_signals_options& optio
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double Filtered_signals::response(double lambda) const
+double Filtered_signals::response(double lambda) const
 {
   const double x = shift / (lambda + shift);
   return x * x * coefficients.dot(internal::Low_pass::chebyshev(x, coefficients.size()));
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Filtered_signals filtered_signals(
-    const Laplace_operator& op, Eigen::Index K, const Filtered_signals_options& options)
+Filtered_signals filtered_signals(const Laplace_operator& op, Eigen::Index K,
+                                  const Filtered_signals_options& options)
 {
   internal::check_filtered_signals_options(options);
   const internal::Eigen_problem problem(op, options.progress);

@@ -312,9 +312,10 @@ inline void check_pairs(const char* which, const Laplace_operator& op, const Eig
 
 } // namespace internal
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-functional_map(const Eigen::MatrixXd& coarse_vectors, const Eigen::SparseMatrix<double>& coarse_B,
-               const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& fine_vectors)
+Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
+                               const Eigen::SparseMatrix<double>& coarse_B,
+                               const Eigen::SparseMatrix<double>& P,
+                               const Eigen::MatrixXd& fine_vectors)
 {
   internal::check_dimension("the number of columns of P", P.cols(), fine_vectors.rows());
   internal::check_dimension("the number of rows of P", P.rows(), coarse_vectors.rows());
@@ -325,17 +326,16 @@ functional_map(const Eigen::MatrixXd& coarse_vectors, const Eigen::SparseMatrix<
   return coarse_vectors.transpose() * weighted;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-unit_area_functional_map(const Eigen::MatrixXd& C, double fine_area, double coarse_area)
+Eigen::MatrixXd unit_area_functional_map(const Eigen::MatrixXd& C, double fine_area,
+                                         double coarse_area)
 {
   internal::require(fine_area > 0 && coarse_area > 0,
                     "functional map: an area is not positive, pass the sums of the masses.");
   return std::sqrt(fine_area / coarse_area) * C;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double
-laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values,
-                             const Eigen::VectorXd& coarse_values)
+double laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fine_values,
+                                    const Eigen::VectorXd& coarse_values)
 {
   internal::check_dimension("the number of fine eigenvalues", fine_values.size(), C.cols());
   internal::check_dimension("the number of coarse eigenvalues", coarse_values.size(), C.rows());
@@ -347,13 +347,12 @@ laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::VectorXd& fi
   return (C * fine_values.asDiagonal() - coarse_values.asDiagonal() * C).norm() / norm;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_norm(const Eigen::MatrixXd& C)
+double orthonormality_norm(const Eigen::MatrixXd& C)
 {
   return (C.transpose() * C - Eigen::MatrixXd::Identity(C.cols(), C.cols())).norm();
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double commutativity_floor(double theta, Eigen::Index K,
-                                                         Eigen::Index N)
+double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N)
 {
   const double k = static_cast<double>(K), n = static_cast<double>(N);
   const double wave = 4 * CGAL_PI, h2 = 2 / (std::sqrt(3.) * n);
@@ -363,25 +362,22 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double commutativity_floor(double theta, Eigen::In
   return std::hypot(first, second);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_floor(double theta, Eigen::Index K,
-                                                          Eigen::Index N)
+double orthonormality_floor(double theta, Eigen::Index K, Eigen::Index N)
 {
   const double k = static_cast<double>(K);
   return CGAL_PI / 3 * theta * k * std::sqrt(k) / static_cast<double>(N);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double internal::residual_energy(const Laplace_operator& coarse,
-                                                               const Eigen::MatrixXd& PF,
-                                                               const Eigen::MatrixXd& PZ)
+double internal::residual_energy(const Laplace_operator& coarse, const Eigen::MatrixXd& PF,
+                                 const Eigen::MatrixXd& PZ)
 {
   const Eigen::MatrixXd difference = coarse.B * PZ - coarse.L * PF;
   return (difference.rowwise().squaredNorm().array() / coarse.mass.array()).sum();
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& coarse,
-                                                        const Eigen::SparseMatrix<double>& P,
-                                                        const Eigen::Ref<const Eigen::MatrixXd>& F,
-                                                        const Eigen::Ref<const Eigen::MatrixXd>& Z)
+double restriction_energy(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
+                          const Eigen::Ref<const Eigen::MatrixXd>& F,
+                          const Eigen::Ref<const Eigen::MatrixXd>& Z)
 {
   internal::check_dimension("the number of rows of P", P.rows(), coarse.L.rows());
   internal::check_dimension("the number of rows of F", F.rows(), P.cols());
@@ -390,11 +386,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double restriction_energy(const Laplace_operator& 
   return internal::residual_energy(coarse, P * F, P * Z);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine,
-                                                                  const Eigen::VectorXd& coarse,
-                                                                  Eigen::Index first,
-                                                                  Eigen::Index last,
-                                                                  Eigen::Index zeros)
+Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& coarse,
+                                    Eigen::Index first, Eigen::Index last, Eigen::Index zeros)
 {
   first = (std::max)(first, zeros);
   last = (std::min)({last, fine.size(), coarse.size()});
@@ -410,9 +403,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenvalue_errors eigenvalue_errors(const Eigen::V
   return errors;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation evaluate_spectrum(
-    const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
-    const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K)
+Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                                      const Laplace_operator& coarse,
+                                      const Eigenpairs& coarse_pairs,
+                                      const Eigen::SparseMatrix<double>& P, Eigen::Index K)
 {
   internal::require(K >= 1, "spectral evaluation: K is ", K, ", judge at least one mode.");
   const Eigen::Index N = coarse.B.rows() - coarse.vanishing, judged = (std::min)(K, N);
@@ -465,10 +459,10 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation evaluate_spectrum(
   return e;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
-                         const Laplace_operator& coarse, const Eigenpairs& coarse_pairs,
-                         const Eigen::MatrixXd& C, const Eigen::MatrixXd& g)
+Eigen::MatrixXd prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                                         const Laplace_operator& coarse,
+                                         const Eigenpairs& coarse_pairs, const Eigen::MatrixXd& C,
+                                         const Eigen::MatrixXd& g)
 {
   internal::check_pairs("fine", fine, fine_pairs, C.cols());
   internal::check_pairs("coarse", coarse, coarse_pairs, C.rows());

@@ -83,7 +83,7 @@ public:
     internal::require(alpha >= 0 && alpha <= 1, "Merge_forest: the weight of slot ", removed,
                       " is ", alpha, ", clamp it to [0, 1].");
     m_merges.push_back({removed, kept, alpha});
-    m_alive[static_cast<std::size_t>(removed)] = false;
+    m_alive[removed] = false;
   }
 
   /// number of vertices of the fine mesh, the columns of `P`.
@@ -93,10 +93,7 @@ public:
   Index number_of_merges() const { return static_cast<Index>(m_merges.size()); }
 
   /// `true` if the slot has not been removed by any merge; `false` for an index out of range.
-  bool is_alive(Index slot) const
-  {
-    return slot >= 0 && slot < number_of_slots() && m_alive[static_cast<std::size_t>(slot)];
-  }
+  bool is_alive(Index slot) const { return slot >= 0 && slot < number_of_slots() && m_alive[slot]; }
 
   /// the merges in the order in which they happened, from which a run can be replayed.
   const std::vector<Merge>& merges() const { return m_merges; }
@@ -107,7 +104,7 @@ public:
     const std::vector<bool> alive = alive_after(number_of_merges);
     std::vector<Index> slots;
     for(Index slot = 0; slot < number_of_slots(); ++slot)
-      if(alive[static_cast<std::size_t>(slot)])
+      if(alive[slot])
         slots.push_back(slot);
     return slots;
   }
@@ -168,7 +165,7 @@ private:
     internal::require(slot >= 0 && slot < number_of_slots(), "Merge_forest: slot ", slot,
                       " is not one of the ", number_of_slots(),
                       " vertices of the fine mesh, pass an index in [0, n).");
-    internal::require(m_alive[static_cast<std::size_t>(slot)], "Merge_forest: slot ", slot,
+    internal::require(m_alive[slot], "Merge_forest: slot ", slot,
                       " has been removed by an earlier merge, pass the slot that was kept.");
   }
 
@@ -180,7 +177,7 @@ private:
                       "], those that were recorded.");
     std::vector<bool> alive(m_alive.size(), true);
     for(Index i = 0; i < n; ++i)
-      alive[static_cast<std::size_t>(m_merges[static_cast<std::size_t>(i)].removed)] = false;
+      alive[m_merges[i].removed] = false;
     return alive;
   }
 
@@ -204,7 +201,7 @@ private:
     // Backwards through the log: before a merge, what is now in `kept` was in `kept` and in
     // `removed`.
     for(Index i = number_of_merges.value_or(this->number_of_merges()); i-- > 0;) {
-      const Merge& m = m_merges[static_cast<std::size_t>(i)];
+      const Merge& m = m_merges[i];
       const std::size_t k = static_cast<std::size_t>(m.kept),
                         r = static_cast<std::size_t>(m.removed);
       e.row[r] = e.row[k];

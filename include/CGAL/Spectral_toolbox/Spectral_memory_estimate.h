@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_TOOLBOX_SPECTRAL_MEMORY_ESTIMATE_H
 
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
@@ -82,7 +82,8 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const bool solves = options.signals.size() == 0 && !options.eigenpairs && !filtered;
   const double seen =
       options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
-  const double noise = (std::max)(64., double(options.number_of_mixtures));
+  const double noise =
+      double((std::max)(internal::least_filtered_signals, options.number_of_mixtures));
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.
   const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;

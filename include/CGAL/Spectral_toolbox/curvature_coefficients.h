@@ -64,9 +64,9 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Operator_coefficients
-curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const double alpha,
-                       const std::function<bool(double)>& progress)
+Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                             const double alpha,
+                                             const std::function<bool(double)>& progress)
 {
   using Kernel = CGAL::Cartesian<double>;
   using Point = Kernel::Point_3;

@@ -653,7 +653,7 @@ inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::Vec
     }
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_options& o)
+void check_operator_fit_options(const Operator_fit_options& o)
 {
   require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
           ".");
@@ -715,11 +715,10 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
 
 } // namespace internal
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Operator_fit_result fit_operators(const Laplace_operator& coarse,
-                                                               const Eigen::SparseMatrix<double>& P,
-                                                               const Laplace_operator& fine,
-                                                               const Eigenpairs& fine_pairs,
-                                                               const Operator_fit_options& options)
+Operator_fit_result fit_operators(const Laplace_operator& coarse,
+                                  const Eigen::SparseMatrix<double>& P,
+                                  const Laplace_operator& fine, const Eigenpairs& fine_pairs,
+                                  const Operator_fit_options& options)
 {
   internal::check_operator_fit_options(options);
   internal::check_operator_fit(coarse, P, fine, fine_pairs);

@@ -156,9 +156,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd product_manifold_scores(const Eigen
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd orientation_operator(const Eigen::MatrixXi& T,
-                                                                  const Eigen::MatrixXd& vectors,
-                                                                  const Eigen::VectorXd& f)
+Eigen::MatrixXd orientation_operator(const Eigen::MatrixXi& T, const Eigen::MatrixXd& vectors,
+                                     const Eigen::VectorXd& f)
 {
   internal::check_dimension("the number of values of f", f.size(), vectors.rows());
   // A face gives each of its corners the same: sum the rows of the corners first.
@@ -185,10 +184,9 @@ inline void check_modes(const Spectral_shape& shape, Eigen::Index modes, const c
 
 } // namespace internal
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd
-functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
-                              const Eigen::MatrixXd& f, const Eigen::MatrixXd& g, Eigen::Index k,
-                              const Functional_map_weights& weights)
+Eigen::MatrixXd functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
+                                              const Eigen::MatrixXd& f, const Eigen::MatrixXd& g,
+                                              Eigen::Index k, const Functional_map_weights& weights)
 {
   internal::check_modes(X, k, "source");
   internal::check_modes(Y, k, "target");
@@ -261,7 +259,7 @@ functional_map_of_descriptors(const Spectral_shape& X, const Spectral_shape& Y,
   return Eigen::Map<const Eigen::MatrixXd>(c.data(), k, k);
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C)
+Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C)
 {
   internal::check_dimension("the number of columns of a map that is to be orthogonal", C.cols(),
                             C.rows());
@@ -269,9 +267,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd nearest_orthogonal_map(const Eigen:
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X,
-                                                      const Spectral_shape& Y, Eigen::Index last,
-                                                      Eigen::Index step, int threads)
+Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X, const Spectral_shape& Y,
+                         Eigen::Index last, Eigen::Index step, int threads)
 {
   internal::check_modes(X, last, "source");
   internal::check_modes(Y, last, "target");
@@ -288,10 +285,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const S
   return C;
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd product_manifold_scores(const Eigen::MatrixXd& C,
-                                                                     const Spectral_shape& X,
-                                                                     const Spectral_shape& Y,
-                                                                     double time)
+Eigen::MatrixXd product_manifold_scores(const Eigen::MatrixXd& C, const Spectral_shape& X,
+                                        const Spectral_shape& Y, double time)
 {
   internal::require(time >= 0 && std::isfinite(time), "product manifold filter: the time ", time,
                     " is negative or not finite, pass a time of heat of at least 0.");

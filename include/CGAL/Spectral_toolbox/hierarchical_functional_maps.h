@@ -79,9 +79,10 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Lifted_functional_map
-lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::MatrixXd& coarse,
-                    const Eigen::MatrixXd& target_restriction, double tolerance)
+Lifted_functional_map lift_functional_map(const Eigen::MatrixXd& source_restriction,
+                                          const Eigen::MatrixXd& coarse,
+                                          const Eigen::MatrixXd& target_restriction,
+                                          double tolerance)
 {
   internal::check_dimension("the number of columns of the coarse map", coarse.cols(),
                             source_restriction.rows());

@@ -102,9 +102,9 @@ public:
       for(int k = 0; k < 3; ++k) {
         const Eigen::RowVector3d p = V.row(T(f, (k + 1) % 3)).unaryExpr(scaled);
         edge[k] = V.row(T(f, (k + 2) % 3)).unaryExpr(scaled) - p;
-        m_length[std::size_t(3 * f + k)] = edge[k].norm();
+        m_length[3 * f + k] = edge[k].norm();
       }
-      m_element[std::size_t(f)] = triangle_element(edge);
+      m_element[f] = triangle_element(edge);
     }
     glue_sides();
   }
@@ -130,21 +130,21 @@ public:
 
   Triangle_cotangents cotangents(const Eigen::Index f) const
   {
-    return cotangents_of(m_element[std::size_t(f)], m_exponent);
+    return cotangents_of(m_element[f], m_exponent);
   }
 
 private:
   static int next(const int slot) { return slot % 3 == 2 ? slot - 2 : slot + 1; }
-  int twin(const int slot) const { return m_twin[std::size_t(slot)]; }
+  int twin(const int slot) const { return m_twin[slot]; }
   int& vertex(const int slot) { return m_T(slot / 3, slot % 3); }
-  const Triangle_element& element(const int slot) const { return m_element[std::size_t(slot / 3)]; }
+  const Triangle_element& element(const int slot) const { return m_element[slot / 3]; }
   double dot(const int slot) const { return element(slot).dot[slot % 3]; }
 
   void glue(const int s, const int t)
   {
-    m_twin[std::size_t(s)] = t;
+    m_twin[s] = t;
     if(t >= 0)
-      m_twin[std::size_t(t)] = s;
+      m_twin[t] = s;
   }
 
   // Two sides of opposite direction, and no third: all others stay without a twin, as on a border.
@@ -195,12 +195,12 @@ private:
   bool flip(const int s)
   {
     const int t = twin(s), s1 = next(s), s2 = next(s1), t1 = next(t), t2 = next(t1);
-    int &flips_of_f = m_flips[std::size_t(s / 3)], &flips_of_g = m_flips[std::size_t(t / 3)];
+    int &flips_of_f = m_flips[s / 3], &flips_of_g = m_flips[t / 3];
     if(s / 3 == t / 3 || (std::max)(flips_of_f, flips_of_g) == most_flips)
       return false;
     // Laid out in the plane, ij along x (Sharp and Crane 2020, section 3). Each vector is measured
     // from its own end: a short one beside a long edge keeps its digits.
-    const auto length = [&](const int slot) -> double& { return m_length[std::size_t(slot)]; };
+    const auto length = [&](const int slot) -> double& { return m_length[slot]; };
     const double l = length(s), c_height = element(s).twice_area / l,
                  d_height = element(t).twice_area / l;
     const Eigen::Vector3d ic(dot(s1) / l, c_height, 0), jc(-dot(s2) / l, c_height, 0);
@@ -217,8 +217,8 @@ private:
       return false;
     ++flips_of_f;
     ++flips_of_g;
-    m_element[std::size_t(s / 3)] = f;
-    m_element[std::size_t(t / 3)] = g;
+    m_element[s / 3] = f;
+    m_element[t / 3] = g;
 
     // The sides ci and dj stay in their slots. The two that move may be glued to each other.
     const auto moved = [&](const int slot) { return slot == s1 ? t : slot == t1 ? s : slot; };
@@ -249,9 +249,8 @@ private:
 
 } // namespace internal
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Laplace_operator intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V,
-                                                                           const Eigen::MatrixXi& T,
-                                                                           const Mass mass)
+Laplace_operator intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
+                                              const Mass mass)
 {
   internal::check_positions(V);
   internal::check_triangles(T, V.rows());

@@ -122,9 +122,9 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 namespace CGAL::Spectral_geometry {
 
-CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
-nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads,
-             const std::function<bool(double)>& progress)
+std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points,
+                                       const Eigen::MatrixXd& queries, int threads,
+                                       const std::function<bool(double)>& progress)
 {
   internal::require(points.size() != 0,
                     "nearest rows: there is no point to search for, pass at least one.");
@@ -146,15 +146,16 @@ nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int 
         std::size_t place = 0;
         for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i) {
           internal::report_to(progress, double(i) / double(queries.rows()));
-          result[static_cast<std::size_t>(i)] = tree.nearest(query_columns.col(i), place);
+          result[i] = tree.nearest(query_columns.col(i), place);
         }
       });
   return result;
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd functional_map_of_vertex_map(
-    const Eigen::MatrixXd& source_vectors, const Eigen::MatrixXd& target_vectors,
-    const Eigen::SparseMatrix<double>& target_B, const std::vector<Eigen::Index>& target_to_source)
+Eigen::MatrixXd functional_map_of_vertex_map(const Eigen::MatrixXd& source_vectors,
+                                             const Eigen::MatrixXd& target_vectors,
+                                             const Eigen::SparseMatrix<double>& target_B,
+                                             const std::vector<Eigen::Index>& target_to_source)
 {
   internal::check_dimension("the number of entries of the vertex map",
                             static_cast<Eigen::Index>(target_to_source.size()),
@@ -169,15 +170,15 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd functional_map_of_vertex_map(
                             target_vectors.rows());
   Eigen::MatrixXd pulled_back(target_vectors.rows(), source_vectors.cols());
   for(Eigen::Index y = 0; y < pulled_back.rows(); ++y)
-    pulled_back.row(y) = source_vectors.row(target_to_source[static_cast<std::size_t>(y)]);
+    pulled_back.row(y) = source_vectors.row(target_to_source[y]);
   const Eigen::MatrixXd weighted = target_B * pulled_back;
   return target_vectors.transpose() * weighted;
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
-target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads,
-                     const std::function<bool(double)>& progress)
+std::vector<Eigen::Index> target_to_source_map(const Eigen::MatrixXd& C,
+                                               const Eigen::MatrixXd& source_vectors,
+                                               const Eigen::MatrixXd& target_vectors, int threads,
+                                               const std::function<bool(double)>& progress)
 {
   internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
                     "vertex map: C is ", internal::size_name(C), ", but there are ",
@@ -187,10 +188,11 @@ target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vec
                       target_vectors.leftCols(C.rows()), threads, progress);
 }
 
-CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::SparseMatrix<double>
-target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                        const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors,
-                        int threads)
+Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
+                                                    const Eigen::MatrixXd& source_vectors,
+                                                    const Eigen::MatrixXi& source_T,
+                                                    const Eigen::MatrixXd& target_vectors,
+                                                    int threads)
 {
   const std::vector<Eigen::Index> nearest =
       target_to_source_map(C, source_vectors, target_vectors, threads);
@@ -232,8 +234,7 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
     for(const int v : vertices)
       distances.push_back((points.col(v) - query).squaredNorm());
     const auto distance = [&](const int v) {
-      return distances[static_cast<std::size_t>(
-          std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin())];
+      return distances[std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()];
     };
     double best = (points.col(nearest[i]) - query).squaredNorm();
     found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};

@@ -201,7 +201,6 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->number_of_mixtures = 0;
   } else if(is_filtered(given)) {
     narrowed = given;
-    narrowed->number_of_relocation_signals = 64; // without it as well: S is that of all of them
     narrowed->number_of_eigenvectors = Eigen::Index(weights().sum());
   } else if(given.signals.size() == 0 && given.weights.size() == 0 &&
             Eigen::Index(target / 3) < K) {
@@ -265,7 +264,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     Collapse_log log = first.log;
     log.append(policies.log(), first.slots);
     for(Eigen::Index& s : slots)
-      s = first.slots[std::size_t(s)];
+      s = first.slots[s];
     set_restriction(result, std::move(log), slots);
   } else
     set_restriction(result, policies.log(), slots);

@@ -99,9 +99,8 @@ void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<doubl
                const Flags& kept)
 {
   Eigen::SparseMatrix<double> carried = P;
-  carried.prune(
-      [&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[std::size_t(row)]); });
-  own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !kept[std::size_t(row)]; });
+  carried.prune([&](const Eigen::Index row, Eigen::Index, double) { return bool(kept[row]); });
+  own.prune([&](const Eigen::Index row, Eigen::Index, double) { return !kept[row]; });
   own += carried;
 }
 

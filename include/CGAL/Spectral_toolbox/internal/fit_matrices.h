@@ -97,43 +97,29 @@ private:
   Aligned_buffer m_storage;
 };
 
-// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows
-// of a sparse matrix. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
-template <class Row>
-CGAL_SPECTRAL_INLINE void sampled_product_body(const int* start, const int* column, const double* A,
-                                               std::ptrdiff_t A_panel, const double* G,
-                                               std::ptrdiff_t G_panel, std::ptrdiff_t panels,
-                                               double* y, std::ptrdiff_t rows)
-{
-  for(std::ptrdiff_t i = 0; i < rows; ++i, A += panel_width)
-    for(int p = start[i]; p < start[i + 1]; ++p) {
-      const double *a = A, *g = G + std::ptrdiff_t(column[p]) * panel_width;
-      Row sum, r, s;
-      clear(sum);
-      for(std::ptrdiff_t q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
-        load(r, a);
-        load(s, g);
-        add(sum, r, s);
-      }
-      double parts[panel_width];
-      store(parts, sum);
-      y[p] = ((parts[0] + parts[1]) + (parts[2] + parts[3])) +
-             ((parts[4] + parts[5]) + (parts[6] + parts[7]));
-    }
-}
-
+/// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows
+/// of a sparse matrix. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
 inline void sampled_product(const int* start, const int* column, const double* A,
                             std::ptrdiff_t A_panel, const double* G, std::ptrdiff_t G_panel,
                             std::ptrdiff_t panels, double* y, std::ptrdiff_t rows)
 {
-  on_vector_units(
-      [&] {
-        sampled_product_body<Wide_panel_row>(start, column, A, A_panel, G, G_panel, panels, y,
-                                             rows);
-      },
-      [&] {
-        sampled_product_body<Panel_row>(start, column, A, A_panel, G, G_panel, panels, y, rows);
-      });
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    for(std::ptrdiff_t i = 0; i < rows; ++i)
+      for(int p = start[i]; p < start[i + 1]; ++p) {
+        const double *a = A + i * panel_width, *g = G + std::ptrdiff_t(column[p]) * panel_width;
+        Row sum{}, r, s;
+        for(std::ptrdiff_t q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
+          load(r, a);
+          load(s, g);
+          add(sum, r, s);
+        }
+        double parts[panel_width];
+        store(parts, sum);
+        y[p] = ((parts[0] + parts[1]) + (parts[2] + parts[3])) +
+               ((parts[4] + parts[5]) + (parts[6] + parts[7]));
+      }
+  });
 }
 
 /// A symmetric matrix sum_a x_a d_a d_a^T with bounds on x; d_a is row a of a sparse matrix.

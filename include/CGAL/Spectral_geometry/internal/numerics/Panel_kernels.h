@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <type_traits>
 
 // The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is
 // a cache line and eight vectors share every access to a matrix entry.
@@ -49,156 +50,152 @@ private:
   std::unique_ptr<double[], boost::alignment::aligned_delete> m_storage;
 };
 
-/// One row of a panel in registers, as Eigen has it for the flags of the build.
-using Panel_row = Eigen::Array<double, panel_width, 1>;
-
-CGAL_SPECTRAL_INLINE void load(Panel_row& x, const double* p)
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+/// What rows of a panel are made of: a type as template argument would lose its alignment.
+struct Wide_units
 {
-  x = Panel_row::Map(p);
-}
-
-CGAL_SPECTRAL_INLINE void store(double* p, const Panel_row& x)
-{
-  Panel_row::Map(p) = x;
-}
-
-CGAL_SPECTRAL_INLINE void clear(Panel_row& x)
-{
-  x.setZero();
-}
-
-/// y += a x, where a is a number or a row.
-template <class Factor>
-CGAL_SPECTRAL_INLINE void add(Panel_row& y, const Factor& a, const Panel_row& x)
-{
-  y += a * x;
-}
-
-CGAL_SPECTRAL_INLINE void subtract(Panel_row& y, double a, const Panel_row& x)
-{
-  y -= a * x;
-}
-
-#ifdef CGAL_SPECTRAL_DISPATCH
-/// A row of a panel in the registers of wide vector units, in functions compiled for them:
-/// elsewhere six times slower than Eigen.
-struct Wide_panel_row
-{
-  Four_doubles low, high;
+  using Vector = Four_doubles;
 };
-
-CGAL_SPECTRAL_INLINE void load(Wide_panel_row& x, const double* p)
+struct Baseline_units
 {
-  x.low = *reinterpret_cast<const Four_doubles*>(p);
-  x.high = *reinterpret_cast<const Four_doubles*>(p + 4);
-}
-
-CGAL_SPECTRAL_INLINE void store(double* p, const Wide_panel_row& x)
-{
-  *reinterpret_cast<Four_doubles*>(p) = x.low;
-  *reinterpret_cast<Four_doubles*>(p + 4) = x.high;
-}
-
-CGAL_SPECTRAL_INLINE void clear(Wide_panel_row& x)
-{
-  x.low = x.high = Four_doubles{};
-}
-
-CGAL_SPECTRAL_INLINE void add(Wide_panel_row& y, double a, const Wide_panel_row& x)
-{
-  y.low += a * x.low;
-  y.high += a * x.high;
-}
-
-CGAL_SPECTRAL_INLINE void subtract(Wide_panel_row& y, double a, const Wide_panel_row& x)
-{
-  y.low -= a * x.low;
-  y.high -= a * x.high;
-}
-
-CGAL_SPECTRAL_INLINE void add(Wide_panel_row& y, const Wide_panel_row& a, const Wide_panel_row& x)
-{
-  y.low += a.low * x.low;
-  y.high += a.high * x.high;
-}
+  using Vector = Two_doubles;
+};
 #else
-using Wide_panel_row = Panel_row;
+struct Baseline_units
+{
+  using Vector = double;
+};
 #endif
 
-// What follows is compiled for both kinds of rows.
-
-// H += P^T W over some rows; four columns of P at once fill the registers.
-template <class Row>
-CGAL_SPECTRAL_INLINE void gram_body(const double* P, const double* W, std::ptrdiff_t rows,
-                                    double* H)
+/// One row of a panel in registers.
+template <class Units>
+struct Row_of
 {
-  for(int half = 0; half < panel_width; half += 4) {
-    Row sum[4];
-    for(int c = 0; c < 4; ++c)
-      load(sum[c], H + (half + c) * panel_width);
-    const double* p = P + half;
-    const double* w = W;
-    for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
-      Row x;
-      load(x, w);
+  using Vector = typename Units::Vector;
+  static constexpr int size = int(panel_width * sizeof(double) / sizeof(Vector));
+  Vector part[size];
+};
+
+template <class Units>
+CGAL_SPECTRAL_INLINE void load(Row_of<Units>& x, const double* p)
+{
+  using Vector = typename Units::Vector;
+  for(int k = 0; k < x.size; ++k)
+    x.part[k] = reinterpret_cast<const Vector*>(p)[k];
+}
+
+template <class Units>
+CGAL_SPECTRAL_INLINE void store(double* p, const Row_of<Units>& x)
+{
+  using Vector = typename Units::Vector;
+  for(int k = 0; k < x.size; ++k)
+    reinterpret_cast<Vector*>(p)[k] = x.part[k];
+}
+
+/// y += a x.
+template <class Units>
+CGAL_SPECTRAL_INLINE void add(Row_of<Units>& y, double a, const Row_of<Units>& x)
+{
+  for(int k = 0; k < x.size; ++k)
+    y.part[k] += a * x.part[k];
+}
+
+template <class Units>
+CGAL_SPECTRAL_INLINE void subtract(Row_of<Units>& y, double a, const Row_of<Units>& x)
+{
+  for(int k = 0; k < x.size; ++k)
+    y.part[k] -= a * x.part[k];
+}
+
+/// y += a x, entry by entry.
+template <class Units>
+CGAL_SPECTRAL_INLINE void add(Row_of<Units>& y, const Row_of<Units>& a, const Row_of<Units>& x)
+{
+  for(int k = 0; k < x.size; ++k)
+    y.part[k] += a.part[k] * x.part[k];
+}
+
+/// Calls `kernel` with a row, of the kind that the machine is good at. On Clang it is inlined where
+/// it is marked CGAL_SPECTRAL_INLINE_LAMBDA.
+template <class Kernel>
+void on_rows(const Kernel& kernel)
+{
+#ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
+  on_vector_units([&]() CGAL_SPECTRAL_INLINE_LAMBDA { kernel(Row_of<Wide_units>{}); },
+                  [&] { kernel(Row_of<Baseline_units>{}); });
+#else
+  kernel(Row_of<Baseline_units>{});
+#endif
+}
+
+/// H += P^T W over some rows; four columns of P at once fill the registers.
+inline void gram(const double* P, const double* W, std::ptrdiff_t rows, double* H)
+{
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    for(int half = 0; half < panel_width; half += 4) {
+      Row x, sum[4];
       for(int c = 0; c < 4; ++c)
-        add(sum[c], p[c], x);
-    }
-    for(int c = 0; c < 4; ++c)
-      store(H + (half + c) * panel_width, sum[c]);
-  }
-}
-
-// W -= P H over some rows.
-template <class Row>
-CGAL_SPECTRAL_INLINE void subtract_product_body(double* W, const double* P, std::ptrdiff_t rows,
-                                                const double* H)
-{
-  for(int half = 0; half < panel_width; half += 4) {
-    Row h[4];
-    for(int c = 0; c < 4; ++c)
-      load(h[c], H + (half + c) * panel_width);
-    const double* p = P + half;
-    double* w = W;
-    for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
-      Row x;
-      load(x, w);
+        load(sum[c], H + (half + c) * panel_width);
+      const double* p = P + half;
+      const double* w = W;
+      for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
+        load(x, w);
+        for(int c = 0; c < 4; ++c)
+          add(sum[c], p[c], x);
+      }
       for(int c = 0; c < 4; ++c)
-        subtract(x, p[c], h[c]);
-      store(w, x);
+        store(H + (half + c) * panel_width, sum[c]);
     }
-  }
+  });
 }
 
-// y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin ..
-// end.
-template <class Row>
-CGAL_SPECTRAL_INLINE void multiply_body(const int* start, const int* column, const double* value,
-                                        const double* x, double* y, std::ptrdiff_t begin,
-                                        std::ptrdiff_t end)
+/// W -= P H over some rows.
+inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, const double* H)
 {
-  for(std::ptrdiff_t i = begin; i < end; ++i) {
-    Row sum;
-    clear(sum);
-    for(int p = start[i]; p < start[i + 1]; ++p) {
-      Row r;
-      load(r, x + std::ptrdiff_t(column[p]) * panel_width);
-      add(sum, value[p], r);
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    for(int half = 0; half < panel_width; half += 4) {
+      Row x, h[4];
+      for(int c = 0; c < 4; ++c)
+        load(h[c], H + (half + c) * panel_width);
+      const double* p = P + half;
+      double* w = W;
+      for(std::ptrdiff_t i = 0; i < rows; ++i, p += panel_width, w += panel_width) {
+        load(x, w);
+        for(int c = 0; c < 4; ++c)
+          subtract(x, p[c], h[c]);
+        store(w, x);
+      }
     }
-    store(y + i * panel_width, sum);
-  }
+  });
 }
 
-// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers,
-// zeros beyond the `columns` of C. Rows of C and A lie `c` and `a` numbers apart.
+/// y_i = sum over the entries of row i of a sparse matrix of value times x_column, for rows begin
+/// .. end.
+inline void multiply(const int* start, const int* column, const double* value, const double* x,
+                     double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
+{
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    for(std::ptrdiff_t i = begin; i < end; ++i) {
+      Row sum{}, r;
+      for(int p = start[i]; p < start[i + 1]; ++p) {
+        load(r, x + std::ptrdiff_t(column[p]) * panel_width);
+        add(sum, value[p], r);
+      }
+      store(y + i * panel_width, sum);
+    }
+  });
+}
+
+// The next one for `Count` rows, one access to T for all of them.
 template <class Row, int Count>
 CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns, const double* A,
                                         std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
                                         bool subtracted)
 {
-  Row sum[Count], t;
-  for(int q = 0; q < Count; ++q)
-    clear(sum[q]);
+  Row sum[Count] = {}, t;
   for(std::ptrdiff_t k = 0; k < count; ++k) {
     load(t, T + k * panel_width);
     for(int q = 0; q < Count; ++q)
@@ -222,16 +219,20 @@ CGAL_SPECTRAL_INLINE void multiply_rows(double* C, std::ptrdiff_t c, int columns
   }
 }
 
-template <class Row>
-CGAL_SPECTRAL_INLINE void
-multiply_block_body(double* C, std::ptrdiff_t c, int columns, const double* A, std::ptrdiff_t a,
-                    const double* T, std::ptrdiff_t count, std::ptrdiff_t rows, bool subtracted)
+/// C -= A T over some rows, or C = A T, which may be A itself; T has `count` rows of eight numbers,
+/// zeros beyond the `columns` of C. Rows of C and A lie `c` and `a` numbers apart.
+inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A,
+                           std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
+                           std::ptrdiff_t rows, bool subtracted)
 {
-  std::ptrdiff_t i = 0;
-  for(; i + 4 <= rows; i += 4)
-    multiply_rows<Row, 4>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
-  for(; i < rows; ++i)
-    multiply_rows<Row, 1>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    std::ptrdiff_t i = 0;
+    for(; i + 4 <= rows; i += 4)
+      multiply_rows<Row, 4>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
+    for(; i < rows; ++i)
+      multiply_rows<Row, 1>(C + i * c, c, columns, A + i * a, a, T, count, subtracted);
+  });
 }
 
 /// One supernode of a Cholesky factor: `width` neighbouring columns that share their row structure.
@@ -262,28 +263,29 @@ CGAL_SPECTRAL_INLINE void forward_rows(const Supernode& s, const double* own, do
     store(x + std::ptrdiff_t(s.rows[i + q]) * panel_width, sum[q]);
 }
 
-// `own`: the rows of the panel that belong to the supernode's columns.
-template <class Row>
-CGAL_SPECTRAL_INLINE void forward_body(const Supernode& s, double* x)
+/// Solves for the supernode's columns and takes them off the rows below.
+inline void forward(const Supernode& s, double* x)
 {
-  double* own = x + std::ptrdiff_t(s.first) * panel_width;
-  for(int k = 0; k < s.width; ++k) {
-    const double* l = s.L + std::ptrdiff_t(k) * s.width;
-    Row sum, r, result;
-    load(sum, own + k * panel_width);
-    for(int t = 0; t < k; ++t) {
-      load(r, own + t * panel_width);
-      subtract(sum, l[t], r);
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    double* own = x + std::ptrdiff_t(s.first) * panel_width; // rows of the panel
+    for(int k = 0; k < s.width; ++k) {
+      const double* l = s.L + std::ptrdiff_t(k) * s.width;
+      Row sum, r, result{};
+      load(sum, own + k * panel_width);
+      for(int t = 0; t < k; ++t) {
+        load(r, own + t * panel_width);
+        subtract(sum, l[t], r);
+      }
+      add(result, l[k], sum);
+      store(own + k * panel_width, result);
     }
-    clear(result);
-    add(result, l[k], sum);
-    store(own + k * panel_width, result);
-  }
-  int i = 0;
-  for(; i + 4 <= s.below; i += 4)
-    forward_rows<Row, 4>(s, own, x, i);
-  for(; i < s.below; ++i)
-    forward_rows<Row, 1>(s, own, x, i);
+    int i = 0;
+    for(; i + 4 <= s.below; i += 4)
+      forward_rows<Row, 4>(s, own, x, i);
+    for(; i < s.below; ++i)
+      forward_rows<Row, 1>(s, own, x, i);
+  });
 }
 
 // Subtracts the rows below from `Count` neighbouring columns of the supernode.
@@ -304,68 +306,28 @@ CGAL_SPECTRAL_INLINE void backward_columns(const Supernode& s, double* x, int t)
     store(own + q * panel_width, sum[q]);
 }
 
-template <class Row>
-CGAL_SPECTRAL_INLINE void backward_body(const Supernode& s, double* x)
-{
-  int t = 0;
-  for(; t + 4 <= s.width; t += 4)
-    backward_columns<Row, 4>(s, x, t);
-  for(; t + 2 <= s.width; t += 2)
-    backward_columns<Row, 2>(s, x, t);
-  if(t < s.width)
-    backward_columns<Row, 1>(s, x, t);
-  double* own = x + std::ptrdiff_t(s.first) * panel_width;
-  for(int k = s.width - 1; k >= 0; --k) {
-    Row sum, r, result;
-    load(sum, own + k * panel_width);
-    for(int q = k + 1; q < s.width; ++q) {
-      load(r, own + q * panel_width);
-      subtract(sum, s.L[std::ptrdiff_t(q) * s.width + k], r);
-    }
-    clear(result);
-    add(result, s.L[std::ptrdiff_t(k) * s.width + k], sum);
-    store(own + k * panel_width, result);
-  }
-}
-
-inline void gram(const double* P, const double* W, std::ptrdiff_t rows, double* H)
-{
-  on_vector_units([&] { gram_body<Wide_panel_row>(P, W, rows, H); },
-                  [&] { gram_body<Panel_row>(P, W, rows, H); });
-}
-
-inline void subtract_product(double* W, const double* P, std::ptrdiff_t rows, const double* H)
-{
-  on_vector_units([&] { subtract_product_body<Wide_panel_row>(W, P, rows, H); },
-                  [&] { subtract_product_body<Panel_row>(W, P, rows, H); });
-}
-
-inline void multiply(const int* start, const int* column, const double* value, const double* x,
-                     double* y, std::ptrdiff_t begin, std::ptrdiff_t end)
-{
-  on_vector_units([&] { multiply_body<Wide_panel_row>(start, column, value, x, y, begin, end); },
-                  [&] { multiply_body<Panel_row>(start, column, value, x, y, begin, end); });
-}
-
-inline void multiply_block(double* C, std::ptrdiff_t c, int columns, const double* A,
-                           std::ptrdiff_t a, const double* T, std::ptrdiff_t count,
-                           std::ptrdiff_t rows, bool subtracted)
-{
-  on_vector_units(
-      [&] { multiply_block_body<Wide_panel_row>(C, c, columns, A, a, T, count, rows, subtracted); },
-      [&] { multiply_block_body<Panel_row>(C, c, columns, A, a, T, count, rows, subtracted); });
-}
-
-inline void forward(const Supernode& s, double* x)
-{
-  on_vector_units([&] { forward_body<Wide_panel_row>(s, x); },
-                  [&] { forward_body<Panel_row>(s, x); });
-}
-
+/// Takes the rows below off the supernode's columns and solves for these.
 inline void backward(const Supernode& s, double* x)
 {
-  on_vector_units([&] { backward_body<Wide_panel_row>(s, x); },
-                  [&] { backward_body<Panel_row>(s, x); });
+  on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
+    using Row = std::decay_t<decltype(kind)>;
+    int t = 0;
+    for(; t + 4 <= s.width; t += 4)
+      backward_columns<Row, 4>(s, x, t);
+    for(; t < s.width; ++t)
+      backward_columns<Row, 1>(s, x, t);
+    double* own = x + std::ptrdiff_t(s.first) * panel_width;
+    for(int k = s.width - 1; k >= 0; --k) {
+      Row sum, r, result{};
+      load(sum, own + k * panel_width);
+      for(int q = k + 1; q < s.width; ++q) {
+        load(r, own + q * panel_width);
+        subtract(sum, s.L[std::ptrdiff_t(q) * s.width + k], r);
+      }
+      add(result, s.L[std::ptrdiff_t(k) * s.width + k], sum);
+      store(own + k * panel_width, result);
+    }
+  });
 }
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -36,13 +36,22 @@ constexpr std::size_t cache_line = 64;
 using Aligned_buffer = std::vector<double, boost::alignment::aligned_allocator<double, cache_line>>;
 
 #ifdef CGAL_SPECTRAL_VECTOR_EXTENSION
-/// Four doubles anywhere in memory. Never passed or returned by value: that ABI would depend on -m
-/// flags. Nor copied by memcpy: GCC splits that into the halves of the baseline before the variant
-/// for wide units comes to see it (five times slower).
+/// Four doubles anywhere in memory, or two where wide units are missing, in which GCC makes four
+/// fifteen times slower. Never passed or returned by value: that ABI would depend on -m flags. Nor
+/// copied by memcpy: GCC splits that into the halves of the baseline before the variant for wide
+/// units comes to see it (five times slower).
 typedef double Four_doubles __attribute__((vector_size(32), aligned(8), may_alias));
+typedef double Two_doubles __attribute__((vector_size(16), aligned(8), may_alias));
 #endif
 
 #ifdef CGAL_SPECTRAL_DISPATCH
+/// Whether the machine has them; a test may say that it has not.
+inline bool& has_wide_units()
+{
+  static bool result = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  return result;
+}
+
 // With all that f calls: it is inlined, as far as it is marked CGAL_SPECTRAL_INLINE on Clang.
 template <class Function>
 __attribute__((flatten, target("avx2,fma"))) void call_for_wide_units(const Function& f)
@@ -57,9 +66,7 @@ template <class Wide, class Baseline>
 void on_vector_units(const Wide& wide, const Baseline& baseline)
 {
 #ifdef CGAL_SPECTRAL_DISPATCH
-  static const bool has_wide_units =
-      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  if(has_wide_units)
+  if(has_wide_units())
     return call_for_wide_units(wide);
 #else
   (void)wide;

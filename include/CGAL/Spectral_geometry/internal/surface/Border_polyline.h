@@ -60,7 +60,7 @@ public:
     return m_mesh.V.row(k == 0 ? m_segments[s].first : m_segments[s].second);
   }
   /// The number of the closed curve that a piece belongs to.
-  Eigen::Index loop(const std::size_t s) const { return m_loop[std::size_t(m_segments[s].first)]; }
+  Eigen::Index loop(const std::size_t s) const { return m_loop[m_segments[s].first]; }
 
   /// The curves that each row of a restriction has vertices of.
   std::vector<std::set<Eigen::Index>> loops_of_rows(const Eigen::SparseMatrix<double>& P) const
@@ -69,8 +69,8 @@ public:
     std::vector<std::set<Eigen::Index>> result(std::size_t(P.rows()));
     for(Eigen::Index j = 0; j < P.cols(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
-        if(on_border[std::size_t(j)] && it.value() > 0)
-          result[std::size_t(it.row())].insert(m_loop[std::size_t(j)]);
+        if(on_border[j] && it.value() > 0)
+          result[it.row()].insert(m_loop[j]);
     return result;
   }
 

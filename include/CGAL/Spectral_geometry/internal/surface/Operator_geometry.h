@@ -76,13 +76,10 @@ public:
 
   Index number_of_vertices() const { return Index(m_rows.size()); }
   const std::vector<Edge>& edges() const { return m_edges; }
-  const std::vector<Entry>& row(const Index w) const { return m_rows[std::size_t(w)]; }
+  const std::vector<Entry>& row(const Index w) const { return m_rows[w]; }
   const Local_operator& local_operator() const { return m_op; }
   /// Whether functions vanish there: it has no row in the operator.
-  bool vanishes_at(const Index w) const
-  {
-    return !m_border.empty() && m_border[std::size_t(w)] != 0;
-  }
+  bool vanishes_at(const Index w) const { return !m_border.empty() && m_border[w] != 0; }
 
   Entries zero_entries() const
   {
@@ -153,13 +150,13 @@ private:
 
   int edge_of(const int i, const int j)
   {
-    for(const Entry& entry : m_rows[std::size_t(i)])
+    for(const Entry& entry : m_rows[i])
       if(entry.neighbour == j)
         return entry.edge;
     const int e = int(m_edges.size());
     m_edges.push_back({i, j});
-    m_rows[std::size_t(i)].push_back({j, e});
-    m_rows[std::size_t(j)].push_back({i, e});
+    m_rows[i].push_back({j, e});
+    m_rows[j].push_back({i, e});
     return e;
   }
 

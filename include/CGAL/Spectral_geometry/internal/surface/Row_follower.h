@@ -58,7 +58,7 @@ public:
   {
     for(int j = 0; j < int(P.cols()); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
-        m_rows[std::size_t(it.row())].entries.emplace_back(j, it.value());
+        m_rows[it.row()].entries.emplace_back(j, it.value());
     for(std::size_t v = 0; v < m_rows.size(); ++v)
       set_foot(int(v));
     set_sides();
@@ -70,20 +70,20 @@ public:
     std::vector<int> queue;
     const auto call_neighbours = [&](const int v) {
       for(const int w : m_rings[v])
-        if(!settled[std::size_t(w)])
+        if(!settled[w])
           queue.push_back(w);
     };
     for(int v = 0; v < int(m_rows.size()); ++v)
-      if(settled[std::size_t(v)])
+      if(settled[v])
         call_neighbours(v);
     Followed_rows result;
     for(std::size_t next = 0; next < queue.size(); ++next) {
       const int v = queue[next];
-      if(settled[std::size_t(v)])
+      if(settled[v])
         continue;
       if(!settle(v, settled))
         result.off.push_back(v);
-      settled[std::size_t(v)] = 1;
+      settled[v] = 1;
       call_neighbours(v);
     }
     std::sort(result.off.begin(), result.off.end());
@@ -109,7 +109,7 @@ private:
 
   void set_foot(const int v)
   {
-    Row& row = m_rows[std::size_t(v)];
+    Row& row = m_rows[v];
     row.foot.setZero();
     for(const auto& [j, weight] : row.entries)
       row.foot += weight * m_fine.V.row(j).transpose();
@@ -127,7 +127,7 @@ private:
   // How far apart the feet of two neighbours may lie.
   double allowed(const int v, const int w) const
   {
-    const Row &a = m_rows[std::size_t(v)], &b = m_rows[std::size_t(w)];
+    const Row &a = m_rows[v], &b = m_rows[w];
     return 3 * ((m_coarse.V.row(v) - m_coarse.V.row(w)).norm() + a.off + b.off) +
            2 * (a.extent + b.extent);
   }
@@ -137,18 +137,18 @@ private:
   void spread(const std::vector<int>& sources, const double bound, const std::vector<int>& targets)
   {
     for(const int i : m_touched)
-      m_distance[std::size_t(i)] = infinity;
+      m_distance[i] = infinity;
     m_touched.clear();
     std::size_t missing = 0;
     for(const int w : targets)
-      for(const auto& [j, weight] : m_rows[std::size_t(w)].entries) {
-        missing += m_waiting[std::size_t(j)] == 0;
-        m_waiting[std::size_t(j)] = 1;
+      for(const auto& [j, weight] : m_rows[w].entries) {
+        missing += m_waiting[j] == 0;
+        m_waiting[j] = 1;
       }
     using Front = std::pair<double, int>;
     std::priority_queue<Front, std::vector<Front>, std::greater<Front>> queue;
     const auto reach = [&](const double distance, const int i) {
-      double& d = m_distance[std::size_t(i)];
+      double& d = m_distance[i];
       if(distance >= d || distance > bound)
         return;
       if(d == infinity)
@@ -157,29 +157,29 @@ private:
       queue.emplace(distance, i);
     };
     for(const int v : sources)
-      for(const auto& [j, weight] : m_rows[std::size_t(v)].entries)
-        reach(to_foot(m_rows[std::size_t(v)], j), j);
+      for(const auto& [j, weight] : m_rows[v].entries)
+        reach(to_foot(m_rows[v], j), j);
     while(!queue.empty() && (missing != 0 || targets.empty())) {
       const auto [distance, i] = queue.top();
       queue.pop();
-      if(distance > m_distance[std::size_t(i)])
+      if(distance > m_distance[i])
         continue;
-      if(m_waiting[std::size_t(i)] == 1) {
-        m_waiting[std::size_t(i)] = 2;
+      if(m_waiting[i] == 1) {
+        m_waiting[i] = 2;
         --missing;
       }
       for(const int j : m_fine_rings[i])
         reach(distance + (m_fine.V.row(j) - m_fine.V.row(i)).norm(), j);
     }
     for(const int w : targets)
-      for(const auto& [j, weight] : m_rows[std::size_t(w)].entries)
-        m_waiting[std::size_t(j)] = 0;
+      for(const auto& [j, weight] : m_rows[w].entries)
+        m_waiting[j] = 0;
   }
 
   bool reached(const int v, const double bound) const
   {
-    for(const auto& [j, weight] : m_rows[std::size_t(v)].entries)
-      if(m_distance[std::size_t(j)] + to_foot(m_rows[std::size_t(v)], j) <= bound)
+    for(const auto& [j, weight] : m_rows[v].entries)
+      if(m_distance[j] + to_foot(m_rows[v], j) <= bound)
         return true;
     return false;
   }
@@ -187,9 +187,8 @@ private:
   // Nothing can be said about feet in two components: unwelded patches have neighbours in others.
   bool are_comparable(const int v, const int w) const
   {
-    const auto &a = m_rows[std::size_t(v)].entries, &b = m_rows[std::size_t(w)].entries;
-    return !a.empty() && !b.empty() &&
-           m_component[std::size_t(a.front().first)] == m_component[std::size_t(b.front().first)];
+    const auto &a = m_rows[v].entries, &b = m_rows[w].entries;
+    return !a.empty() && !b.empty() && m_component[a.front().first] == m_component[b.front().first];
   }
 
   // The sum of the normals of the faces around each vertex, by area.
@@ -214,15 +213,15 @@ private:
     Eigen::VectorXd of_component = agreement;
     for(Eigen::Index v = 0; v < agreement.size(); ++v) {
       Eigen::RowVector3d n = Eigen::RowVector3d::Zero();
-      for(const auto& [j, weight] : m_rows[std::size_t(v)].entries)
+      for(const auto& [j, weight] : m_rows[v].entries)
         n += weight * fine.row(j).normalized();
       agreement(v) = m_normals.row(v).normalized().dot(n);
-      of_component(m_coarse_component[std::size_t(v)]) += agreement(v);
+      of_component(m_coarse_component[v]) += agreement(v);
     }
     for(Eigen::Index v = 0; v < agreement.size(); ++v) {
-      const double sign = of_component(m_coarse_component[std::size_t(v)]) < 0 ? -1 : 1;
+      const double sign = of_component(m_coarse_component[v]) < 0 ? -1 : 1;
       m_normals.row(v) *= sign;
-      m_rows[std::size_t(v)].is_turned = sign * agreement(v) < 0;
+      m_rows[v].is_turned = sign * agreement(v) < 0;
     }
   }
 
@@ -243,27 +242,27 @@ private:
       spread({v}, bound, later);
       for(const int w : later)
         if(!reached(w, allowed(v, w)))
-          doubtful[std::size_t(v)] = doubtful[std::size_t(w)] = 1;
+          doubtful[v] = doubtful[w] = 1;
     }
     const std::vector<Eigen::Index> group =
         connected_components(Eigen::Index(m_rows.size()), [&](const auto& join) {
           for(int v = 0; v < int(m_rows.size()); ++v)
             for(const int w : m_rings[v])
-              if(!doubtful[std::size_t(v)] && !doubtful[std::size_t(w)])
+              if(!doubtful[v] && !doubtful[w])
                 join(v, w);
         });
     std::vector<std::size_t> size(m_rows.size(), 0);
     for(const Eigen::Index g : group)
-      ++size[std::size_t(g)];
+      ++size[g];
     std::vector<Eigen::Index> largest(m_rows.size(), -1);
     for(std::size_t v = 0; v < m_rows.size(); ++v) {
-      Eigen::Index& best = largest[std::size_t(m_coarse_component[v])];
-      if(best < 0 || size[std::size_t(group[v])] > size[std::size_t(best)])
+      Eigen::Index& best = largest[m_coarse_component[v]];
+      if(best < 0 || size[group[v]] > size[best])
         best = group[v];
     }
     std::vector<char> result(m_rows.size());
     for(std::size_t v = 0; v < m_rows.size(); ++v)
-      result[v] = largest[std::size_t(m_coarse_component[v])] == group[v];
+      result[v] = largest[m_coarse_component[v]] == group[v];
     return result;
   }
 
@@ -273,13 +272,13 @@ private:
     std::vector<int> sources;
     double bound = 0;
     for(const int w : m_rings[v])
-      if(settled[std::size_t(w)] && are_comparable(v, w)) {
+      if(settled[w] && are_comparable(v, w)) {
         sources.push_back(w);
         bound = (std::max)(bound, allowed(v, w));
       }
     spread(sources, bound, {v});
     const bool is_reached = sources.empty() || reached(v, bound);
-    if(is_reached && (sources.empty() || !m_rows[std::size_t(v)].is_turned))
+    if(is_reached && (sources.empty() || !m_rows[v].is_turned))
       return true;
     spread(sources, bound, {}); // all of it
     if(!m_fine_faces)
@@ -302,10 +301,10 @@ private:
       }
     if(face < 0)
       return is_reached; // nothing better
-    m_rows[std::size_t(v)].entries.clear();
+    m_rows[v].entries.clear();
     for(int k = 0; k < 3; ++k)
       if(best.weights(k) != 0)
-        m_rows[std::size_t(v)].entries.emplace_back(m_fine.T(face, k), best.weights(k));
+        m_rows[v].entries.emplace_back(m_fine.T(face, k), best.weights(k));
     set_foot(v);
     return is_reached;
   }

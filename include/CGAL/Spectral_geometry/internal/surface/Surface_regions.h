@@ -46,14 +46,14 @@ public:
   /// Whether a fine vertex belongs to a coarse one.
   bool are_near(const int coarse, const Eigen::Index fine) const
   {
-    return within_two_edges(coarse, m_row[std::size_t(fine)]);
+    return within_two_edges(coarse, m_row[fine]);
   }
 
   /// The closest point on the fine surface of a coarse vertex that is at `p`.
   Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
                                                const Eigen::Index v, const Eigen::Vector3d& p) const
   {
-    const Eigen::Index home = m_home[std::size_t(v)].face;
+    const Eigen::Index home = m_home[v].face;
     return home < 0 ? fine(p) : of_coarse_vertex(fine, v, p, home);
   }
 
@@ -62,10 +62,10 @@ public:
                                                const Eigen::Index v, const Eigen::Vector3d& p,
                                                const Eigen::Index face) const
   {
-    const int own = m_home[std::size_t(v)].row;
+    const int own = m_home[v].row;
     return fine.among(p, face, [&](const Eigen::Index f) {
       for(int k = 0; k < 3; ++k) {
-        const int row = m_row[std::size_t(m_fine.T(f, k))];
+        const int row = m_row[m_fine.T(f, k)];
         if(own < 0 || row == own || within_two_edges(int(v), row))
           return true;
       }
@@ -87,8 +87,8 @@ public:
     const Closest_point_query coarse(m_coarse);
     const std::vector<Eigen::Index> face_of = faces_at_vertices(m_coarse.T, m_coarse.V.rows());
     return interpolation(m_coarse, m_fine.V.rows(), [&](const Eigen::Index i) {
-      const int row = m_row[std::size_t(i)];
-      const Eigen::Index face = row < 0 ? -1 : face_of[std::size_t(row)];
+      const int row = m_row[i];
+      const Eigen::Index face = row < 0 ? -1 : face_of[row];
       if(face < 0)
         return coarse(m_fine.V.row(i)); // P says nothing about it
       return coarse.among(m_fine.V.row(i), face, [&](const Eigen::Index f) {
@@ -136,11 +136,11 @@ private:
     while(!queue.empty()) {
       const auto [distance, i, row] = queue.top();
       queue.pop();
-      if(m_row[std::size_t(i)] >= 0)
+      if(m_row[i] >= 0)
         continue;
-      m_row[std::size_t(i)] = row;
+      m_row[i] = row;
       for(const int j : rings[i])
-        if(m_row[std::size_t(j)] < 0)
+        if(m_row[j] < 0)
           queue.emplace(distance + (m_fine.V.row(j) - m_fine.V.row(i)).norm(), j, row);
     }
   }
@@ -153,20 +153,20 @@ private:
     Eigen::VectorXd most = Eigen::VectorXd::Zero(P.rows());
     for(Eigen::Index j = 0; j < P.cols(); ++j)
       for(Eigen::SparseMatrix<double>::InnerIterator it(P, j); it; ++it)
-        if(face_of[std::size_t(j)] >= 0 && it.value() > most(it.row())) {
+        if(face_of[j] >= 0 && it.value() > most(it.row())) {
           most(it.row()) = it.value();
-          m_home[std::size_t(it.row())] = {face_of[std::size_t(j)], m_row[std::size_t(j)]};
+          m_home[it.row()] = {face_of[j], m_row[j]};
         }
     std::vector<int> reached;
     for(int v = 0; v < int(P.rows()); ++v)
-      if(m_home[std::size_t(v)].face >= 0)
+      if(m_home[v].face >= 0)
         reached.push_back(v);
     if(reached.size() == m_home.size())
       return;
     for(std::size_t k = 0; k < reached.size(); ++k)
       for(const int w : m_rings[reached[k]])
-        if(m_home[std::size_t(w)].face < 0) {
-          m_home[std::size_t(w)] = m_home[std::size_t(reached[k])];
+        if(m_home[w].face < 0) {
+          m_home[w] = m_home[reached[k]];
           reached.push_back(w);
         }
   }
@@ -196,7 +196,7 @@ public:
 
   Answer operator()(const Eigen::Index v, const Eigen::Vector3d& p)
   {
-    auto& [latest, other] = m_places[std::size_t(v)];
+    auto& [latest, other] = m_places[v];
     if(!latest.closest || latest.position != p) {
       std::swap(latest, other);
       if(!latest.closest || latest.position != p)

@@ -136,10 +136,7 @@ public:
     return {face, best.weights, corners(face) * best.weights};
   }
 
-  const Eigen::Matrix3d& corners(const Eigen::Index face) const
-  {
-    return m_corners[std::size_t(face)];
-  }
+  const Eigen::Matrix3d& corners(const Eigen::Index face) const { return m_corners[face]; }
 
 private:
   std::vector<Eigen::Matrix3d> m_corners; // of each face, a column each

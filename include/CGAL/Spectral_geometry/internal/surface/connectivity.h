@@ -68,7 +68,7 @@ inline std::vector<char> border_vertices(const Eigen::MatrixXi& T, const Eigen::
 {
   std::vector<char> result(std::size_t(n), 0);
   for(const auto& [i, j] : boundary_edges(T))
-    result[std::size_t(i)] = result[std::size_t(j)] = 1;
+    result[i] = result[j] = 1;
   return result;
 }
 
@@ -78,7 +78,7 @@ inline std::vector<Eigen::Index> faces_at_vertices(const Eigen::MatrixXi& T, con
   std::vector<Eigen::Index> result(std::size_t(n), -1);
   for(Eigen::Index f = 0; f < T.rows(); ++f)
     for(int k = 0; k < 3; ++k)
-      result[std::size_t(T(f, k))] = f;
+      result[T(f, k)] = f;
   return result;
 }
 
@@ -108,10 +108,10 @@ public:
 
   Ring operator[](const int v) const
   {
-    const int* const first = m_items.data() + m_begin[std::size_t(v)];
-    return {first, first + m_size[std::size_t(v)]};
+    const int* const first = m_items.data() + m_begin[v];
+    return {first, first + m_size[v]};
   }
-  std::size_t size(const int v) const { return m_size[std::size_t(v)]; }
+  std::size_t size(const int v) const { return m_size[v]; }
   bool has(const int v, const int item) const
   {
     return std::binary_search((*this)[v].first, (*this)[v].last, item);
@@ -124,7 +124,7 @@ public:
   {
     constexpr std::size_t most_of_a_hub = 64;
     std::vector<int> result = {v};
-    seen[std::size_t(v)] = 1;
+    seen[v] = 1;
     for(std::size_t first = 0; first < result.size() && result.size() < wanted;) {
       const std::size_t last = result.size();
       for(; first < last; ++first) {
@@ -132,14 +132,14 @@ public:
         const std::size_t n = size(result[first]),
                           step = first == 0 ? 1 : (n + most_of_a_hub - 1) / most_of_a_hub;
         for(std::size_t i = 0; i < n; i += step)
-          if(!seen[std::size_t(ring[i])]) {
-            seen[std::size_t(ring[i])] = 1;
+          if(!seen[ring[i]]) {
+            seen[ring[i]] = 1;
             result.push_back(ring[i]);
           }
       }
     }
     for(const int w : result)
-      seen[std::size_t(w)] = 0;
+      seen[w] = 0;
     return result;
   }
 

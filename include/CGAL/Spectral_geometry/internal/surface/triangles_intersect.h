@@ -33,7 +33,7 @@ Corners corners_of_face(const Positions& V, const Face& face)
 {
   Corners result;
   for(int k = 0; k < 3; ++k)
-    result[std::size_t(k)] = {std::size_t(face[k]), V.row(face[k]).transpose()};
+    result[k] = {std::size_t(face[k]), V.row(face[k]).transpose()};
   return result;
 }
 
@@ -133,8 +133,7 @@ Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
 
 namespace CGAL::Spectral_geometry::internal {
 
-CGAL_SPECTRAL_GEOMETRY_INLINE bool triangles_intersect_exactly(const Corners& s, const Corners& t,
-                                                               const std::size_t common)
+bool triangles_intersect_exactly(const Corners& s, const Corners& t, const std::size_t common)
 {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const auto point = [](const Corner& c) {

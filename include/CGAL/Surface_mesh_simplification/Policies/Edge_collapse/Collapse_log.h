@@ -124,7 +124,7 @@ public:
                       " slots are given; let all three agree.");
     for(std::size_t i = 0; i < second.m_points.size(); ++i) {
       const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
-      merge(slots[std::size_t(m.removed)], slots[std::size_t(m.kept)], m.alpha, second.m_points[i]);
+      merge(slots[m.removed], slots[m.kept], m.alpha, second.m_points[i]);
     }
   }
 
@@ -259,9 +259,9 @@ public:
     // Afresh: garbage may have been collected meanwhile.
     m_vertices.resize(m_log.number_of_vertices());
     for(const vertex_descriptor v : vertices(*m_mesh))
-      m_vertices[std::size_t(m_slots.slot(v))] = v;
+      m_vertices[m_slots.slot(v)] = v;
     for(; m_done < end; ++m_done)
-      merge(m_log.forest().merges()[std::size_t(m_done)], m_log.points()[std::size_t(m_done)]);
+      merge(m_log.forest().merges()[m_done], m_log.points()[m_done]);
   }
 
   /// Number of vertices of the mesh as it is.
@@ -294,8 +294,7 @@ private:
 
   void merge(const Merge& m, const Eigen::Vector3d& at)
   {
-    const vertex_descriptor removed = m_vertices[std::size_t(m.removed)],
-                            kept = m_vertices[std::size_t(m.kept)];
+    const vertex_descriptor removed = m_vertices[m.removed], kept = m_vertices[m.kept];
     const auto [h, are_joined] = halfedge(removed, kept, *m_mesh);
     internal::require(
         are_joined, "Collapse_replay: the vertices ", m.removed, " and ", m.kept,
@@ -307,7 +306,7 @@ private:
                             : Point(FT(at.x()), FT(at.y()), FT(at.z()));
     const vertex_descriptor left = collapse(h);
     // The other of the two, should the halfedges of the copy lie otherwise.
-    m_vertices[std::size_t(m.kept)] = left;
+    m_vertices[m.kept] = left;
     m_slots.set(left, m.kept);
     put(m_vpm, left, point);
   }

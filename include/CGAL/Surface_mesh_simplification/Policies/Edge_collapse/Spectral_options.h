@@ -127,11 +127,6 @@ struct Spectral_options
   /// there are `number_of_mixtures` of them, which must not be 0, and no `weights`.
   Spectral_signal_source source = Spectral_signal_source::eigenpairs;
 
-  /// How many signals of filtered noise are made and kept for a relocation afterwards, where that
-  /// is more than `number_of_mixtures`; `spectral_edge_collapse()` sets it. One factorisation
-  /// serves both. Not negative.
-  Eigen::Index number_of_relocation_signals = 0;
-
   /// The placement strategy.
   Spectral_placement_strategy placement = Spectral_placement_strategy::free;
 

@@ -288,7 +288,7 @@ void check_fans(const TriangleMesh& mesh, const Eigen::MatrixXi& T)
   std::vector<int> own(std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end())), 0);
   for(Eigen::Index f = 0; f < T.rows(); ++f)
     for(int k = 0; k < 3; ++k)
-      ++own[std::size_t(T(f, k))];
+      ++own[T(f, k)];
   std::size_t i = 0;
   for(const auto v : vertices(mesh)) {
     require(own[i] != 0, "edge collapses: ", vertex_name(Eigen::Index(i)),
@@ -320,7 +320,7 @@ inline void check_kept_vertices_apart(const std::vector<char>& kept, const Eigen
   std::vector<Eigen::Index> kept_at(kept.size(), -1);
   for(std::size_t v = 0; v < kept.size(); ++v)
     if(kept[v]) {
-      Eigen::Index& first = kept_at[std::size_t(place[v])];
+      Eigen::Index& first = kept_at[place[v]];
       require(first < 0, "Spectral_options: the vertices ", first, " and ", v,
               " are both to be kept, but edges without length join them and are collapsed before "
               "anything "

@@ -409,7 +409,7 @@ public:
     if(!m_core.fields().kept.empty() || !m_constrained.empty())
       for(const Eigen::Index s : current_slots())
         fixed.push_back(m_core.fields().is_kept(Slot(s)) ||
-                        (!m_constrained.empty() && m_constrained[std::size_t(s)]));
+                        (!m_constrained.empty() && m_constrained[s]));
     return fixed;
   }
   /// Vertices that are kept with their row of P; none where none is.

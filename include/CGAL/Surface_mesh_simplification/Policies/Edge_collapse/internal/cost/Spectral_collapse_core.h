@@ -192,8 +192,6 @@ private:
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_LOOP)
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_residual_row.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -399,11 +397,11 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::commit(const Spectral
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
 {
-  Spectral_fields left;
-  left.kept = m_fields.kept;
-  m_fields = std::move(left);
-  m_shape = Spectral_shape_term();
-  m_crossing = Spectral_crossing_guard();
+  Spectral_fields fields;
+  fields.kept = std::move(m_fields.kept);
+  m_fields = std::move(fields);
+  m_shape = {};
+  m_crossing = {};
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search

@@ -5,7 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_INTERNAL_COST_SPECTRAL_CROSSING_GUARD_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>

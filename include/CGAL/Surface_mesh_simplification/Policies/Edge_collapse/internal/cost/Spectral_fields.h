@@ -5,17 +5,215 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_COST_SPECTRAL_FIELDS_H
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_rings.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_signals.h>
 
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
+#include <CGAL/assertions.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
+
+/// Cotangents and area of a triangle (c; a, b), seen from its corner c.
+struct Spectral_triangle
+{
+  double cot_center = 0; ///< at c, opposite ab
+  double cot_first = 0;  ///< at a, opposite cb
+  double cot_second = 0; ///< at b, opposite ca
+  double area = 0;
+
+  /// This triangle as (a; b, c) and (b; c, a).
+  Spectral_triangle from_first() const { return {cot_first, cot_second, cot_center, area}; }
+  Spectral_triangle from_second() const { return {cot_second, cot_center, cot_first, area}; }
+
+  // A cotangent of 1e10 means an angle of 1e-10: such a triangle has no area that doubles can tell.
+  static constexpr double degenerate_cotangent = 1e10;
+};
+
+/// That of `Spectral_geometry::internal::Triangle_element`, with one division and one square root.
+/// The rule for what is degenerate is that of the assembly, so that E is 0 on the input. With
+/// `mean`, the coefficients of an operator, cotangents are those of its conductivity and the area
+/// is weighted by its density.
+inline Spectral_triangle
+spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  const Spectral_geometry::internal::Point_coefficients* mean = nullptr)
+{
+  using Spectral_geometry::internal::triangle_element;
+  const Eigen::Vector3d edges[3] = {b - a, c - b, a - c};
+  const Spectral_geometry::internal::Triangle_element element =
+      mean == nullptr ? triangle_element(edges) : triangle_element(edges, *mean);
+  Spectral_triangle t;
+  if(element.is_degenerate())
+    return t;
+  const double inverse = 1 / element.twice_area;
+  t.cot_center = element.dot[0] * inverse;
+  t.cot_first = element.dot[1] * inverse;
+  t.cot_second = element.dot[2] * inverse;
+  t.area = (mean == nullptr ? 1. : (*mean)[0]) * element.twice_area / 2;
+  return t;
+}
+
+/// A neighbour in the ring of a vertex c, and the triangle (c; vertex, next vertex of the ring) if
+/// `face` is set. A vertex of the border has one entry without a face.
+struct Spectral_ring_entry
+{
+  Spectral_slot vertex = null_spectral_slot;
+  std::uint32_t back = 0; ///< index of c in the ring of `vertex`
+  bool face = false;
+  /// the latest cost of collapsing the edge from a smaller slot to `vertex`; negative infinity: not
+  /// known
+  double cost = unknown_cost;
+  Spectral_triangle triangle;
+
+  static constexpr double unknown_cost = -std::numeric_limits<double>::infinity();
+};
+
+using Spectral_ring = std::vector<Spectral_ring_entry>;
+
+/*!
+ * The connectivity of the current mesh in slots, with the geometry of each triangle at each of its
+ * corners.
+ *
+ * The policies see every mesh type through this mirror: the walk over halfedges is done once, for
+ * the kept vertex of a collapse, and everything else is arithmetic on contiguous arrays, which may
+ * run on several threads whatever the mesh is.
+ */
+class Spectral_rings
+{
+public:
+  void resize(const std::size_t n) { m_rings.assign(n, Spectral_ring()); }
+
+  Spectral_ring& operator[](const Spectral_slot s) { return m_rings[s]; }
+  const Spectral_ring& operator[](const Spectral_slot s) const { return m_rings[s]; }
+
+  /// Position of `w` in the ring of `c`, or the ring's size.
+  std::size_t find(const Spectral_slot c, const Spectral_slot w) const
+  {
+    const Spectral_ring& ring = m_rings[c];
+    std::size_t i = 0;
+    while(i < ring.size() && ring[i].vertex != w)
+      ++i;
+    return i;
+  }
+
+  /// Whether an edge joins two vertices: looks at the smaller of their rings.
+  bool are_adjacent(Spectral_slot c, Spectral_slot w) const
+  {
+    if(m_rings[w].size() < m_rings[c].size())
+      std::swap(c, w);
+    return find(c, w) < m_rings[c].size();
+  }
+
+  bool is_border(const Spectral_slot c) const
+  {
+    return std::any_of(m_rings[c].begin(), m_rings[c].end(),
+                       [](const Spectral_ring_entry& e) { return !e.face; });
+  }
+
+  static std::size_t next(const Spectral_ring& ring, const std::size_t i)
+  {
+    return i + 1 == ring.size() ? 0 : i + 1;
+  }
+  static std::size_t prev(const Spectral_ring& ring, const std::size_t i)
+  {
+    return i == 0 ? ring.size() - 1 : i - 1;
+  }
+
+  /// Calls function(a, b) for each triangle (c, a, b).
+  template <class Function>
+  void for_triangles(const Spectral_slot c, const Function& function) const
+  {
+    const Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i)
+      if(ring[i].face)
+        function(ring[i].vertex, ring[next(ring, i)].vertex);
+  }
+  /// Calls function(a) for each neighbour.
+  template <class Function>
+  void for_neighbours(const Spectral_slot c, const Function& function) const
+  {
+    for(const Spectral_ring_entry& e : m_rings[c])
+      function(e.vertex);
+  }
+
+  /// First step of a collapse of `removed` into `kept`: `ring` is that of the kept vertex after it,
+  /// as the mesh has it. Its triangles follow from `Spectral_fields::update_triangles()`, those
+  /// around it from follow().
+  void merge(const Spectral_slot removed, const Spectral_slot kept, Spectral_ring ring)
+  {
+    Spectral_ring().swap(m_rings[removed]);
+    m_rings[kept] = std::move(ring);
+  }
+
+  /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place
+  /// of `removed` in the ring of w, and takes the two triangles that they share.
+  void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
+  {
+    Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
+    const std::size_t moved = replace_in_ring(around[i].vertex, removed, kept), j = link(kept, i);
+    // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
+    ring[prev(ring, j)].triangle = around[i].triangle.from_first();
+    ring[j].triangle = around[prev(around, i)].triangle.from_second();
+    ring[j].cost = Spectral_ring_entry::unknown_cost;
+    for(std::size_t k = moved; k < ring.size(); ++k)
+      link(around[i].vertex, k);
+  }
+
+  /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is
+  /// looked for in the smaller of two rings. May run side by side for several c.
+  void find_back(const Spectral_slot c)
+  {
+    const Spectral_ring& ring = m_rings[c];
+    for(std::size_t i = 0; i < ring.size(); ++i) {
+      const Spectral_slot w = ring[i].vertex;
+      if(m_rings[w].size() < ring.size() ||
+         (m_rings[w].size() == ring.size() && c < w)) // else left to w
+        link(c, i);
+    }
+  }
+
+private:
+  // Sets `back` on both sides of the i-th entry of the ring of c, and returns what it is there.
+  std::size_t link(const Spectral_slot c, const std::size_t i)
+  {
+    Spectral_ring_entry& e = m_rings[c][i];
+    const std::size_t j = find(e.vertex, c);
+    CGAL_assertion(j < m_rings[e.vertex].size());
+    e.back = std::uint32_t(j);
+    m_rings[e.vertex][j].back = std::uint32_t(i);
+    return j;
+  }
+
+  // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were
+  // consecutive, the triangle between them vanished and the later of the two entries takes the
+  // place of both: an entry carries the face that follows it. Returns the index from which on
+  // entries have moved.
+  std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed,
+                              const Spectral_slot kept)
+  {
+    Spectral_ring& ring = m_rings[c];
+    const std::size_t i = find(c, removed);
+    if(i == ring.size())
+      return i;
+    ring[i].vertex = kept;
+    const std::size_t nx = next(ring, i), pv = prev(ring, i);
+    const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
+                             : pv != i && ring[pv].vertex == kept ? pv
+                                                                  : ring.size();
+    if(gone < ring.size())
+      ring.erase(ring.begin() + std::ptrdiff_t(gone));
+    return gone;
+  }
+
+  std::vector<Spectral_ring> m_rings;
+};
 
 /*!
  * The current mesh and what lives on it, in slots: for each slot w the rows f_w, z_w and

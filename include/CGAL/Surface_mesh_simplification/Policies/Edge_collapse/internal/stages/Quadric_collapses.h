@@ -68,7 +68,7 @@ quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, st
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_quadric.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
 
 #include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
@@ -220,7 +220,7 @@ public:
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
   {
     for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
-      if(m_mesh.opposite[at(c)] < c)
+      if(m_mesh.opposite[c] < c)
         push(c);
     const std::size_t n = m_log.number_of_vertices();
     const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
@@ -234,7 +234,7 @@ public:
         progress(before);
         m_largest_degree = stuck ? unlimited : (std::min)(4 * m_largest_degree, unlimited);
         for(const int c : std::exchange(m_refused, {}))
-          if(m_mesh.vertex[at(c)] != removed && m_state[at(c)] == refused)
+          if(m_mesh.vertex[c] != removed && m_state[c] == refused)
             push(c);
         continue;
       }
@@ -295,23 +295,22 @@ private:
   static constexpr int removed = -1; // vertex of the corners of a face that is gone
   static constexpr int unlimited = (std::numeric_limits<int>::max)() / 8;
 
-  static std::size_t at(const int i) { return std::size_t(i); }
   static int next(const int c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static int previous(const int c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
-  int source(const int c) const { return m_mesh.vertex[at(c)]; }
-  int target(const int c) const { return m_mesh.vertex[at(next(c))]; }
-  bool is_border(const int c) const { return m_mesh.opposite[at(c)] < 0; }
-  bool is_border_vertex(const int v) const { return is_border(m_outgoing[at(v)]); }
+  int source(const int c) const { return m_mesh.vertex[c]; }
+  int target(const int c) const { return m_mesh.vertex[next(c)]; }
+  bool is_border(const int c) const { return m_mesh.opposite[c] < 0; }
+  bool is_border_vertex(const int v) const { return is_border(m_outgoing[v]); }
 
   // Starts with the halfedge on the border, if there is one, and turns from there.
   template <class Visit>
   void for_outgoing(const int v, const Visit& visit) const
   {
-    const int first = m_outgoing[at(v)];
+    const int first = m_outgoing[v];
     int c = first;
     do {
-      const int beyond = m_mesh.opposite[at(previous(c))];
+      const int beyond = m_mesh.opposite[previous(c)];
       visit(c);
       c = beyond;
     } while(c >= 0 && c != first);
@@ -320,19 +319,19 @@ private:
   void add_corner(const int c)
   {
     const int v = source(c);
-    const Eigen::Vector3d& p = m_points[at(v)];
-    m_degree[at(v)] += is_border(c) ? 2 : 1;
-    if(m_outgoing[at(v)] < 0 || is_border(c))
-      m_outgoing[at(v)] = c;
-    m_quadrics[at(v)].add_corner(p, m_points[at(target(c))] - p, is_border(c),
-                                 m_points[at(source(previous(c)))] - p, is_border(previous(c)));
+    const Eigen::Vector3d& p = m_points[v];
+    m_degree[v] += is_border(c) ? 2 : 1;
+    if(m_outgoing[v] < 0 || is_border(c))
+      m_outgoing[v] = c;
+    m_quadrics[v].add_corner(p, m_points[target(c)] - p, is_border(c),
+                             m_points[source(previous(c))] - p, is_border(previous(c)));
   }
 
   void push(const int c) { push(c, placement(c).first); }
 
   void push(const int c, const float cost)
   {
-    m_state[at(c)] = number_of_collapses();
+    m_state[c] = number_of_collapses();
     m_queue.push({cost, c});
   }
 
@@ -342,15 +341,15 @@ private:
   std::pair<float, Eigen::Vector3d> placement(const int c) const
   {
     const int u = source(c), v = target(c);
-    const Eigen::Vector3d &p = m_points[at(u)], &q = m_points[at(v)];
+    const Eigen::Vector3d &p = m_points[u], &q = m_points[v];
     if(p == q)
       return {-1.f, p};
-    const Spectral_quadric sum = m_quadrics[at(u)] + m_quadrics[at(v)];
-    Eigen::Vector3d x = m_mesh.fixed[at(u)] ? p : m_mesh.fixed[at(v)] ? q : sum.minimiser();
+    const Spectral_quadric sum = m_quadrics[u] + m_quadrics[v];
+    Eigen::Vector3d x = m_mesh.fixed[u] ? p : m_mesh.fixed[v] ? q : sum.minimiser();
     if(!x.allFinite())
       x = (p + q) / 2;
     // A fixed end is exactly there: p + (q - p) rounds.
-    if(m_mesh.border_is_apart && !m_mesh.fixed[at(u)] && !m_mesh.fixed[at(v)] &&
+    if(m_mesh.border_is_apart && !m_mesh.fixed[u] && !m_mesh.fixed[v] &&
        (is_border_vertex(u) || is_border_vertex(v)))
       x = !is_border_vertex(v)   ? p
           : !is_border_vertex(u) ? q
@@ -364,30 +363,30 @@ private:
 
   void handle(const Entry& entry)
   {
-    const int c = entry.halfedge, opposite = m_mesh.opposite[at(c)];
+    const int c = entry.halfedge, opposite = m_mesh.opposite[c];
     if(source(c) == removed)
       return;
-    const int computed = std::exchange(m_state[at(c)], none);
+    const int computed = std::exchange(m_state[c], none);
     if(opposite >= 0 &&
-       m_state[at(opposite)] >= 0) // two edges have become one: its other entry stands for it
+       m_state[opposite] >= 0) // two edges have become one: its other entry stands for it
       return;
     const int u = source(c), v = target(c);
     if(would_change(u, v) || would_change(v, u))
       return;
     const auto [cost, x] = placement(c);
-    if((std::max)(m_changed[at(u)], m_changed[at(v)]) > computed && !m_queue.empty() &&
+    if((std::max)(m_changed[u], m_changed[v]) > computed && !m_queue.empty() &&
        cost > m_queue.top().cost) {
       push(c, cost);
       return;
     }
-    if(m_degree[at(u)] + m_degree[at(v)] > m_largest_degree || !keeps_manifold(c) ||
+    if(m_degree[u] + m_degree[v] > m_largest_degree || !keeps_manifold(c) ||
        !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
        m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
-      m_state[at(c)] = refused;
+      m_state[c] = refused;
       m_refused.push_back(c);
       return;
     }
-    if(m_mesh.fixed[at(u)])
+    if(m_mesh.fixed[u])
       collapse(c, v, u, x);
     else
       collapse(c, u, v, x);
@@ -398,31 +397,31 @@ private:
   void prefetch_next() const
   {
     if(const int c = m_queue.ahead(8); c >= 0) {
-      CGAL_SPECTRAL_PREFETCH(&m_mesh.vertex[at(c)]);
-      CGAL_SPECTRAL_PREFETCH(&m_mesh.opposite[at(c)]);
-      CGAL_SPECTRAL_PREFETCH(&m_state[at(c)]);
+      CGAL_SPECTRAL_PREFETCH(&m_mesh.vertex[c]);
+      CGAL_SPECTRAL_PREFETCH(&m_mesh.opposite[c]);
+      CGAL_SPECTRAL_PREFETCH(&m_state[c]);
     }
     if(const int c = m_queue.ahead(4); c >= 0 && source(c) != removed)
       for(const int v : {source(c), target(c)}) {
-        CGAL_SPECTRAL_PREFETCH(&m_points[at(v)]);
-        CGAL_SPECTRAL_PREFETCH(&m_quadrics[at(v)]);
-        CGAL_SPECTRAL_PREFETCH(&m_quadrics[at(v)].c);
-        CGAL_SPECTRAL_PREFETCH(&m_changed[at(v)]);
+        CGAL_SPECTRAL_PREFETCH(&m_points[v]);
+        CGAL_SPECTRAL_PREFETCH(&m_quadrics[v]);
+        CGAL_SPECTRAL_PREFETCH(&m_quadrics[v].c);
+        CGAL_SPECTRAL_PREFETCH(&m_changed[v]);
       }
   }
 
   // The place or the values of a fixed vertex, for those of the other one.
   bool would_change(const int fixed, const int other) const
   {
-    return m_mesh.fixed[at(fixed)] &&
-           (m_mesh.fixed[at(other)] ||
+    return m_mesh.fixed[fixed] &&
+           (m_mesh.fixed[other] ||
             (m_mesh.border_is_apart && is_border_vertex(other) && !is_border_vertex(fixed)));
   }
 
   // The link condition.
   bool keeps_manifold(const int c)
   {
-    const int u = source(c), v = target(c), opposite = m_mesh.opposite[at(c)];
+    const int u = source(c), v = target(c), opposite = m_mesh.opposite[c];
     if(opposite >= 0 && is_border_vertex(u) && is_border_vertex(v))
       return false;
     int faces = 0;
@@ -433,13 +432,13 @@ private:
       const int apex = source(previous(side));
       // an ear, or a tetrahedron
       if((is_border(next(side)) && is_border(previous(side))) ||
-         (m_degree[at(apex)] == 3 && !is_border_vertex(apex)))
+         (m_degree[apex] == 3 && !is_border_vertex(apex)))
         return false;
     }
     ++m_marks;
-    for_neighbours(u, [&](const int w) { m_mark[at(w)] = m_marks; });
+    for_neighbours(u, [&](const int w) { m_mark[w] = m_marks; });
     int common = 0;
-    for_neighbours(v, [&](const int w) { common += m_mark[at(w)] == m_marks; });
+    for_neighbours(v, [&](const int w) { common += m_mark[w] == m_marks; });
     return common == faces;
   }
 
@@ -450,8 +449,7 @@ private:
     for_triangles(u, [&](const int a, const int b) {
       if(!result || a == v || b == v)
         return;
-      const Face before(m_points[at(u)], m_points[at(a)], m_points[at(b)]),
-          after(x, m_points[at(a)], m_points[at(b)]);
+      const Face before(m_points[u], m_points[a], m_points[b]), after(x, m_points[a], m_points[b]);
       if(before.is_needle())
         result = !after.has_short_side() || before.has_short_side();
       else
@@ -484,9 +482,8 @@ private:
 
   void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
   {
-    double alpha = m_mesh.fixed[at(kept)]
-                       ? 0.
-                       : projected_edge_weight(m_points[at(kept)], m_points[at(gone)], x);
+    double alpha =
+        m_mesh.fixed[kept] ? 0. : projected_edge_weight(m_points[kept], m_points[gone], x);
     if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
       alpha = is_border_vertex(kept) ? 0. : 1.;
     if(m_mesh.binary)
@@ -495,7 +492,7 @@ private:
 
     std::vector<int>& ring = m_ring; // what is left of both
     ring.clear();
-    const int opposite = m_mesh.opposite[at(c)];
+    const int opposite = m_mesh.opposite[c];
     const auto is_left = [&](const int h) {
       return h / 3 != c / 3 && (opposite < 0 || h / 3 != opposite / 3);
     };
@@ -504,18 +501,18 @@ private:
         if(is_left(h))
           ring.push_back(h);
       });
-    m_degree[at(kept)] += m_degree[at(gone)] - 2;
+    m_degree[kept] += m_degree[gone] - 2;
     for(const int side : {c, opposite})
       if(side >= 0)
         close(side, kept);
-    m_points[at(kept)] = x;
-    m_quadrics[at(kept)] += m_quadrics[at(gone)];
-    m_changed[at(kept)] = number_of_collapses();
-    m_outgoing[at(kept)] = ring.front();
+    m_points[kept] = x;
+    m_quadrics[kept] += m_quadrics[gone];
+    m_changed[kept] = number_of_collapses();
+    m_outgoing[kept] = ring.front();
     for(const int h : ring) {
-      m_mesh.vertex[at(h)] = kept;
+      m_mesh.vertex[h] = kept;
       if(is_border(h))
-        m_outgoing[at(kept)] = h;
+        m_outgoing[kept] = h;
     }
     for(const int h : ring) {
       reconsider(h);
@@ -528,30 +525,30 @@ private:
   void close(const int side, const int kept)
   {
     const int apex = source(previous(side));
-    const int a = m_mesh.opposite[at(next(side))], b = m_mesh.opposite[at(previous(side))];
-    const bool was_queued = m_state[at(next(side))] != none || m_state[at(previous(side))] != none;
+    const int a = m_mesh.opposite[next(side)], b = m_mesh.opposite[previous(side)];
+    const bool was_queued = m_state[next(side)] != none || m_state[previous(side)] != none;
     if(a >= 0)
-      m_mesh.opposite[at(a)] = b;
+      m_mesh.opposite[a] = b;
     if(b >= 0)
-      m_mesh.opposite[at(b)] = a;
-    if(m_outgoing[at(apex)] == previous(side))
-      m_outgoing[at(apex)] = a;
-    --m_degree[at(apex)];
-    --m_degree[at(kept)];
+      m_mesh.opposite[b] = a;
+    if(m_outgoing[apex] == previous(side))
+      m_outgoing[apex] = a;
+    --m_degree[apex];
+    --m_degree[kept];
     for(const int h : {side, next(side), previous(side)})
-      m_mesh.vertex[at(h)] = removed;
+      m_mesh.vertex[h] = removed;
     // An entry of the edge that is left, if only one of the removed sides had one.
     const int left = a >= 0 ? a : b;
-    if(was_queued && m_state[at(left)] == none && (b < 0 || m_state[at(b)] == none))
-      m_state[at(left)] = refused; // until the ring is complete
+    if(was_queued && m_state[left] == none && (b < 0 || m_state[b] == none))
+      m_state[left] = refused; // until the ring is complete
   }
 
   void reconsider(const int h)
   {
-    if(m_state[at(h)] == refused)
+    if(m_state[h] == refused)
       push(h);
-    const int opposite = m_mesh.opposite[at(h)];
-    if(opposite >= 0 && m_state[at(opposite)] == refused)
+    const int opposite = m_mesh.opposite[h];
+    if(opposite >= 0 && m_state[opposite] == refused)
       push(opposite);
   }
 
@@ -573,9 +570,9 @@ private:
   Halfedge_queue m_queue;
 };
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
-quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_self_intersections,
-                  const std::size_t target, const std::function<void(std::size_t)>& progress)
+Collapse_log quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_self_intersections,
+                               const std::size_t target,
+                               const std::function<void(std::size_t)>& progress)
 {
   // To look for intersections at each collapse takes five times as long as the collapses: only
   // where some are left in the end.

@@ -105,7 +105,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   std::tie(result.log, result.slots) =
       collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
   for(std::size_t i = 0; i < result.slots.size(); ++i)
-    if(!kept.empty() && kept[std::size_t(result.slots[i])])
+    if(!kept.empty() && kept[result.slots[i]])
       result.kept_vertices.push_back(i);
   result.done = true;
   return result;

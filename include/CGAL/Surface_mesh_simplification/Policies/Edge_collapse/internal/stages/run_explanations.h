@@ -44,7 +44,7 @@ inline Eigen::Index genus(const Spectral_geometry::Mesh_matrices& mesh)
       });
   std::set<Eigen::Index> loops;
   for(const auto& [i, j] : border)
-    loops.insert(loop_of[std::size_t(i)]);
+    loops.insert(loop_of[i]);
   const Eigen::Index edges = (3 * mesh.T.rows() + Eigen::Index(border.size())) / 2;
   const Eigen::Index characteristic = mesh.V.rows() - edges + mesh.T.rows();
   return (2 * number_of_components(mesh) - characteristic - Eigen::Index(loops.size())) / 2;
@@ -149,9 +149,7 @@ inline std::vector<Component_size> component_sizes(const Spectral_geometry::Mesh
       Spectral_geometry::internal::connected_components(mesh.V.rows(), mesh.T);
   std::vector<Component_size> result(
       std::size_t(*std::max_element(component.begin(), component.end()) + 1));
-  const auto of = [&](const int v) -> Component_size& {
-    return result[std::size_t(component[std::size_t(v)])];
-  };
+  const auto of = [&](const int v) -> Component_size& { return result[component[v]]; };
   for(int v = 0; v < int(mesh.V.rows()); ++v)
     ++of(v).vertices;
   for(Eigen::Index f = 0; f < mesh.T.rows(); ++f) {
