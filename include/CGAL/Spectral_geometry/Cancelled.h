@@ -5,8 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
 #define CGAL_SPECTRAL_GEOMETRY_CANCELLED_H
 
-#include <functional>
-#include <stdexcept>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 namespace CGAL::Spectral_geometry {
 

@@ -5,12 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_OPTIONS_H
 #define CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_OPTIONS_H
 
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <Eigen/Core>
-
-#include <functional>
-#include <string>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 namespace CGAL::Spectral_geometry {
 

@@ -8,14 +8,6 @@
 #include <CGAL/number_type_config.h>
 
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <Eigen/SparseCore>
-
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <limits>
 
 namespace CGAL::Spectral_geometry {
 

@@ -8,10 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/SparseCore>
-
-#include <vector>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationTransfer
@@ -94,7 +90,6 @@ rows_off_their_part(const Mesh_matrices& coarse, const Mesh_matrices& fine,
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/Row_follower.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>

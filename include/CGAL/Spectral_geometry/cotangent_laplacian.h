@@ -11,15 +11,8 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
-
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 

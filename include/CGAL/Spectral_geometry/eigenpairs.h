@@ -10,8 +10,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/SparseCore>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -82,16 +80,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs pairs_of_part(const Eigen_problem& prob
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Spectrum_slices.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Eigenvalues>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {

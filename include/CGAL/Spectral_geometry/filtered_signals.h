@@ -9,11 +9,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/Core>
-
-#include <cstdint>
-#include <functional>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -98,15 +93,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Filtered_signals filtered_signals(
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Panel_space.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/Cholesky>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <utility>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {

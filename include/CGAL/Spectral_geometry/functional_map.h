@@ -10,13 +10,6 @@
 
 #include <CGAL/number_type_config.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationEvaluation
@@ -279,8 +272,6 @@ prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pa
 } // namespace CGAL::Spectral_geometry
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
-
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 namespace CGAL::Spectral_geometry {
 

@@ -5,9 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_LOCAL_OPERATOR_H
 #define CGAL_SPECTRAL_GEOMETRY_LOCAL_OPERATOR_H
 
-#include <Eigen/Core>
-
-#include <utility>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 namespace CGAL::Spectral_geometry {
 

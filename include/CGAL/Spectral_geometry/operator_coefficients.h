@@ -6,12 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
-
-#include <Eigen/Core>
-
-#include <cmath>
 
 namespace CGAL::Spectral_geometry {
 

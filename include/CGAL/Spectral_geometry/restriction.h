@@ -5,13 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
 #define CGAL_SPECTRAL_GEOMETRY_RESTRICTION_H
 
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <Eigen/SparseCore>
-
-#include <cstddef>
-#include <optional>
-#include <vector>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 namespace CGAL::Spectral_geometry {
 

@@ -10,12 +10,6 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {

@@ -8,10 +8,6 @@
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/Core>
-
-#include <functional>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -52,15 +48,8 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 

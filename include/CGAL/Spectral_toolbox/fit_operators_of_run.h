@@ -10,11 +10,7 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_toolbox/fitted_operators.h>
-
-#include <algorithm>
-#include <memory>
 
 namespace CGAL::Surface_mesh_simplification {
 

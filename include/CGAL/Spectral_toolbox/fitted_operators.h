@@ -9,10 +9,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 
-#include <Eigen/SparseCore>
-
-#include <functional>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -172,17 +168,8 @@ CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_
 #include <CGAL/Spectral_toolbox/internal/fit_matrices.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/number_type_config.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <stdexcept>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {

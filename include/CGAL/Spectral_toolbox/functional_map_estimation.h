@@ -8,8 +8,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 
-#include <Eigen/Core>
-
 /*!
 \file
 Finding the map between two shapes: functional maps from descriptors, and their refinement.
@@ -142,17 +140,10 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd product_manifold_scores(const Eigen
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
 #include <CGAL/Spectral_geometry/functional_map.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
 
 namespace CGAL::Spectral_geometry {
 

@@ -5,11 +5,8 @@
 #ifndef CGAL_SPECTRAL_TOOLBOX_HIERARCHICAL_FUNCTIONAL_MAPS_H
 #define CGAL_SPECTRAL_TOOLBOX_HIERARCHICAL_FUNCTIONAL_MAPS_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
-
-#include <Eigen/Core>
-
-#include <limits>
 
 namespace CGAL::Spectral_geometry {
 
@@ -71,11 +68,7 @@ lift_functional_map(const Eigen::MatrixXd& source_restriction, const Eigen::Matr
 
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
-#include <CGAL/Spectral_geometry/internal/require.h>
-
 #include <Eigen/SVD>
-
-#include <algorithm>
 
 namespace CGAL::Spectral_geometry {
 

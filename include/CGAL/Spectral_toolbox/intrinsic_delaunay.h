@@ -9,8 +9,6 @@
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/Core>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -62,14 +60,6 @@ CGAL_SPECTRAL_TOOLBOX_INLINE Laplace_operator intrinsic_delaunay_laplacian(
 
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/Face_element.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {

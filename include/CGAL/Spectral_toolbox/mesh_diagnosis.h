@@ -12,11 +12,6 @@
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/properties.h>
 
-#include <cstddef>
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -164,14 +159,6 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm,
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <boost/pending/disjoint_sets.hpp>
-
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <tuple>
 
 namespace CGAL::Spectral_geometry {
 

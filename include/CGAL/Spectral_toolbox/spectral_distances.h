@@ -6,15 +6,8 @@
 #define CGAL_SPECTRAL_TOOLBOX_SPECTRAL_DISTANCES_H
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
-#include <Eigen/SparseCore>
-
-#include <cmath>
 #include <initializer_list>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 /*!
 \file

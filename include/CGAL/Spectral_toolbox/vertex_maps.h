@@ -5,12 +5,8 @@
 #ifndef CGAL_SPECTRAL_TOOLBOX_VERTEX_MAPS_H
 #define CGAL_SPECTRAL_TOOLBOX_VERTEX_MAPS_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
-
-#include <Eigen/SparseCore>
-
-#include <functional>
-#include <vector>
 
 /*!
 \file
@@ -111,14 +107,10 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_toolbox/internal/Ball_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-
-#include <algorithm>
-#include <cstddef>
 
 namespace CGAL::Spectral_geometry {
 

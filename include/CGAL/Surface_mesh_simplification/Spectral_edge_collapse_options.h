@@ -9,12 +9,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 
 namespace CGAL::Surface_mesh_simplification {
 

@@ -12,13 +12,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/SparseCore>
-
-#include <cstddef>
-#include <memory>
-#include <string>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies

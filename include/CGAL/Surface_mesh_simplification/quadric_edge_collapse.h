@@ -12,21 +12,13 @@
 
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
 #include <iterator>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
 namespace internal {

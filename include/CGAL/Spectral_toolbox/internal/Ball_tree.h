@@ -5,15 +5,9 @@
 #ifndef CGAL_SPECTRAL_TOOLBOX_INTERNAL_BALL_TREE_H
 #define CGAL_SPECTRAL_TOOLBOX_INTERNAL_BALL_TREE_H
 
-#include <Eigen/Core>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -9,13 +9,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Panel_kernels.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// A tall matrix, panel by panel of eight columns; the last one is filled up with zeros.

@@ -13,13 +13,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -9,19 +9,10 @@
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <CGAL/number_type_config.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
 #include <sstream>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Spectral_geometry::internal {
 

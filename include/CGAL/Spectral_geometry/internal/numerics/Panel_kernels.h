@@ -10,12 +10,7 @@
 #include <boost/align/aligned_alloc.hpp>
 #include <boost/align/aligned_delete.hpp>
 
-#include <Eigen/Core>
-
-#include <cstddef>
-#include <memory>
 #include <new>
-#include <type_traits>
 
 // The inner loops of the block solver, on panels: n x 8 matrices stored by rows, so that one row is
 // a cache line and eight vectors share every access to a matrix entry.

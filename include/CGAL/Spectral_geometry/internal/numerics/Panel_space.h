@@ -8,12 +8,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/Panel_kernels.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 // Coefficients with respect to several panels: 8 rows for each of them. Of one they are an

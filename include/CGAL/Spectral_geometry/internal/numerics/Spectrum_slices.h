@@ -9,12 +9,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/Block_lanczos.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// Many pairs, some hundred at a time, each with a shift among them (spectrum slicing: Grimes,

@@ -11,15 +11,9 @@
 #include <CGAL/assertions.h>
 
 #include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstddef>
 #include <new>
-#include <stdexcept>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

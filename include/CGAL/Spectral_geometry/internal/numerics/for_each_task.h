@@ -5,17 +5,14 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H
 
-#include <Eigen/Core>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cstddef>
 #include <exception>
 #include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -5,6 +5,8 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_VECTOR_UNITS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_VECTOR_UNITS_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
+
 // Vectors of four doubles are a language extension of GCC and Clang on every target; other
 // compilers do without. On x86_64 the inner loops are compiled twice, for every such machine and
 // for its wide vector units, and the machine decides at run time: a build without any -m flag uses
@@ -22,9 +24,6 @@
 #endif
 
 #include <boost/align/aligned_allocator.hpp>
-
-#include <cstddef>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -9,14 +9,7 @@
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <limits>
 #include <set>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -5,14 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_BOX_TREE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_BOX_TREE_H
 
-#include <Eigen/Geometry>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <numeric>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

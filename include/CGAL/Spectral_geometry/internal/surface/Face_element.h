@@ -8,12 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// The cotangents and the area of a triangle whose edges were divided by 2 to the `exponent`.

@@ -8,13 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <Eigen/Geometry>
-
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

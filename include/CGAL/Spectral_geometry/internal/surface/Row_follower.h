@@ -10,16 +10,7 @@
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <limits>
-#include <optional>
 #include <queue>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -9,16 +9,7 @@
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <functional>
-#include <optional>
 #include <queue>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -8,12 +8,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <limits>
-#include <optional>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// Returns, for a triangle with the edges p, then q from where that ends, and `sum` = p + q, at

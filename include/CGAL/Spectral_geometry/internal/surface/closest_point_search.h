@@ -8,12 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// A point of a triangle as a convex combination of its three vertices.

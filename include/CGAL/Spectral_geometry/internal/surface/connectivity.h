@@ -5,14 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_CONNECTIVITY_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_CONNECTIVITY_H
 
-#include <Eigen/Core>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 #include <boost/pending/disjoint_sets.hpp>
-
-#include <algorithm>
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

@@ -8,14 +8,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// A corner of a triangle: which vertex it is, and where.

@@ -7,7 +7,6 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
 
 #include <CGAL/Kernel_traits.h>
@@ -16,12 +15,6 @@
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-
-#include <Eigen/SparseCore>
-
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
 

@@ -5,6 +5,8 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_FEATURE_VERTICES_MAP_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_FEATURE_VERTICES_MAP_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
+
 #include <CGAL/license/Surface_mesh_simplification.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -12,13 +14,6 @@
 #include <CGAL/boost/graph/iterator.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
-
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <optional>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Surface_mesh_simplification {
 

@@ -9,16 +9,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_visitor.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/restriction.h>
-
-#include <Eigen/SparseCore>
-
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification {
 

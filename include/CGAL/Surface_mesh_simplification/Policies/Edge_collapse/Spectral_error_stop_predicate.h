@@ -5,10 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_ERROR_STOP_PREDICATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_SPECTRAL_ERROR_STOP_PREDICATE_H
 
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <cstddef>
-#include <memory>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
 namespace CGAL::Surface_mesh_simplification {
 

@@ -9,9 +9,6 @@
 
 #include <CGAL/Surface_mesh_simplification/internal/Common.h>
 
-#include <memory>
-#include <utility>
-
 namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies

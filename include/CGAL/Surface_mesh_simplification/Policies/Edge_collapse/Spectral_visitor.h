@@ -9,10 +9,6 @@
 
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
-#include <functional>
-#include <memory>
-#include <utility>
-
 namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies

@@ -5,9 +5,10 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_COUNT_STOP_PREDICATE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_VERTEX_COUNT_STOP_PREDICATE_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
+
 #include <CGAL/boost/graph/properties.h>
 
-#include <cstddef>
 #include <iterator>
 
 namespace CGAL::Surface_mesh_simplification {

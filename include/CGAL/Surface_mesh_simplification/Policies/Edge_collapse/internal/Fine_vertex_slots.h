@@ -11,21 +11,11 @@
 #include <CGAL/boost/graph/properties.h>
 #include <CGAL/number_utils.h>
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <cstddef>
 #include <iterator>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

@@ -11,13 +11,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/filtered_signals.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
-
-#include <Eigen/SparseCore>
-
-#include <cstdint>
-#include <memory>
-#include <utility>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -216,13 +209,7 @@ private:
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/QR>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

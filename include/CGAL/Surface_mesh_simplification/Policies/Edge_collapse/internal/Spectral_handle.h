@@ -5,17 +5,14 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_INTERNAL_SPECTRAL_HANDLE_H
 
+#include <CGAL/Spectral_geometry/internal/basics.h>
+
 #include <CGAL/version.h>
 
 #if CGAL_VERSION_NR >= 1060000900
-#include <optional>
 #else
 #include <boost/optional.hpp>
 #endif
-
-#include <memory>
-#include <stdexcept>
-#include <string>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

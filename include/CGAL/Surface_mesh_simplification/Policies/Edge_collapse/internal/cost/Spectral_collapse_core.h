@@ -17,15 +17,6 @@
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
-#include <Eigen/Core>
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!
@@ -191,9 +182,6 @@ private:
 } // namespace CGAL::Surface_mesh_simplification::internal
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_LOOP)
-
-#include <algorithm>
-#include <utility>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

@@ -10,13 +10,6 @@
 
 #include <CGAL/assertions.h>
 
-#include <Eigen/Core>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// A way to collapse an edge (u,v): x replaces both, f_x = (1 - weight) f_u + weight f_v.

@@ -10,12 +10,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/Box_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
-#include <Eigen/Core>
-
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /*!

@@ -10,15 +10,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/assertions.h>
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// Cotangents and area of a triangle (c; a, b), seen from its corner c.

@@ -11,13 +11,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
 
-#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <optional>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

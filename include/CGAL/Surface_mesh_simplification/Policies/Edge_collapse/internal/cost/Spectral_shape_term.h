@@ -8,14 +8,6 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_options.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_fields.h>
 
-#include <Eigen/Core>
-#include <Eigen/Geometry>
-
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// q(x) = x^T A x + 2 b.x + c.

@@ -9,14 +9,6 @@
 
 #include <boost/align/aligned_allocator.hpp>
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// A vertex of the input mesh, numbered in the order of `vertices(mesh)` when the state was made. A

@@ -9,12 +9,6 @@
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/Core>
-
-#include <cstddef>
-#include <functional>
-#include <vector>
-
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// An oriented 2-manifold of triangles, with or without border, in arrays. Corner 3 f + i is the
@@ -70,18 +64,9 @@ quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, st
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_crossing_guard.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/cost/Spectral_shape_term.h>
 
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <limits>
-#include <tuple>
-#include <utility>
 
 #ifdef __GNUC__
 #define CGAL_SPECTRAL_PREFETCH(address) __builtin_prefetch(address)

@@ -15,23 +15,12 @@
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
 #include <CGAL/Named_function_parameters.h>
 #include <CGAL/Real_timer.h>
-
-#include <Eigen/SparseCore>
-
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 

@@ -9,19 +9,11 @@
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
-#include <Eigen/Core>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <set>
 #include <sstream>
-#include <string>
-#include <vector>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
