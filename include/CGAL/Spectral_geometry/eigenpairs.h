@@ -223,10 +223,10 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
     });
     return result; // incomplete where the tolerance is not met: no solver does better in doubles
   }
-  throw std::runtime_error("Eigenpairs: the solver did not converge to the tolerance " +
-                           in_digits(options.tolerance) + " for " + std::to_string(K) +
-                           " pairs of " + std::to_string(problem.size()) + " vertices: " + reason +
-                           "; raise the tolerance or the number of iterations.");
+  throw std::runtime_error(sentence("Eigenpairs: the solver did not converge to the tolerance ",
+                                    in_digits(options.tolerance), " for ", K, " pairs of ",
+                                    problem.size(), " vertices: ", reason,
+                                    "; raise the tolerance or the number of iterations."));
 }
 
 /// Vertices that an entry of L or B joins, each part in their order, without those at which

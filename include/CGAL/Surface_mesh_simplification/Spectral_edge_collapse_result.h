@@ -97,8 +97,8 @@ namespace internal {
 inline void set_cancelled(Spectral_edge_collapse_result& result, const std::string& rest = "")
 {
   result.stop_reason = Spectral_edge_collapse_result::Stop_reason::cancelled;
-  result.explanation = "The run was cancelled at " + std::to_string(result.output_vertices) +
-                       " vertices" + rest + ".";
+  result.explanation =
+      sentence("The run was cancelled at ", result.output_vertices, " vertices", rest, ".");
 }
 
 } // namespace internal

@@ -111,14 +111,6 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
     return run(policies.get_placement(), common);
 }
 
-/// K, whoever brings the signals.
-inline Eigen::Index number_of_signals(const Spectral_options& options)
-{
-  return options.signals.size() != 0 ? options.signals.cols()
-         : options.eigenpairs        ? options.eigenpairs->size()
-                                     : options.number_of_eigenvectors;
-}
-
 /// The policies of the second stage. What they refuse here is the mesh that the first one has left:
 /// an input that is refused as `std::invalid_argument` has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
@@ -131,10 +123,10 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
     if(!first.done)
       throw;
     throw std::runtime_error(
-        "spectral_edge_collapse: the mesh of " + std::to_string(first.slots.size()) +
-        " vertices that pre_simplify has left cannot be used, choose another number or "
-        "repair the input (" +
-        error.what() + ")");
+        sentence("spectral_edge_collapse: the mesh of ", first.slots.size(),
+                 " vertices that pre_simplify has left cannot be used, choose another number or "
+                 "repair the input (",
+                 error.what(), ")"));
   }
 }
 

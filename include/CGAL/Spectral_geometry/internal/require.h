@@ -25,12 +25,19 @@ std::string in_words(const Part& part)
     return part();
 }
 
-/// Throws `std::invalid_argument` with the sentence that the parts make: strings, numbers as
-/// `std::to_string()` writes them, and names as below, which nobody makes before they are needed.
+/// What the parts say: strings, numbers as `std::to_string()` writes them, and names as below,
+/// which nobody makes before they are needed.
+template <class... Part>
+std::string sentence(const Part&... parts)
+{
+  return (in_words(parts) + ...);
+}
+
+/// Throws `std::invalid_argument` with the sentence that the parts make.
 template <class... Part>
 [[noreturn]] void refuse(const Part... parts)
 {
-  throw std::invalid_argument((in_words(parts) + ...));
+  throw std::invalid_argument(sentence(parts...));
 }
 
 /// Refuses unless `holds`.
@@ -70,6 +77,7 @@ inline void check_dimension(const char* const what, const std::ptrdiff_t found,
 
 namespace CGAL::Surface_mesh_simplification::internal {
 using Spectral_geometry::internal::require;
+using Spectral_geometry::internal::sentence;
 using Spectral_geometry::internal::vertex_name;
 } // namespace CGAL::Surface_mesh_simplification::internal
 

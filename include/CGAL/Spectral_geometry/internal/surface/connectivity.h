@@ -83,15 +83,13 @@ class Vertex_rings
 public:
   static Vertex_rings of_vertices(const Eigen::MatrixXi& T, const Eigen::Index n)
   {
-    return Vertex_rings(T, n, 2, [&](const Eigen::Index f, const int k, int* at) {
-      at[0] = T(f, (k + 1) % 3);
-      at[1] = T(f, (k + 2) % 3);
-    });
+    return Vertex_rings(T, n, n, {1, 2},
+                        [&](const Eigen::Index f, const int k) { return T(f, k); });
   }
 
   static Vertex_rings of_faces(const Eigen::MatrixXi& T, const Eigen::Index n)
   {
-    return Vertex_rings(T, n, 1, [](const Eigen::Index f, int, int* at) { *at = int(f); });
+    return Vertex_rings(T, n, T.rows(), {0}, [](const Eigen::Index f, int) { return int(f); });
   }
 
   struct Ring
@@ -103,10 +101,10 @@ public:
 
   Ring operator[](const int v) const
   {
-    const int* const first = m_items.data() + m_begin[v];
-    return {first, first + m_size[v]};
+    const int* const start = m_items.outerIndexPtr() + v;
+    return {m_items.innerIndexPtr() + start[0], m_items.innerIndexPtr() + start[1]};
   }
-  std::size_t size(const int v) const { return m_size[v]; }
+  std::size_t size(const int v) const { return std::size_t((*this)[v].last - (*this)[v].first); }
   bool has(const int v, const int item) const
   {
     return std::binary_search((*this)[v].first, (*this)[v].last, item);
@@ -139,33 +137,21 @@ public:
   }
 
 private:
-  template <class Put>
-  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const std::size_t each,
-               const Put& put)
-    : m_begin(std::size_t(n) + 1, 0)
-    , m_size(std::size_t(n), 0)
+  // A corner k of a face has `item(face, corner k + step)` around it for each of the steps.
+  template <class Item>
+  Vertex_rings(const Eigen::MatrixXi& T, const Eigen::Index n, const Eigen::Index items,
+               const std::initializer_list<int> steps, const Item& item)
+    : m_items(items, n)
   {
+    std::vector<Eigen::Triplet<double>> entries;
     for(Eigen::Index f = 0; f < T.rows(); ++f)
       for(int k = 0; k < 3; ++k)
-        m_begin[std::size_t(T(f, k)) + 1] += each;
-    for(std::size_t v = 0; v < m_size.size(); ++v)
-      m_begin[v + 1] += m_begin[v];
-    m_items.resize(m_begin.back());
-    for(Eigen::Index f = 0; f < T.rows(); ++f)
-      for(int k = 0; k < 3; ++k) {
-        const std::size_t v = std::size_t(T(f, k));
-        put(f, k, m_items.data() + m_begin[v] + m_size[v]);
-        m_size[v] += each;
-      }
-    for(std::size_t v = 0; v < m_size.size(); ++v) {
-      int* const first = m_items.data() + m_begin[v];
-      std::sort(first, first + m_size[v]);
-      m_size[v] = std::size_t(std::unique(first, first + m_size[v]) - first);
-    }
+        for(const int step : steps)
+          entries.emplace_back(item(f, (k + step) % 3), T(f, k), 1.);
+    m_items.setFromTriplets(entries.begin(), entries.end());
   }
 
-  std::vector<std::size_t> m_begin, m_size;
-  std::vector<int> m_items;
+  Eigen::SparseMatrix<double> m_items; // a column for each vertex, of which the pattern counts
 };
 
 } // namespace CGAL::Spectral_geometry::internal

@@ -70,10 +70,10 @@ public:
                        const NamedParameters& np = parameters::default_values())
     : m_flags(get(CGAL::dynamic_vertex_property_t<bool>(), mesh))
   {
-    if(degrees && !(*degrees > 0 && *degrees <= 180))
-      throw std::invalid_argument(
-          "Feature_vertices_map: the angle must be above 0 and up to 180 degrees, not " +
-          std::to_string(*degrees));
+    const double angle = degrees.value_or(180);
+    Spectral_geometry::internal::require(
+        angle > 0 && angle <= 180,
+        "Feature_vertices_map: the angle must be above 0 and up to 180 degrees, not ", angle);
     for(const Vertex v : vertices(mesh))
       put(m_flags, v, false);
     const auto points =

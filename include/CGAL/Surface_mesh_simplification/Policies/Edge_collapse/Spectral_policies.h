@@ -209,9 +209,7 @@ public:
   {
     std::vector<std::string> result;
     const Spectral_options& options = state().options();
-    const Eigen::Index K = options.signals.size() != 0 ? options.signals.cols()
-                           : eigenpairs()              ? eigenpairs()->size()
-                                                       : options.number_of_eigenvectors;
+    const Eigen::Index K = internal::number_of_signals(options);
     internal::warn_of_eigenpairs(result, eigenpairs().get());
     internal::warn_of_target(result, state().number_of_vertices(), K,
                              options.weights.size() == 0 ? K

@@ -49,6 +49,14 @@ inline bool is_filtered(const Spectral_options& options)
          !options.eigenpairs;
 }
 
+/// K, whoever brings the signals.
+inline Eigen::Index number_of_signals(const Spectral_options& options)
+{
+  return options.signals.size() != 0 ? options.signals.cols()
+         : options.eigenpairs        ? options.eigenpairs->size()
+                                     : options.number_of_eigenvectors;
+}
+
 /// The operator that the metric takes rows of.
 inline Spectral_geometry::Local_operator local_operator(const Spectral_options& options)
 {

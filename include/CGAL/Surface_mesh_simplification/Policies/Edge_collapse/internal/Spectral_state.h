@@ -144,14 +144,13 @@ public:
     return token;
   }
 
-  /// Follows the callback of the visitor that has the same name.
+  // These follow the callbacks of the visitor that have the same names.
   void on_finished()
   {
     close_selection();
     m_run.reset();
   }
 
-  /// \copydoc on_finished()
   void on_selected()
   {
     if(m_first_costs.is_running()) {
@@ -166,14 +165,12 @@ public:
     m_placement_found.reset();
   }
 
-  /// \copydoc on_finished()
   void on_stop_condition_reached()
   {
     m_selection_open = false;
     m_stopped = true;
   }
 
-  /// \copydoc on_finished()
   void on_non_collapsable()
   {
     ++(m_placement_found ? m_refusals.filter : m_refusals.topology);
@@ -322,7 +319,6 @@ public:
   /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
   std::vector<std::size_t> vertex_map() const { return log().forest().vertex_map(current_slots()); }
 
-  /// The merges so far and where each left its vertex.
   const Collapse_log& log() const { return m_core.log(); }
 
   /// The slots of `vertices(mesh)`, in that order. Throws `std::logic_error` where the merges on
@@ -337,7 +333,6 @@ public:
     return slots;
   }
 
-  /// The mesh as it is now.
   const Triangle_mesh& mesh() const { return *m_mesh; }
   /// The map that positions are read from.
   Vertex_point_map vertex_point_map() const
@@ -348,9 +343,7 @@ public:
         return get(vertex_point, *m_mesh);
     return m_vpm;
   }
-  /// The kernel.
   const Geom_traits& geom_traits() const { return m_traits; }
-  /// The mathematics: fields, candidates and merges.
   const Spectral_collapse_core& core() const { return m_core; }
   /// Gives back the memory of what only collapses need: nothing may be collapsed afterwards.
   void release() { m_core.release(); }
@@ -373,18 +366,15 @@ public:
     all.crossing = m_core.number_of_crossings();
     return all;
   }
-  /// Counts those of the mesh as it is now.
   std::size_t number_of_vertices() const { return log().number_of_vertices_left(); }
   /// Whether the last run ended because every edge left was refused, not by its stop predicate.
   bool has_run_out_of_edges() const
   {
     return m_number_of_runs != 0 && m_run.expired() && !m_stopped;
   }
-  /// The options of the policies, with signals and coefficients.
   const Spectral_options& options() const { return m_options; }
   /// Whether a wrapper of the placement has chosen points of its own.
   bool has_foreign_points() const { return m_has_foreign_points; }
-  /// Whether a map of constrained edges was given.
   bool knows_constraints() const { return m_knows_constraints; }
   /// For each of `vertices(mesh)` whether it has to stay where it is after the collapses: one that
   /// is kept, or the end of a constrained edge; none where none has.
@@ -406,7 +396,6 @@ public:
         kept.push_back(m_core.fields().is_kept(Slot(s)));
     return kept;
   }
-  /// Runs that were started so far.
   std::size_t number_of_runs() const { return m_number_of_runs; }
   /// The area of the input, in its own unit, weighted by the density of the operator.
   double area() const { return m_area; }
@@ -417,7 +406,6 @@ public:
   double sum_of_squares() const { return m_sum_of_squares; }
   /// sqrt(E / sum_k lambda_k^2); 0 for constant signals, which P carries over exactly.
   double relative_error() const { return relative_error(error()); }
-  /// What it would be, were E the given number.
   double relative_error(const double E) const
   {
     return m_sum_of_squares > 0 ? std::sqrt((std::max)(0., E) / m_sum_of_squares) : 0.;
@@ -429,7 +417,6 @@ public:
 
   /// @}
 
-  /// Whether `Spectral_options::cancel` asks to stop.
   bool is_cancelled() const { return internal::is_cancelled(m_core.options()); }
 
   /// Calls the progress callback, if any; `false` means that the user cancelled.

@@ -75,7 +75,10 @@ public:
 
   /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of
   /// evaluate(): with a placement of the user's.
-  void set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost);
+  void set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost)
+  {
+    m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
+  }
 
   /// No cost is postponed from now on: somebody else chooses what is collapsed, and what that costs
   /// is not known.
@@ -107,7 +110,10 @@ public:
 
   /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
   double projected_weight(const Spectral_slot u, const Spectral_slot v,
-                          const Eigen::Vector3d& point) const;
+                          const Eigen::Vector3d& point) const
+  {
+    return search(u, v).projected_weight(point);
+  }
 
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
@@ -151,7 +157,10 @@ private:
     double m_sum = 0, m_rest = 0;
   };
 
-  Spectral_placement_search search(Spectral_slot u, Spectral_slot v) const;
+  Spectral_placement_search search(const Spectral_slot u, const Spectral_slot v) const
+  {
+    return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
+  }
 
   // Sums up the mesh as it is, whatever the density.
   double surface_area() const;
@@ -300,13 +309,6 @@ Spectral_collapse_core::evaluate(const Spectral_slot u, const Spectral_slot v)
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::set_queued_cost(const Spectral_slot u,
-                                                                           const Spectral_slot v,
-                                                                           const double cost)
-{
-  m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(const Spectral_slot u,
                                                                              const Spectral_slot v)
 {
@@ -355,13 +357,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Spe
   return m_kernel.change(m_fields, u, v, weight, point);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double
-Spectral_collapse_core::projected_weight(const Spectral_slot u, const Spectral_slot v,
-                                         const Eigen::Vector3d& point) const
-{
-  return search(u, v).projected_weight(point);
-}
-
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::commit(const Spectral_slot removed,
                                                                   const Spectral_slot kept,
                                                                   const double weight,
@@ -390,12 +385,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
   m_fields = std::move(fields);
   m_shape = {};
   m_crossing = {};
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_placement_search
-Spectral_collapse_core::search(const Spectral_slot u, const Spectral_slot v) const
-{
-  return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w)

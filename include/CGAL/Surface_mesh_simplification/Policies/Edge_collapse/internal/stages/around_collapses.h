@@ -132,8 +132,8 @@ public:
     m_result.seconds_relocation = relocation.seconds;
     if(m_result.relative_error > m_options.maximum_error && !is_cancelled())
       m_result.warnings.push_back(
-          "The collapses kept the error bound, but with relocation the relative error is " +
-          std::to_string(m_result.relative_error) + "; set relocate to false to keep it.");
+          sentence("The collapses kept the error bound, but with relocation the relative error is ",
+                   m_result.relative_error, "; set relocate to false to keep it."));
     // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
     // eigenpairs.
     if(relocation.resampled)
@@ -193,9 +193,10 @@ private:
   void relocate()
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
-      m_result.warnings.push_back(std::string("Relocation is made for the averaged mass: in the ") +
-                                  Spectral_geometry::mass_name(m_options.mass) +
-                                  " one it bends the shape to cancel the error of the elements.");
+      m_result.warnings.push_back(
+          sentence("Relocation is made for the averaged mass: in the ",
+                   Spectral_geometry::mass_name(m_options.mass),
+                   " one it bends the shape to cancel the error of the elements."));
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
     relocation.progress = reporting(Spectral_phase::relocation);
     const auto points = m_state.vertex_point_map();

@@ -48,29 +48,28 @@ inline std::string explain_exhausted_queue(const Spectral_geometry::Mesh_matrice
                                            const Spectral_refusals& refusals,
                                            const std::size_t wanted)
 {
-  using std::to_string;
   const Eigen::Index components = number_of_components(mesh), handles = genus(mesh);
-  return "The mesh stopped at " + to_string(mesh.V.rows()) + " vertices" +
-         (wanted == 0 ? "" : " instead of " + to_string(wanted)) +
-         " because every edge left was refused (topology " + to_string(refusals.topology) +
-         ", geometry " + to_string(refusals.geometry) + ", filter " + to_string(refusals.filter) +
-         ", placement " + to_string(refusals.placement) + " times" +
-         (refusals.crossing == 0 ? ""
-                                 : "; " + to_string(refusals.crossing) +
-                                       " times so that no face goes through another, as "
-                                       "keep_free_of_self_intersections asks") +
-         "; constrained edges are never collapsed): it has " + to_string(components) +
-         (components == 1 ? " component, which needs at" : " components, each of which needs at") +
-         " least 3 (open) or 4 (closed) vertices, genus " + to_string(handles) +
-         (handles == 0 ? "" : ", as handles need more,") + " and " +
-         to_string(Spectral_geometry::internal::boundary_edges(mesh.T).size()) + " border edges; " +
-         (refusals.filter > refusals.topology && refusals.filter > refusals.crossing
-              ? "ask for more vertices, or loosen the filter."
-          : refusals.crossing > refusals.topology && 2 * refusals.crossing > refusals.placement
-              ? "ask for more vertices, or allow self-intersections."
-          : refusals.topology >= refusals.placement && (components > 1 || handles > 0)
-              ? "ask for more vertices, or take small components and handles away."
-              : "ask for more vertices, or constrain and keep less.");
+  return sentence(
+      "The mesh stopped at ", mesh.V.rows(), " vertices",
+      wanted == 0 ? "" : sentence(" instead of ", wanted),
+      " because every edge left was refused (topology ", refusals.topology, ", geometry ",
+      refusals.geometry, ", filter ", refusals.filter, ", placement ", refusals.placement, " times",
+      refusals.crossing == 0 ? ""
+                             : sentence("; ", refusals.crossing,
+                                        " times so that no face goes through another, as "
+                                        "keep_free_of_self_intersections asks"),
+      "; constrained edges are never collapsed): it has ", components,
+      components == 1 ? " component, which needs at" : " components, each of which needs at",
+      " least 3 (open) or 4 (closed) vertices, genus ", handles,
+      handles == 0 ? "" : ", as handles need more,", " and ",
+      Spectral_geometry::internal::boundary_edges(mesh.T).size(), " border edges; ",
+      refusals.filter > refusals.topology && refusals.filter > refusals.crossing
+          ? "ask for more vertices, or loosen the filter."
+      : refusals.crossing > refusals.topology && 2 * refusals.crossing > refusals.placement
+          ? "ask for more vertices, or allow self-intersections."
+      : refusals.topology >= refusals.placement && (components > 1 || handles > 0)
+          ? "ask for more vertices, or take small components and handles away."
+          : "ask for more vertices, or constrain and keep less.");
 }
 
 /// What was done, but is not advised: one sentence each.
@@ -79,10 +78,10 @@ inline void warn_of_eigenpairs(std::vector<std::string>& warnings,
 {
   if(pairs != nullptr && !pairs->complete && pairs->residuals.size() != 0 &&
      pairs->residuals.maxCoeff() > 1e-3)
-    warnings.push_back(
-        "The eigenpairs of the input did not reach their tolerance, the largest residual is " +
-        std::to_string(pairs->residuals.maxCoeff()) +
-        ": its triangles are of too different sizes for doubles; remesh it.");
+    warnings.push_back(sentence(
+        "The eigenpairs of the input did not reach their tolerance, the largest residual is ",
+        pairs->residuals.maxCoeff(),
+        ": its triangles are of too different sizes for doubles; remesh it."));
 }
 
 /// \copydoc warn_of_eigenpairs()
@@ -90,22 +89,20 @@ inline void warn_of_target(std::vector<std::string>& warnings, const std::size_t
                            const Eigen::Index K, const Eigen::Index seen)
 {
   if(Eigen::Index(vertices) < 3 * K)
-    warnings.push_back(
-        "The target of " + std::to_string(vertices) +
-        " vertices is less than 3 K = " + std::to_string(3 * K) +
-        "; the upper part of the spectrum will not be preserved (section 4.3 of the paper)" +
-        (seen < K ? ", and the metric saw the first " + std::to_string(seen) + " eigenvectors."
-                  : "."));
+    warnings.push_back(sentence(
+        "The target of ", vertices, " vertices is less than 3 K = ", 3 * K,
+        "; the upper part of the spectrum will not be preserved (section 4.3 of the paper)",
+        seen < K ? sentence(", and the metric saw the first ", seen, " eigenvectors.") : "."));
 }
 
 /// \copydoc warn_of_eigenpairs()
 inline void warn_of_error(std::vector<std::string>& warnings, const double relative_error)
 {
   if(relative_error > 0.5)
-    warnings.push_back("The relative error is " + std::to_string(relative_error) +
-                       ": more than half of the signals is lost, or kept vertices have tiny "
-                       "faces; ask for more vertices, for fewer eigenvectors, keep fewer "
-                       "vertices, or take small components away.");
+    warnings.push_back(sentence("The relative error is ", relative_error,
+                                ": more than half of the signals is lost, or kept vertices have "
+                                "tiny faces; ask for more vertices, for fewer eigenvectors, keep "
+                                "fewer vertices, or take small components away."));
 }
 
 /// A connected component, and what a target needs for it.
@@ -201,13 +198,12 @@ inline std::string rounded_up(const double share)
 inline void check_useful_target(const Spectral_geometry::Mesh_matrices& mesh,
                                 const std::size_t target, const Eigen::Index K)
 {
-  using std::to_string;
   const std::vector<Component_size> components = component_sizes(mesh);
   const std::size_t useful = useful_target(components, K);
   if(target >= useful)
     return;
   const auto counted = [](const std::size_t n, const char* const rest) {
-    return to_string(n) + " component" + (n == 1 ? "" : "s") + rest;
+    return sentence(n, " component", n == 1 ? "" : "s", rest);
   };
   std::size_t least = 0, most = 0, small = 0, largest_small = 0;
   double area = 0, largest_area = 0;
@@ -226,15 +222,16 @@ inline void check_useful_target(const Spectral_geometry::Mesh_matrices& mesh,
           counted(components.size(), components.size() == 1 ? " needs" : " need"), " at least ",
           least, " vertices",
           useful == least
-              ? std::string()
-              : ", and " + to_string(useful) + " for something of " +
-                    (components.size() == 1 ? "its handles" : "their shapes") + " to be left",
+              ? ""
+              : sentence(", and ", useful, " for something of ",
+                         components.size() == 1 ? "its handles" : "their shapes", " to be left"),
           ": ask for ", useful, " or more",
-          small == 0 ? std::string()
-                     : ", or leave out the " + counted(small, " of ") + to_string(largest_small) +
-                           " vertices or fewer, none of which has more than " +
-                           rounded_up(area > 0 && std::isfinite(area) ? largest_area / area : 1.) +
-                           " of the area",
+          small == 0
+              ? ""
+              : sentence(", or leave out the ", counted(small, " of "), largest_small,
+                         " vertices or fewer, none of which has more than ",
+                         rounded_up(area > 0 && std::isfinite(area) ? largest_area / area : 1.),
+                         " of the area"),
           ".");
 }
 
