@@ -388,7 +388,20 @@ private:
     m_keeps_inner_products =
         m_limits.keep_inner_products && m_sampled && tau > 0 && m_op.coefficients.rows() == 0;
     if(m_keeps_inner_products)
-      m_objective->keep_inner_products(laplace_operator(m_fine.V, m_fine.T, m_op), m_F);
+      m_objective->keep_inner_products(mass_of_fine(), m_F, m_Z);
+  }
+
+  // A third of each face at its corners.
+  Eigen::VectorXd mass_of_fine() const
+  {
+    Eigen::VectorXd mass = Eigen::VectorXd::Zero(m_fine.V.rows());
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f) {
+      const Eigen::Vector3d p = m_fine.V.row(m_fine.T(f, 0)), q = m_fine.V.row(m_fine.T(f, 1)),
+                            r = m_fine.V.row(m_fine.T(f, 2));
+      for(int k = 0; k < 3; ++k)
+        mass(m_fine.T(f, k)) += (q - p).cross(r - p).norm() / 6;
+    }
+    return mass;
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and

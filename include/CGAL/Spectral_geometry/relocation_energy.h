@@ -62,10 +62,10 @@ S does not see how area is spread over the mesh: a commutator of C is as small w
 is too large. Distances and heat kernels do, they are sums of squared eigenvectors. Of signals that
 depend on the positions `keep_inner_products()` therefore adds \f[ \nu \sum_p \left\| \frac{F_p^\top
 B F_p}{\mathrm{tr} M} - T_p \right\|^2 \Big/ \sum_p (\mathrm{tr}\, T_p)^2 \f] with \f$ F_p \f$ 32
-signals each and \f$ T_p \f$ what they should be: on the fine mesh \f[ T = F^\top \Big( B -
-\frac{\theta\, \mathrm{tr} M}{4 \sqrt 3\, n} L \Big) F \Big/ \mathrm{tr} M, \f] since an even mesh
-of n vertices, edges of length h, finds \f$ 1 - \theta \lambda h^2 / 8 \f$ for the square of a unit
-eigenvector that is read off at its vertices.
+signals each and \f$ T_p \f$ what they should be: with the lumped mass of the fine mesh \f[ T =
+F^\top M \Big( F - \frac{\theta\, \mathrm{tr} M}{4 \sqrt 3\, n} Z \Big) \Big/ \mathrm{tr} M, \f]
+since an even mesh of n vertices, edges of length h, finds \f$ 1 - \theta \lambda h^2 / 8 \f$ for
+the square of a unit eigenvector that is read off at its vertices.
 
 The gradient is exact: derivatives with respect to the entries of B, L and M are gathered for each
 triangle into derivatives with respect to its three cotangents and its area, and go on from there to
@@ -123,21 +123,31 @@ public:
   /// The weight of E; the gradient follows.
   void set_mu(const double mu) { m_mu = mu; }
 
-  /// Adds nu times the differences of inner products of moving signals to S; F, fine x K: these
-  /// signals on the fine mesh.
-  void keep_inner_products(const Laplace_operator& fine, const Eigen::MatrixXd& F, const double nu)
+  /// Adds nu times the differences of inner products of moving signals to S. `mass`: the lumped
+  /// mass of the fine mesh; F and Z, fine x K: these signals there.
+  void keep_inner_products(const Eigen::VectorXd& mass, const Eigen::MatrixXd& F,
+                           const Eigen::MatrixXd& Z, const double nu)
   {
-    internal::require(F.rows() == fine.B.rows(), "relocation: F has ", F.rows(),
-                      " rows, but the fine mesh has ", fine.B.rows(),
-                      " vertices; pass one row for each.");
+    internal::require(F.rows() == mass.size() && Z.rows() == mass.size() && Z.cols() == F.cols(),
+                      "relocation: F and Z have ", F.rows(), " and ", Z.rows(),
+                      " rows, but the fine mesh has ", mass.size(),
+                      " vertices; pass one row for each, and as many columns.");
     m_inner_products.clear();
-    const double area = fine.mass.sum(), lost = m_geometry.local_operator().theta * area /
-                                                (4 * std::sqrt(3.) * double(number_of_vertices()));
+    const double area = mass.sum(), lost = m_geometry.local_operator().theta * area /
+                                           (4 * std::sqrt(3.) * double(number_of_vertices()));
     double size = 0;
     for(Index first = 0; first < F.cols(); first += width) {
-      const Eigen::MatrixXd f = panel(F, first);
-      m_inner_products.push_back(f.transpose() * (fine.B * f - lost * (fine.L * f)) / area);
-      size += std::pow(m_inner_products.back().trace(), 2);
+      const Index columns = (std::min)(Index(width), F.cols() - first);
+      Eigen::MatrixXd T = Eigen::MatrixXd::Zero(width, width);
+      for(Index row = 0; row < F.rows(); row += 1024) { // no copy of F
+        const Index rows = (std::min)(Index(1024), F.rows() - row);
+        const Eigen::MatrixXd f = F.block(row, first, rows, columns),
+                              g = mass.segment(row, rows).asDiagonal() *
+                                  (f - lost * Z.block(row, first, rows, columns));
+        T.topLeftCorner(columns, columns) += f.transpose() * g / area;
+      }
+      m_inner_products.push_back((T + T.transpose()) / 2);
+      size += std::pow(T.trace(), 2);
     }
     m_nu = size > 0 ? nu / size : 0.;
   }
