@@ -9,10 +9,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
-#include <Eigen/SparseCore>
-
-#include <vector>
-
 namespace CGAL::Spectral_geometry {
 
 /// \addtogroup PkgSpectralMeshSimplificationOperators
@@ -90,18 +86,12 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <CGAL/Real_timer.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <memory>
 #include <set>
 
 namespace CGAL::Spectral_geometry {
@@ -391,7 +381,7 @@ private:
       m_objective->keep_inner_products(mass_of_fine(), m_F, m_Z);
   }
 
-  // A third of each face at its corners.
+  // A third of each face at its corners; `barycentric_corner_masses()` refuses needles.
   Eigen::VectorXd mass_of_fine() const
   {
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(m_fine.V.rows());

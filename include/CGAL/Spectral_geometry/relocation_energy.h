@@ -8,16 +8,8 @@
 #include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
-#include <CGAL/Spectral_geometry/internal/require.h>
 
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
 
 namespace CGAL::Spectral_geometry {
 

@@ -262,6 +262,7 @@ private:
 
   void collect_sides()
   {
+    m_sides.reserve(3 * m_polygons.size());
     for(std::size_t face = 0; face < m_polygons.size(); ++face) {
       const std::vector<std::size_t>& p = m_polygons[face];
       for(std::size_t i = 0; m_sound[face] && i < p.size(); ++i) {

@@ -5,12 +5,9 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_GUARDED_DESCENT_H
 
-#include <Eigen/Core>
+#include <CGAL/Spectral_geometry/internal/basics.h>
 
-#include <algorithm>
-#include <cstddef>
 #include <deque>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 

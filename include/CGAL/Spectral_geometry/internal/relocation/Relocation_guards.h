@@ -9,15 +9,6 @@
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <functional>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// A piece of the boundary that a vertex may slide along.

@@ -12,14 +12,6 @@
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /// Signals of the fine mesh, read off at the closest points of the coarse vertices.

@@ -15,10 +15,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-
 namespace CGAL::Spectral_geometry::internal {
 
 /*!

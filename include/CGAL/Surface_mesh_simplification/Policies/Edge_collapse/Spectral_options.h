@@ -116,7 +116,7 @@ struct Spectral_options
   std::uint64_t seed = 1;
 
   /// Where the signals come from, unless `signals` or `eigenpairs` are given. With `filtered_noise`
-  /// there are `number_of_mixtures` of them, which must not be 0, and no `weights`.
+  /// the metric sees `number_of_mixtures` of them, which must not be 0, and there are no `weights`.
   Spectral_signal_source source = Spectral_signal_source::eigenpairs;
 
   /// The placement strategy.
