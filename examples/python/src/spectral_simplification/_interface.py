@@ -76,8 +76,9 @@ def simplify(
         signals has columns
     preset : str
         'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 30 n, at least
-        10000, and filtered noise in place of eigenvectors; 'paper': what the paper describes (Lescoat et al., Spectral Mesh Simplification,
-        2020). Each of the next five, quadrics_above and pre_simplify overrides it
+        10000, and filtered noise in place of eigenvectors; 'paper': what Lescoat et al. describe
+        (Spectral Mesh Simplification, 2020). Each of the next five, quadrics_above and
+        pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
         eigenvalues of coarse meshes much closer, 'voronoi', lumped by mixed Voronoi areas, or
