@@ -1043,6 +1043,13 @@ class Recipes(Case):
         self.assertLess(np.nanmean(abs(names["thickness"] - names["run"].V[:, 0])), 0.05)
         self.assertLess(abs(names["pial"].V - 1.1 * names["run"].V).max(), 0.2)
 
+    def test_fitted(self):
+        fine, faces = sphere(4)
+        run = ss.simplify(fine, faces, 600, 50, mask=fine[:, 2] < 0.6)
+        names, _ = self.run_recipe("fitted", run=run)
+        error = abs(names["values"][1:] / names["fine"].values[1:50] - 1)
+        self.assertLess(error.max(), 0.01)
+
     def test_network(self):
         names, _ = self.run_recipe("network", V=V, F=F, features=V, labels=V[:, 0] > 0)
         self.assertEqual(
@@ -1085,8 +1092,13 @@ class Recipes(Case):
             text=True,
         )
         self.assertEqual(done.returncode, 0, done.stderr)
-        error = float(re.search(r"averaged mass: error ([0-9.]+) %", done.stdout)[1])
-        self.assertLess(error, 2)
+        mesh, consistent, fitted = (
+            float(re.search(name + r": error ([0-9.]+) %", done.stdout)[1])
+            for name in ("averaged mass", "consistent mass", "operators fitted on it")
+        )
+        self.assertLess(mesh, 2)
+        self.assertLess(fitted, 2)
+        self.assertLess(4 * fitted, consistent)
         self.assertIn("40 of 40 parcels carried", done.stdout)
         self.assertLessEqual(
             {"cortex.off", "cortex_sphere.off", "cortex.npz"}, set(os.listdir(self.folder))
