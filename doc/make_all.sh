@@ -13,7 +13,8 @@
 #              what pictures.py does
 #   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
 #   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
-#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; pair/ with cat-pose.off of TOSCA, the lion
+#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; tosca/ with cat2.off,
+#              david0.off, gorilla1.off and victoria0.off to victoria2.off of it; pair/ with cat-pose.off of TOSCA, the lion
 #              and the cat of Sumner and Popović (lion-00.off, cat-00.off) and the map lion2cat.txt; nasty/ with centaur-pose.off, ogre.obj,
 #              beetle.obj, and whatever else robustness.md is to have
 #   RIVALS     see run_rivals.sh
@@ -37,8 +38,9 @@ remeshers=$(cd "$5" && pwd)
 others=$(cd "$6" && pwd)
 benchmark=$build/test/benchmark/spectral_benchmark
 limbs="limbs/cat.off limbs/horse.off limbs/centaur.off limbs/wolf.off"
+tosca="tosca/cat2.off tosca/david0.off tosca/gorilla1.off tosca/victoria0.off tosca/victoria1.off tosca/victoria2.off"
 
-for mesh in $limbs cheburashka.obj falconstatue.obj homer.obj igea.ply mountain.obj nefertiti.obj rocker-arm.obj spot.obj pair/cat-pose.off \
+for mesh in $limbs $tosca cheburashka.obj falconstatue.obj homer.obj igea.ply mountain.obj nefertiti.obj rocker-arm.obj spot.obj pair/cat-pose.off \
   pair/lion-00.off pair/cat-00.off pair/lion2cat.txt nasty/centaur-pose.off nasty/ogre.obj nasty/beetle.obj; do
   [ -r "$meshes/$mesh" ] || { echo "make_all.sh: there is no '$meshes/$mesh'" >&2; exit 1; }
 done
@@ -69,6 +71,12 @@ say "rivals.md and README.md"
     spot.obj:300 nefertiti.obj:1000
 )
 python3 "$doc/make_rivals.py" --pages "$build/rivals"
+say "span loss, rivals.md"
+(
+  cd "$meshes"
+  python3 "$doc/make_rivals.py" --span "$build" $(printf '%s:600 ' $limbs cheburashka.obj homer.obj rocker-arm.obj) spot.obj:300 \
+    nefertiti.obj:1000 -- $(printf '%s:600 ' $tosca)
+)
 
 # What follows tells no times: two at once.
 say "results.md, and beside it the survey of rivals.md"

@@ -77,6 +77,7 @@ COLUMNS = [
     ("λ %", lambda r: r["eigenvalue_error_mean"], 2, 100, True),
     ("λ 2..K/5 %", lambda r: r["eigenvalue_error_low_mean"], 2, 100, True),
     ("λ beyond %", lambda r: r["eigenvalue_error_beyond_mean"], 2, 100, True),
+    ("span loss %", lambda r: r["span_loss"], 2, 100, True),
     ("diffusion %", lambda r: r["distance_errors"]["diffusion"], 2, 100, True),
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100, True),
     ("HKS %", lambda r: r["distance_errors"]["heat_kernel_signature"], 2, 100, True),

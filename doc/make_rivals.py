@@ -9,10 +9,15 @@
 #   make_rivals.py --merge FOLDER N                  FOLDER.json from what run_rivals.sh left in FOLDER
 #   make_rivals.py --tables OUTPUT                   Markdown from all OUTPUT/*.json: means over all, and a table for each
 #   make_rivals.py --pages OUTPUT                    writes it into rivals.md, and the summary of it into README.md
+# and, without programs of others, what this package and CGAL make of groups of meshes:
+#   make_rivals.py --span BUILD MESH:N... -- MESH:N...
+#                                                    writes means of each group and a table for each mesh into rivals.md. What is in
+#                                                    BUILD/span from an earlier run is used again: remove it to have it anew
 
 import contextlib
 import glob
 import io
+import itertools
 import json
 import math
 import os
@@ -21,7 +26,7 @@ import subprocess
 import sys
 import time
 
-from make_results import bold_smallest, name, norms, number, replace
+from make_results import bold_smallest, commit, name, norms, number, replace
 from make_spectra import machine
 
 # Our rows, as they are called in the tables, by the simplifier, or by all that tells a row from others.
@@ -43,9 +48,14 @@ COLUMNS = [
     ("λ K+1..1.5K %", lambda r: r["eigenvalue_error_beyond_mean"], 2, 100),
     ("biharm. %", lambda r: r["distance_errors"]["biharmonic"], 2, 100),
     ("Hausdorff %", lambda r: r["hausdorff_over_diagonal"], 2, 100),
+    ("span loss %", lambda r: r.get("span_loss"), 2, 100), # judged before there was one: none
     ("s", lambda r: r["seconds_total"], 2, 1),
     ("peak MB", lambda r: r.get("peak_megabytes"), 0, 1),
 ]
+JUDGED = COLUMNS[:-2] # all but time and memory
+# What --span compares: texts of --only, and the rows that OURS does not name.
+SPAN = ["spectral, best", "spectral with shape term", "Garland-Heckbert plane", "Garland-Heckbert probabilistic plane, area", "Lindstrom-Turk"]
+FAST = "this package, preset fast"
 
 
 def measure(limit, path, command):
@@ -126,13 +136,13 @@ def rows_of(result, mass):
     return rows
 
 
-def table(rows):
-    lines = ["| | N | " + " | ".join(c[0] for c in COLUMNS) + " |", "|---|---|" + "---|" * len(COLUMNS)]
+def table(rows, columns=COLUMNS):
+    lines = ["| | N | " + " | ".join(c[0] for c in columns) + " |", "|---|---|" + "---|" * len(columns)]
     judged = [r for _, r in rows if not isinstance(r, str)]
-    cells = [bold_smallest_present(judged, value, digits, factor) for _, value, digits, factor in COLUMNS]
+    cells = [bold_smallest_present(judged, value, digits, factor) for _, value, digits, factor in columns]
     for name, row in rows:
         if isinstance(row, str):
-            lines.append(f"| {name} | {row} |" + " – |" * len(COLUMNS))
+            lines.append(f"| {name} | {row} |" + " – |" * len(columns))
         else:
             k = next(i for i, r in enumerate(judged) if r is row)
             lines.append(f"| {name} | {row['vertices']} | " + " | ".join(c[k] for c in cells) + " |")
@@ -156,8 +166,9 @@ def means(results, mass, columns=COLUMNS, wanted=None):
         complete = {title: complete[own] for key, title in wanted.items() for own in (OURS.get(key, key),) if own in complete}
 
     def mean(rows, value):
-        values = [value(r) for r in rows]
-        return None if None in values else math.exp(sum(math.log(max(v, 1e-12)) for v in values) / len(values))
+        # A figure that no row of a result has, such as the error of eigenvalues that are zero, is not of the mean.
+        values = [value(row) for row, *all_rows in zip(rows, *complete.values()) if any(value(r) is not None for r in all_rows)]
+        return None if None in values or not values else math.exp(sum(math.log(max(v, 1e-12)) for v in values) / len(values))
 
     lines = [f"| {len(results)} pairs of a mesh and a size | " + " | ".join(c[0] for c in columns) + " |",
              "|---|" + "---|" * len(columns)]
@@ -212,10 +223,36 @@ def tables(output):
     return 0
 
 
+# As the results of --merge, with what OURS does not name as rivals.
+def compared(build, mesh, n):
+    folder = os.path.join(build, "span", f"{os.path.basename(mesh)}-{n}")
+    fast, P, output = (os.path.join(folder, file) for file in ("fast.off", "P.mtx", "judged.json"))
+    if not os.path.exists(output):
+        os.makedirs(folder, exist_ok=True)
+        program = os.path.join(build, "examples", "spectral_")
+        subprocess.run([program + "simplify", mesh, fast, "--vertices", n, "--preset", "fast", "--restriction", P, "--no-evaluation", "--quiet"],
+                       check=True)
+        only = [word for text in SPAN for word in ("--only", text)]
+        subprocess.run([program + "compare", mesh, "--vertices", n, "--judge", "averaged", *only, "--without", "fitted operators",
+                        "--rival", f"{FAST}={fast},{P}", "--quiet", "--json", output], check=True)
+    return {**loaded(output), "requested_vertices": n, "rivals": [{"name": other, "note": "", "status": "failed"} for other in (FAST, "Lindstrom-Turk")]}
+
+
+def span(build, pairs):
+    groups = [[compared(build, *pair.rsplit(":", 1)) for pair in group] for ends, group in itertools.groupby(pairs, "--".__eq__) if not ends]
+    text = f"K = {groups[0][0]['K']}, averaged mass, C_L and C_D with the P of the closest points, seed 1; commit {commit()}. Geometric means:\n"
+    text += "".join("\n" + means(group, "averaged", JUDGED) for group in groups)
+    for result in (result for group in groups for result in group):
+        text += f"\n**{result['mesh']}**, {result['vertices']} vertices:\n\n" + table(rows_of(result, "averaged"), JUDGED)
+    replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "rivals.md"), "span", text)
+    return 0
+
+
 def main():
-    actions = {"--measure": lambda a: measure(a[0], a[1], a[2:]), "--merge": lambda a: merge(a[0], int(a[1])), "--tables": lambda a: tables(*a), "--pages": lambda a: pages(*a)}
+    actions = {"--measure": lambda a: measure(a[0], a[1], a[2:]), "--merge": lambda a: merge(a[0], int(a[1])), "--tables": lambda a: tables(*a), "--pages": lambda a: pages(*a),
+               "--span": lambda a: span(a[0], a[1:])}
     if len(sys.argv) < 3 or sys.argv[1] not in actions:
-        sys.exit("usage: make_rivals.py --measure|--merge|--tables|--pages ..., see its head")
+        sys.exit("usage: make_rivals.py --measure|--merge|--tables|--pages|--span ..., see its head")
     sys.exit(actions[sys.argv[1]](sys.argv[2:]))
 
 

@@ -196,8 +196,8 @@ def read(name):
 # |C|_L, |C|_D, error of the eigenvalues and of the biharmonic distance in a part of rivals.md: of the preset best and with fitted operators.
 def ours(part):
     rows = cells(part)
-    # The tables of single meshes have a column with N before.
-    columns = [[row[i] for i in ((0, 1, 2, 6) if len(row) == 10 else (1, 2, 3, 7))]
+    # The tables of single meshes have a column with N, a whole number, before.
+    columns = [[row[i] for i in ((0, 1, 2, 6) if "." in row[0] else (1, 2, 3, 7))]
                for row in (rows["this package"], rows["this package, operators fitted"])]
     return dict(zip(("own", "fitted"), columns))
 

@@ -8,6 +8,7 @@
 
 #include "io/input_mesh.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <nlohmann/json.hpp>
@@ -164,7 +165,8 @@ struct Spectrum
   Sparse L, B;
 };
 
-void check_spectra(const std::string& folder, const Sparse& P, const nlohmann::json& json)
+void check_spectra(const std::string& folder, const Sparse& P, const Sparse& Q,
+                   const nlohmann::json& json)
 {
   const Spectrum fine(folder, "fine"), coarse(folder, "coarse");
   const Dense C = read_npy(folder + "/C.npy");
@@ -184,6 +186,14 @@ void check_spectra(const std::string& folder, const Sparse& P, const nlohmann::j
                 "norm_D follows from the files");
   require_small(std::abs(coarse_area / fine_area / json.at("area_ratio").get<double>() - 1), 1e-10,
                 "area_ratio follows from the files");
+  const Dense carried = Q * coarse.vectors, by_mass = fine.B * carried;
+  const Dense left =
+      fine.vectors -
+      carried * (carried.transpose() * by_mass).ldlt().solve(by_mass.transpose() * fine.vectors);
+  require_small(std::abs(left.cwiseProduct(fine.B * left).sum() / double(left.cols()) /
+                             json.at("span_loss").get<double>() -
+                         1),
+                1e-8, "span_loss follows from the files");
   double sum = 0, low = 0, largest = 0;
   const Eigen::Index last_low = fine.values.size() / 5; // modes 2..K/5
   for(Eigen::Index k = 1; k < fine.values.size(); ++k) {
@@ -237,7 +247,7 @@ int main(int argc, char* argv[])
                       .cwiseAbs()
                       .maxCoeff(),
                   1e-12, "the rows of Q sum to 1");
-    check_spectra(folder + "/pairs", P, json);
+    check_spectra(folder + "/pairs", P, Q, json);
     return 0;
   } catch(const std::exception& error) {
     std::cerr << error.what() << '\n';

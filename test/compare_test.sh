@@ -65,6 +65,9 @@ for key in norm_L norm_D norm_L_input_scale eigenvalue_error_mean eigenvalue_err
       fail "$key is $(number $file $key) in $file and $(number s.json $key) in s.json"
   done
 done
+[ "$(number mesh.json span_loss)" = "$(number s.json span_loss)" ] ||
+  fail "span_loss is $(number mesh.json span_loss) in mesh.json and $(number s.json span_loss) in s.json"
+grep -q '"span_loss": null' operator.json || fail "an operator has a span loss, without a way back to the mesh"
 runs "anybody's mesh without P" shape.off --rival x=coarse.off --eigenvectors 20 --judge averaged
 refuses "P of another mesh" "coarse x fine" coarse.off --rival x=coarse.off,P.mtx --eigenvectors 5
 

@@ -119,7 +119,7 @@ class Beside_the_program(Shapes):
         for e, figures in ((own, said), (of_fitted, said["fitted"])):
             for name, value in (("norm_L", e.C_L), ("norm_D", e.C_D), ("eigenvalue_error_mean", e.eigenvalue_error),
                                 ("eigenvalue_error_max", e.eigenvalue_error_max), ("area_ratio", e.area_ratio),
-                                ("eigenvalue_error_low_mean", e.eigenvalue_error_low)):
+                                ("eigenvalue_error_low_mean", e.eigenvalue_error_low), ("span_loss", e.span_loss)):
                 self.close(value, figures[name], 3e-6)
         self.assertLess(of_fitted.C_L, own.C_L)
         self.assertLess(of_fitted.eigenvalue_error, own.eigenvalue_error)
@@ -270,6 +270,10 @@ class Results(Shapes):
         lambda_c = np.diag(e.coarse_values[:50])
         self.close(e.C_L, np.linalg.norm(e.C @ np.diag(e.values) - lambda_c @ e.C) / np.linalg.norm(e.C))
         self.close(e.C_D, np.linalg.norm(e.C.T @ e.C - np.eye(50)))
+        carried, phi = run.Q @ coarse.vectors[:, :50], run.eigenpairs.vectors
+        by_mass = run.eigenpairs.M @ carried
+        left = phi - carried @ np.linalg.solve(carried.T @ by_mass, by_mass.T @ phi)
+        self.close(e.span_loss, np.sum(left * (run.eigenpairs.M @ left)) / 50, 1e-6)
         self.close(e.eigenvalue_error, np.mean(abs(e.coarse_values[1:50] / e.values[1:] - 1)))
         at = ss.evaluate(self.V, self.F, run.V, run.F, run.P, 50, eigenpairs=run.eigenpairs, scale="mesh")
         self.assertEqual((e.scale, at.scale), ("unit", "mesh"))
@@ -346,6 +350,8 @@ class Results(Shapes):
         self.assertGreater(run.eigenpairs.values[0], 1)
         e = ss.evaluate(V, F, run.V, run.F, run.P, 20, boundary="dirichlet", eigenpairs=run.eigenpairs)
         self.assertLess(e.eigenvalue_error, 0.05)
+        e = ss.evaluate(V, F, run.V, run.F, run.P, 19, boundary="dirichlet", eigenpairs=run.eigenpairs)
+        self.assertLess(e.span_loss, 0.03) # the 20th mode changes places with the next
         with self.assertRaisesRegex(ValueError, "another mesh or operator"):
             ss.evaluate(V, F, run.V, run.F, run.P, 20, eigenpairs=run.eigenpairs)
         with self.assertRaisesRegex(ValueError, "boundary is 'robin', it must be 'neumann' or 'dirichlet'"):

@@ -8,6 +8,9 @@
 #include "catch.h"
 #include "shapes.h"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -264,6 +267,124 @@ TEST_CASE("modes that change places at K are lost for K coarse modes but not for
       SG::evaluate_spectrum(op, fine, op, coarse, injection(162, 162), 10);
   CHECK(e.norm_D == Approx(1.));
   CHECK(e.norm_D_extended < 1e-10);
+}
+
+namespace {
+
+// Least squares by a dense QR decomposition, weighted by the root of the mass; for a full rank.
+double slow_span_loss(const MatrixXd& fine_vectors, const Sparse& B, const MatrixXd& carried)
+{
+  const MatrixXd root = Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(B)).operatorSqrt();
+  const MatrixXd A = root * carried, b = root * fine_vectors;
+  const MatrixXd X = A.householderQr().solve(b);
+  return (b - A * X).squaredNorm() / double(fine_vectors.cols());
+}
+
+// A bumpy sphere and a coarser one, with a prolongation.
+struct Two_spheres
+{
+  explicit Two_spheres(double theta, double scale = 1)
+  {
+    shapes::Matrices fine = shapes::bumpy_icosphere_matrices(3),
+                     coarse = shapes::bumpy_icosphere_matrices(2);
+    fine.V *= scale;
+    coarse.V *= scale;
+    fine_op = laplace(fine, theta);
+    coarse_op = laplace(coarse, theta);
+    fine_pairs = SG::eigenpairs(fine_op, 20);
+    coarse_pairs = SG::eigenpairs(coarse_op, 22);
+    P = injection(162, 642);
+    Q = SG::closest_point_prolongation(fine, coarse, P);
+  }
+
+  double loss(const MatrixXd& fine_vectors, const MatrixXd& coarse_vectors) const
+  {
+    return SG::span_loss(fine_vectors, fine_op.B, Q, coarse_vectors);
+  }
+
+  Laplace_operator fine_op, coarse_op;
+  Eigenpairs fine_pairs, coarse_pairs;
+  Sparse P, Q;
+};
+
+} // namespace
+
+TEST_CASE("span loss is what dense least squares leave of the fine eigenvectors, in any unit")
+{
+  for(const double theta : thetas) {
+    const Two_spheres s(theta), scaled(theta, 100.);
+    const MatrixXd coarse = s.coarse_pairs.vectors.leftCols(20);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(s.fine_op, s.fine_pairs, s.coarse_op, s.coarse_pairs, s.P, 20, s.Q);
+    CHECK(e.span_loss ==
+          Approx(slow_span_loss(s.fine_pairs.vectors, s.fine_op.B, s.Q * coarse)).epsilon(1e-10));
+    CHECK(e.span_loss > 0.001);
+    CHECK(e.span_loss < 0.1);
+    CHECK(SG::evaluate_spectrum(scaled.fine_op, scaled.fine_pairs, scaled.coarse_op,
+                                scaled.coarse_pairs, scaled.P, 20, scaled.Q)
+              .span_loss == Approx(e.span_loss).epsilon(1e-6));
+    CHECK(std::isnan(
+        SG::evaluate_spectrum(s.fine_op, s.fine_pairs, s.coarse_op, s.coarse_pairs, s.P, 20)
+            .span_loss));
+    // Two functions are half lost where the span has one of them.
+    CHECK(s.loss(s.fine_pairs.vectors.leftCols(2), MatrixXd::Ones(162, 1)) == Approx(0.5));
+    CHECK_THROWS_WITH(SG::span_loss(s.fine_pairs.vectors, s.fine_op.B, s.P, coarse),
+                      ContainsSubstring("rows of Q"));
+    CHECK_THROWS_WITH(SG::span_loss(s.fine_pairs.vectors, s.fine_op.B, s.Q, s.fine_pairs.vectors),
+                      ContainsSubstring("columns of Q"));
+    CHECK_THROWS_WITH(SG::span_loss(s.fine_pairs.vectors, s.coarse_op.B, s.Q, coarse),
+                      ContainsSubstring("fine mass"));
+    CHECK_THROWS_WITH(s.loss(MatrixXd(642, 0), coarse), ContainsSubstring("no fine vector"));
+  }
+}
+
+TEST_CASE("span loss is 0 for the mesh itself, and near 1 for a random span")
+{
+  for(const double theta : thetas) {
+    const Two_spheres s(theta);
+    const MatrixXd& phi = s.fine_pairs.vectors;
+    const Sparse one = injection(642, 642);
+    CHECK(SG::span_loss(phi, s.fine_op.B, one, phi) < 1e-13);
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    const MatrixXd noise = MatrixXd::NullaryExpr(642, 20, [&] { return normal(random); });
+    const double loss = SG::span_loss(phi, s.fine_op.B, one, noise);
+    CHECK(loss > 0.9);
+    CHECK(loss < 1.);
+    CHECK(loss == Approx(slow_span_loss(phi, s.fine_op.B, noise)).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("span loss does not change where clusters are rotated, or a basis is written otherwise")
+{
+  const Two_spheres s(0.5);
+  const MatrixXd &fine = s.fine_pairs.vectors, coarse = s.coarse_pairs.vectors.leftCols(20);
+  const double loss = s.loss(fine, coarse);
+  MatrixXd rotated = fine, mixed = coarse;
+  for(Index first = 1; first + 3 <= 20; first += 3) { // three at a time, close or not
+    const MatrixXd R =
+        Eigen::AngleAxisd(0.7 * double(first), Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    rotated.middleCols(first, 3) = fine.middleCols(first, 3) * R;
+    mixed.middleCols(first, 3) = coarse.middleCols(first, 3) * R.transpose();
+  }
+  CHECK((rotated - fine).norm() > 1.);
+  CHECK(s.loss(rotated, mixed) == Approx(loss).epsilon(1e-10));
+  CHECK(s.loss(fine, -3. * coarse.rowwise().reverse()) == Approx(loss).epsilon(1e-10));
+}
+
+TEST_CASE("span loss of coarse vectors that depend on each other is that of their span")
+{
+  for(const double theta : thetas) {
+    const Two_spheres s(theta);
+    const MatrixXd& fine = s.fine_pairs.vectors;
+    const MatrixXd independent = s.coarse_pairs.vectors.leftCols(12);
+    MatrixXd coarse(162, 20);
+    coarse << independent, independent.leftCols(4) + 0.3 * independent.middleCols(5, 4),
+        independent.col(11), MatrixXd::Zero(162, 3);
+    CHECK(s.loss(fine, coarse) ==
+          Approx(slow_span_loss(fine, s.fine_op.B, s.Q * independent)).epsilon(1e-10));
+    CHECK(s.loss(fine, MatrixXd::Zero(162, 20)) == 1.);
+  }
 }
 
 TEST_CASE("floors are those of plane waves on the equilateral lattice")

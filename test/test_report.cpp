@@ -56,6 +56,7 @@ Comparison small_comparison()
       j.C = Eigen::MatrixXd::Identity(4, 4);
       j.floor_norm_L = 0.5;
       j.floor_norm_D = 0;
+      j.span_loss = number++ / 100;
       s.judgements.push_back(j);
       c.results.push_back(s);
     }
@@ -247,6 +248,7 @@ TEST_CASE("The page holds every number, escapes names and needs nothing else")
                     "<td class='best'>" + formatted(s.judgements[0].norms().norm_L) + "</td>") >=
           1);
     CHECK(count(html, ">" + formatted(s.judgements[0].norms().norm_D) + "</td>") >= 1);
+    CHECK(count(html, ">" + formatted(100 * s.judgements[0].span_loss) + "</td>") == 1);
   }
   CHECK(count(html, "a<b>") == 0);
   CHECK(count(html, "a&lt;b&gt;&amp;c.off") >= 2);

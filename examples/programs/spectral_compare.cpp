@@ -287,6 +287,8 @@ private:
     Coarse_candidate candidate;
     candidate.carried = coarse.carried;
     candidate.closest = SG::closest_point_restriction(matrices, m_matrices);
+    candidate.prolongation =
+        SG::closest_point_prolongation(m_matrices, matrices, candidate.restriction());
     const std::size_t off =
         SG::rows_off_their_part(matrices, m_matrices, candidate.restriction()).size();
     row.shape.rows_off_their_part = double(off);

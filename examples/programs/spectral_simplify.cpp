@@ -158,7 +158,18 @@ struct Both_meshes
   SG::Laplace_operator fine_operator, coarse_operator;
   std::shared_ptr<const SG::Eigenpairs> fine_pairs;
   SG::Eigenpairs coarse_pairs;
+  Eigen::SparseMatrix<double> prolongation;
 };
+
+// Q, made once for its file and for the evaluation.
+const Eigen::SparseMatrix<double>& prolongation(Both_meshes& meshes,
+                                                const SMS::Spectral_edge_collapse_result& result)
+{
+  if(meshes.prolongation.size() == 0)
+    meshes.prolongation =
+        SG::closest_point_prolongation(meshes.fine, meshes.coarse, result.restriction);
+  return meshes.prolongation;
+}
 
 // What --keep names, by places in `vertices(mesh)`, each once.
 std::vector<std::size_t> kept_vertices(const Arguments& a, const Input_mesh& input,
@@ -302,7 +313,8 @@ SG::Spectral_evaluation evaluate(Both_meshes& meshes,
   meshes.coarse_pairs =
       SG::eigenpairs(meshes.coarse_operator, (std::min)(N, K + (K + 9) / 10), options);
   return SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, meshes.coarse_operator,
-                               meshes.coarse_pairs, result.restriction, K);
+                               meshes.coarse_pairs, result.restriction, K,
+                               prolongation(meshes, result));
 }
 
 // Fits operators, and judges them by the norms of the mesh's own.
@@ -333,7 +345,7 @@ Fitted_operators fit_and_judge(const Arguments& a, const SMS::Spectral_edge_coll
   result.pairs = SG::eigenpairs(result.fit.op, meshes.coarse_pairs.size(), options);
   result.evaluation =
       SG::evaluate_spectrum(meshes.fine_operator, *meshes.fine_pairs, result.fit.op, result.pairs,
-                            run_result.restriction, meshes.fine_pairs->size());
+                            run_result.restriction, meshes.fine_pairs->size(), meshes.prolongation);
   return result;
 }
 
@@ -597,8 +609,7 @@ void write_result(Output_files& files, const Arguments& a, const Input_mesh& inp
     report.levels = write_levels(files, a, input, seams, copy, report.result.log, written);
   if(!a.prolongation.empty()) {
     write_matrix_market(files.temporary(a.prolongation),
-                        input.numbering.rows_of_file(SG::closest_point_prolongation(
-                            meshes.fine, meshes.coarse, report.result.restriction)),
+                        input.numbering.rows_of_file(prolongation(meshes, report.result)),
                         a.prolongation);
     written.push_back(a.prolongation);
   }

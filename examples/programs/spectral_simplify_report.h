@@ -91,6 +91,7 @@ inline void print_evaluation(const CGAL::Spectral_geometry::Spectral_evaluation&
   if(e.errors_low.modes > 0)
     print_figure(("its mean, modes 2 to " + std::to_string(e.judged_modes / 5)).c_str(),
                  100 * e.errors_low.mean, 100 * low_errors_at_input_scale(e).mean, " %");
+  std::printf("  span loss                 %8.2f %%\n", 100 * e.span_loss);
 }
 
 // What took how many seconds, in the words of the table and of the page.
@@ -174,6 +175,7 @@ evaluation_json(const CGAL::Spectral_geometry::Spectral_evaluation* evaluation)
           {"norm_D_extended", number(e.norm_D_extended)},
           {"floor_norm_L", number(e.floor_norm_L)},
           {"floor_norm_D", number(e.floor_norm_D)},
+          {"span_loss", number(e.span_loss)},
           {"eigenvalue_error_mean", number(e.errors.mean)},
           {"eigenvalue_error_max", number(e.errors.max)},
           {"eigenvalue_error_low_mean", number(e.errors_low.mean)},

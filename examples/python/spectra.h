@@ -295,7 +295,8 @@ inline py::dict evaluate(const Arguments& a)
         fitted ? *fitted->pairs
                : SG::eigenpairs(coarse_op, (std::min)(N - coarse_op.vanishing, k + (k + 9) / 10),
                                 options);
-    return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k);
+    return SG::evaluate_spectrum(fine_op, fine_pairs, coarse_op, coarse_pairs, P, k,
+                                 SG::closest_point_prolongation(fine, coarse, P));
   });
   py::dict result;
   const bool unit = scale == "unit";
@@ -311,6 +312,7 @@ inline py::dict evaluate(const Arguments& a)
   result["C_D"] = unit ? e.norm_D : e.norm_D_input_scale;
   result["floor_C_L"] = e.floor_norm_L / fine_area;
   result["floor_C_D"] = e.floor_norm_D;
+  result["span_loss"] = e.span_loss;
   result["eigenvalue_error"] = errors(0, e.judged_modes).mean;
   result["eigenvalue_error_max"] = errors(0, e.judged_modes).max;
   result["eigenvalue_error_low"] = errors(1, e.judged_modes / 5).mean;

@@ -133,8 +133,9 @@ Judged judge(const Fine_reference& reference, const Coarse_candidate& candidate,
     const auto& P = carried ? candidate.carried : candidate.closest;
     if(!P)
       continue;
-    const SG::Spectral_evaluation e = SG::evaluate_spectrum(
-        reference.op, reference.pairs, candidate.op, result.aligned, *P, reference.K);
+    const SG::Spectral_evaluation e =
+        SG::evaluate_spectrum(reference.op, reference.pairs, candidate.op, result.aligned, *P,
+                              reference.K, candidate.prolongation);
     add_evaluation(j, e, carried);
     C = e.C;
   }

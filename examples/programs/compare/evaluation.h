@@ -36,6 +36,7 @@ struct Coarse_candidate
 {
   CGAL::Spectral_geometry::Laplace_operator op;
   std::optional<Eigen::SparseMatrix<double>> carried, closest;
+  Eigen::SparseMatrix<double> prolongation; // empty for an operator
 
   const Eigen::SparseMatrix<double>& restriction() const { return carried ? *carried : *closest; }
 };

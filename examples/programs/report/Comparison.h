@@ -42,6 +42,7 @@ struct Judgement
   std::optional<Map_norms> carried; // with the simplifier's own P
   std::optional<Map_norms> closest; // with that of the closest points of the fine surface
   double floor_norm_L = not_computed, floor_norm_D = not_computed;
+  double span_loss = not_computed;                                          // meshes only
   double error_mean = not_computed, error_max = not_computed;               // eigenvalues 1..K
   double error_low_mean = not_computed;                                     // 2..K/5
   double error_beyond_mean = not_computed, error_beyond_max = not_computed; // K+1..1.5K

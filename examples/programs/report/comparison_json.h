@@ -65,6 +65,7 @@ inline nlohmann::json row(const Simplified& s, const Judgement& j)
           {"closest_point_P", norms(j.closest)},
           {"floor_norm_L", number_json(j.floor_norm_L)},
           {"floor_norm_D", number_json(j.floor_norm_D)},
+          {"span_loss", number_json(j.span_loss)},
           {"eigenvalue_error_mean", number_json(j.error_mean)},
           {"eigenvalue_error_max", number_json(j.error_max)},
           {"eigenvalue_error_low_mean", number_json(j.error_low_mean)},

@@ -30,18 +30,18 @@ inline std::string cell(double x, int width, int digits)
 inline void print_block(const Comparison& c, std::size_t N, const std::string& mass)
 {
   std::printf("\nN = %zu, judged in the %s mass\n", N, mass.c_str());
-  std::printf("%-40s %-8s %-8s %-5s %6s %8s %6s %9s %8s %7s %7s %7s %7s %6s %8s\n", "simplifier",
-              "place", "metric", "reloc", "N", "|C|_L", "|C|_D", "L closest", "D close.", "err %",
-              "low %", "diff %", "HKS %", "Hd %", "total s");
+  std::printf("%-40s %-8s %-8s %-5s %6s %8s %6s %9s %8s %7s %7s %7s %7s %7s %6s %8s\n",
+              "simplifier", "place", "metric", "reloc", "N", "|C|_L", "|C|_D", "L closest",
+              "D close.", "err %", "low %", "span %", "diff %", "HKS %", "Hd %", "total s");
   double floor_L = not_computed, floor_D = not_computed;
   for(const auto& [s, j] : html_internal::judged(c, N, mass)) {
     const Map_norms closest = j->closest ? *j->closest : Map_norms();
-    std::printf("%-40s %-8s %-8s %-5s %6zu %s %s %s %s %s %s %s %s %s %s\n",
+    std::printf("%-40s %-8s %-8s %-5s %6zu %s %s %s %s %s %s %s %s %s %s %s\n",
                 printable(s->simplifier).c_str(), s->placement.c_str(), s->metric_mass.c_str(),
                 s->relocation.c_str(), s->vertices, cell(j->norms().norm_L, 8, 2).c_str(),
                 cell(j->norms().norm_D, 6, 2).c_str(), cell(closest.norm_L, 9, 2).c_str(),
                 cell(closest.norm_D, 8, 2).c_str(), cell(100 * j->error_mean, 7, 2).c_str(),
-                cell(100 * j->error_low_mean, 7, 2).c_str(),
+                cell(100 * j->error_low_mean, 7, 2).c_str(), cell(100 * j->span_loss, 7, 2).c_str(),
                 cell(100 * j->distances.diffusion, 7, 2).c_str(),
                 cell(100 * j->distances.heat_kernel_signature, 7, 2).c_str(),
                 cell(100 * s->shape.hausdorff, 6, 2).c_str(),

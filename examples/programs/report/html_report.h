@@ -184,21 +184,26 @@ inline std::string spectrum_tables(const Comparison& c, const std::string& mass)
                                                               {n.norm_L_input_scale, false},
                                                               {n.norm_D_input_scale, false}};
                 });
-  html += "<h3>Relative errors in percent: eigenvalues, distances, signatures</h3>\n";
-  html += table(
-      c, mass,
-      {"λ<sub>1..K</sub> mean", "λ<sub>1..K</sub> max", "λ<sub>2..K/5</sub> mean",
-       "λ<sub>K+1..1.5K</sub> mean", "diffusion", "biharmonic", "commute time", "wave kernel",
-       "HKS", "WKS"},
-      {true, true, true, true, true, true, true, true, true, true}, false,
-      [](const Simplified&, const Judgement& j) {
-        const Distance_errors& d = j.distances;
-        return std::vector<std::pair<double, bool>>{
-            {j.error_mean, true},           {j.error_max, true},   {j.error_low_mean, true},
-            {j.error_beyond_mean, true},    {d.diffusion, true},   {d.biharmonic, true},
-            {d.commute_time, true},         {d.wave_kernel, true}, {d.heat_kernel_signature, true},
-            {d.wave_kernel_signature, true}};
-      });
+  html += "<h3>Errors in percent: eigenvalues, span, distances, signatures</h3>\n";
+  html += table(c, mass,
+                {"λ<sub>1..K</sub> mean", "λ<sub>1..K</sub> max", "λ<sub>2..K/5</sub> mean",
+                 "λ<sub>K+1..1.5K</sub> mean", "span loss", "diffusion", "biharmonic",
+                 "commute time", "wave kernel", "HKS", "WKS"},
+                {true, true, true, true, true, true, true, true, true, true, true}, false,
+                [](const Simplified&, const Judgement& j) {
+                  const Distance_errors& d = j.distances;
+                  return std::vector<std::pair<double, bool>>{{j.error_mean, true},
+                                                              {j.error_max, true},
+                                                              {j.error_low_mean, true},
+                                                              {j.error_beyond_mean, true},
+                                                              {j.span_loss, true},
+                                                              {d.diffusion, true},
+                                                              {d.biharmonic, true},
+                                                              {d.commute_time, true},
+                                                              {d.wave_kernel, true},
+                                                              {d.heat_kernel_signature, true},
+                                                              {d.wave_kernel_signature, true}};
+                });
   return html;
 }
 
@@ -256,6 +261,7 @@ inline std::string run_table(const Simplified& s, const Judgement& j)
        not_computed, true},
       {"λ<sub>K+1..1.5K</sub>, mean error, %", j.error_beyond_mean, not_computed, not_computed,
        true},
+      {"span loss, %", j.span_loss, not_computed, not_computed, true},
       {"area of output / input", s.shape.area_ratio, not_computed, not_computed, false}};
   const bool ideal = j.floor_norm_L > 0 || j.floor_norm_D > 0;
   std::vector<std::string> names = {escaped(s.name()), "unit area", "scale of input"};
@@ -368,6 +374,10 @@ inline std::string explanation(const Comparison& c)
        "<b>Ideal linear elements</b>: an estimate of what the discretisation alone costs on "
        "equilateral triangles that only sample the surface. A mesh that fits the spectrum on "
        "purpose can be below.");
+  item(any([](const Simplified&, const Judgement& j) { return std::isfinite(j.span_loss); }),
+       "<b>Span loss</b>: how much of the first K fine eigenvectors (the mean of their squared "
+       "norms) is outside of the span of the coarse ones, carried back to the fine mesh by its "
+       "closest points on the coarse one.");
   item(any([](const Simplified&, const Judgement& j) {
          const Distance_errors& d = j.distances;
          return std::isfinite(d.diffusion) || std::isfinite(d.biharmonic) ||

@@ -34,6 +34,7 @@ inline void add_evaluation(Judgement& j, const CGAL::Spectral_geometry::Spectral
                                                 e.norm_D_input_scale};
   j.floor_norm_L = e.floor_norm_L;
   j.floor_norm_D = e.floor_norm_D;
+  j.span_loss = e.span_loss;
   j.error_mean = e.errors.mean;
   j.error_max = e.errors.max;
   j.error_low_mean = e.errors_low.mean;

@@ -34,8 +34,9 @@ mesh
 Throws `std::invalid_argument` if the sizes do not match.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd
-functional_map(const Eigen::MatrixXd& coarse_vectors, const Eigen::SparseMatrix<double>& coarse_B,
-               const Eigen::SparseMatrix<double>& P, const Eigen::MatrixXd& fine_vectors);
+functional_map(const Eigen::Ref<const Eigen::MatrixXd>& coarse_vectors,
+               const Eigen::SparseMatrix<double>& coarse_B, const Eigen::SparseMatrix<double>& P,
+               const Eigen::Ref<const Eigen::MatrixXd>& fine_vectors);
 
 /*!
 returns the functional map of the two meshes each scaled to unit area, from that at input scale,
@@ -77,6 +78,28 @@ With more rows (coarse modes) than columns a fine eigenvector may also land on c
 the number of columns without counting as lost.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE double orthonormality_norm(const Eigen::MatrixXd& C);
+
+/*!
+returns the *span loss*, how much of the first `K` fine eigenvectors lies outside of the span of the
+coarse ones that `Q` carries back to the fine mesh:
+\f[ \frac{1}{K} \min_X \| \Phi - Q \widetilde\Phi X \|_B^2
+     = 1 - \frac{1}{K} \mathrm{tr}(H^\top G^+ H), \quad
+     G = \widetilde\Phi^\top Q^\top B Q \widetilde\Phi, \quad
+     H = \widetilde\Phi^\top Q^\top B \Phi, \f]
+a number between 0, nothing is lost, and 1. It has no unit, and does not change where eigenvectors
+of one eigenvalue are rotated. Directions that \f$ Q \widetilde\Phi \f$ lacks count as lost.
+
+@param fine_vectors \f$ \Phi \f$, fine x `K`, `K` at least 1, orthonormal in `fine_B`
+@param fine_B the mass matrix `B` of the fine mesh
+@param Q the prolongation, fine x coarse, see `closest_point_prolongation()`
+@param coarse_vectors \f$ \widetilde\Phi \f$, coarse x any, in any scale
+
+Throws `std::invalid_argument` if `K` is 0 or the sizes do not match.
+*/
+CGAL_SPECTRAL_GEOMETRY_INLINE double
+span_loss(const Eigen::Ref<const Eigen::MatrixXd>& fine_vectors,
+          const Eigen::SparseMatrix<double>& fine_B, const Eigen::SparseMatrix<double>& Q,
+          const Eigen::Ref<const Eigen::MatrixXd>& coarse_vectors);
 
 /*!
 returns an estimate of \f$ \|C\|_L \f$ at unit area for the best that linear elements on `N`
@@ -210,6 +233,9 @@ struct Spectral_evaluation
   double floor_norm_L = 0;       ///< `commutativity_floor()`; 0 where there is no estimate
   double floor_norm_D = 0;       ///< `orthonormality_floor()`; the same
 
+  /// `span_loss()` of `judged_modes` of either mesh; NaN where no prolongation was given
+  double span_loss = std::numeric_limits<double>::quiet_NaN();
+
   Eigenvalue_errors errors;     ///< of modes 1..K, zeros skipped
   Eigenvalue_errors errors_low; ///< of modes 2..K/5: limbs that lost their tips show here
   Eigenvalue_errors
@@ -238,12 +264,14 @@ has vertices if these are fewer, in which case that many modes are judged; 1.1 `
   `norm_D_extended` and `errors_beyond`
 @param P restriction, coarse x fine, rows that sum to 1
 @param K number of modes to judge, at least 1
+@param Q prolongation, fine x coarse, for `Spectral_evaluation::span_loss`; empty if there is none
 
 Throws `std::invalid_argument` if there are fewer pairs or if sizes do not match.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_evaluation evaluate_spectrum(
     const Laplace_operator& fine, const Eigenpairs& fine_pairs, const Laplace_operator& coarse,
-    const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K);
+    const Eigenpairs& coarse_pairs, const Eigen::SparseMatrix<double>& P, Eigen::Index K,
+    const Eigen::SparseMatrix<double>& Q = {});
 
 /*!
 carries functions from the coarse mesh back to the fine one through the spectrum,
@@ -272,6 +300,8 @@ prolong_through_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pa
 } // namespace CGAL::Spectral_geometry
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
+
+#include <Eigen/QR>
 
 namespace CGAL::Spectral_geometry {
 
@@ -303,10 +333,10 @@ inline void check_pairs(const char* which, const Laplace_operator& op, const Eig
 
 } // namespace internal
 
-Eigen::MatrixXd functional_map(const Eigen::MatrixXd& coarse_vectors,
+Eigen::MatrixXd functional_map(const Eigen::Ref<const Eigen::MatrixXd>& coarse_vectors,
                                const Eigen::SparseMatrix<double>& coarse_B,
                                const Eigen::SparseMatrix<double>& P,
-                               const Eigen::MatrixXd& fine_vectors)
+                               const Eigen::Ref<const Eigen::MatrixXd>& fine_vectors)
 {
   internal::check_dimension("the number of columns of P", P.cols(), fine_vectors.rows());
   internal::check_dimension("the number of rows of P", P.rows(), coarse_vectors.rows());
@@ -341,6 +371,25 @@ double laplacian_commutativity_norm(const Eigen::MatrixXd& C, const Eigen::Vecto
 double orthonormality_norm(const Eigen::MatrixXd& C)
 {
   return (C.transpose() * C - Eigen::MatrixXd::Identity(C.cols(), C.cols())).norm();
+}
+
+double span_loss(const Eigen::Ref<const Eigen::MatrixXd>& fine_vectors,
+                 const Eigen::SparseMatrix<double>& fine_B, const Eigen::SparseMatrix<double>& Q,
+                 const Eigen::Ref<const Eigen::MatrixXd>& coarse_vectors)
+{
+  internal::check_dimension("the number of rows of Q", Q.rows(), fine_vectors.rows());
+  internal::check_dimension("the number of columns of Q", Q.cols(), coarse_vectors.rows());
+  internal::check_dimension("the size of the fine mass", fine_B.cols(), Q.rows());
+  internal::check_dimension("the number of rows of the fine mass", fine_B.rows(), Q.rows());
+  internal::require(fine_vectors.cols() != 0, "span loss: there is no fine vector, pass one.");
+  // Nothing here is fine x K: Q^T B has a few entries for each fine vertex.
+  const Eigen::SparseMatrix<double> QtB = Eigen::SparseMatrix<double>(Q.transpose()) * fine_B,
+                                    QtBQ = QtB * Q;
+  const Eigen::MatrixXd H = coarse_vectors.transpose() * (QtB * fine_vectors),
+                        G = coarse_vectors.transpose() * (QtBQ * coarse_vectors);
+  const Eigen::MatrixXd X = G.completeOrthogonalDecomposition().solve(H); // G^+ H
+  const double kept = X.cwiseProduct(H).sum() / double(fine_vectors.cols());
+  return (std::min)((std::max)(1 - kept, 0.), 1.);
 }
 
 double commutativity_floor(double theta, Eigen::Index K, Eigen::Index N)
@@ -397,7 +446,8 @@ Eigenvalue_errors eigenvalue_errors(const Eigen::VectorXd& fine, const Eigen::Ve
 Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenpairs& fine_pairs,
                                       const Laplace_operator& coarse,
                                       const Eigenpairs& coarse_pairs,
-                                      const Eigen::SparseMatrix<double>& P, Eigen::Index K)
+                                      const Eigen::SparseMatrix<double>& P, Eigen::Index K,
+                                      const Eigen::SparseMatrix<double>& Q)
 {
   internal::require(K >= 1, "spectral evaluation: K is ", K, ", judge at least one mode.");
   const Eigen::Index N = coarse.B.rows() - coarse.vanishing, judged = (std::min)(K, N);
@@ -436,6 +486,9 @@ Spectral_evaluation evaluate_spectrum(const Laplace_operator& fine, const Eigenp
   e.norm_D = orthonormality_norm(e.C);
   e.norm_D_extended =
       orthonormality_norm(unit_area_functional_map(C_extended, e.fine_area, e.coarse_area));
+  if(Q.size() != 0)
+    e.span_loss = span_loss(fine_pairs.vectors.leftCols(judged), fine.B, Q,
+                            coarse_pairs.vectors.leftCols(judged));
   if(!fine.has_coefficients && fine.boundary == Boundary_condition::neumann) {
     e.floor_norm_L = commutativity_floor(e.theta, judged, N);
     e.floor_norm_D = orthonormality_floor(e.theta, judged, N);

@@ -218,6 +218,7 @@ def _run(a: argparse.Namespace) -> None:
         report.update(
             norm_L=e.C_L,
             norm_D=e.C_D,
+            span_loss=e.span_loss,
             eigenvalue_error_mean=e.eigenvalue_error,
             eigenvalue_error_max=e.eigenvalue_error_max,
             eigenvalue_error_low_mean=e.eigenvalue_error_low,

@@ -399,7 +399,7 @@ def evaluate(
     Returns
     -------
     Evaluation
-        C, C_L, C_D, eigenvalue_error.
+        C, C_L, C_D, span_loss, eigenvalue_error.
 
     Raises
     ------

@@ -1049,6 +1049,10 @@ class Evaluation(_Result):
         |C^T C - 1|, how far from orthonormal.
     floor_C_L, floor_C_D : float
         Those of ideal linear elements, about.
+    span_loss : float
+        |Phi - Q Phi_c X|^2 / k for the best X, in the norm of the fine mass: how much of the fine
+        eigenvectors is outside of the span of the coarse ones, carried back by the Q of
+        Simplification. Between 0 and 1.
     eigenvalue_error, eigenvalue_error_max, eigenvalue_error_low : float
         Mean relative error of the eigenvalues, zeros left out; the largest; the mean of the modes
         2 to k / 5.
@@ -1066,6 +1070,7 @@ class Evaluation(_Result):
     C_D: float
     floor_C_L: float
     floor_C_D: float
+    span_loss: float
     eigenvalue_error: float
     eigenvalue_error_max: float
     eigenvalue_error_low: float
