@@ -704,8 +704,8 @@ TEST_CASE("What is refused is refused before the mesh is changed, by pre-simplif
   SECTION("how vertices are moved")
   {
     options.relocate = true;
-    options.relocation.beyond = 11;
-    word = "beyond";
+    options.relocation.smoothing = -1;
+    word = "smoothing";
   }
   SECTION("a coordinate that is no number")
   {

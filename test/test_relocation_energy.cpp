@@ -184,7 +184,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     Positions W = V;
     for(Eigen::Index i = 0; i < W.size(); ++i)
       W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
-    SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {});
+    SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {}, {});
     REQUIRE(guard.is_active());
     CHECK(std::abs(guard.changes(V).mean()) < 1e-4);
     const double before = guard.changes(W).mean(); // with the eigenvectors of V
@@ -214,16 +214,16 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     } penalty{guard};
     CHECK(gradient_error(penalty, W) < 1e-6);
     CHECK(penalty.value(W) > 0);
-    SG::Relocation_options with_goals;
-    with_goals.beyond = 0;
-    CHECK(!SG::internal::Spectrum_term(s->coarse.T, V, 0.5, 20, with_goals).is_active());
+    SG::internal::Relocation_limits limits;
+    limits.beyond = 0;
+    CHECK(!SG::internal::Spectrum_term(s->coarse.T, V, 0.5, 20, {}, limits).is_active());
     // Goals of all but the constant, and four eigenvalues after them, that say how far the others
     // are to rise.
-    with_goals.beyond = 1;
+    limits.beyond = 1;
     const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
-    with_goals.eigenvalues = op.mass.sum() * SG::eigenpairs(op, 12).values;
-    with_goals.eigenvalues.tail(11) *= 1.01;
-    SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 8, with_goals);
+    Eigen::VectorXd eigenvalues = op.mass.sum() * SG::eigenpairs(op, 12).values;
+    eigenvalues.tail(11) *= 1.01;
+    SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 8, eigenvalues, limits);
     REQUIRE(goals.has_goals());
     const Eigen::ArrayXd errors = goals.changes(V).transpose();
     REQUIRE(errors.size() == 15);
@@ -232,8 +232,8 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     Penalty to_goals{goals};
     CHECK(gradient_error(to_goals, W) < 1e-6);
     CHECK(to_goals.value(V) ==
-          Catch::Approx(3. * (std::pow(0.01 / 1.01 / with_goals.eigenvalue_error, 2) +
-                              std::pow(0.01 / 0.05, 2)))
+          Catch::Approx(
+              3. * (std::pow(0.01 / 1.01 / limits.eigenvalue_error, 2) + std::pow(0.01 / 0.05, 2)))
               .epsilon(0.05));
   }
 }
@@ -257,7 +257,7 @@ TEST_CASE("the term of the spectrum compares with the start, also where it has t
       Positions W = V;
       W.col(2).head(n) *= 1.3;
       W.row(n + 3) << 0.5 * size, -height * size, height * size;
-      SG::internal::Spectrum_term guard(T, V, 0.5, 20, {});
+      SG::internal::Spectrum_term guard(T, V, 0.5, 20, {}, {});
       guard.refresh(W);
       CHECK(guard.changes(W).mean() > 0.001);
     }

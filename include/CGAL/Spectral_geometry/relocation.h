@@ -29,7 +29,7 @@ restriction it carried, or from a remesher with `closest_point_restriction()`.
 Nothing in that residual speaks for the coarse eigenvalues beyond K: their modes meet signals of
 lower eigenvalues only, and each term \f$ (\lambda_j - \widetilde\lambda_i)^2 C_{ij}^2 \f$ falls
 when \f$ \widetilde\lambda_i \f$ does, although these eigenvalues are too low already.
-`Relocation_options::beyond` therefore holds the mean of the next K / 2 where it was; this takes the
+The term of the spectrum therefore holds the mean of the next K / 2 where it was; this takes the
 lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and
 nothing of the fine one.
 
@@ -374,7 +374,7 @@ private:
     const double tau = largest > 0 ? m_options.smoothing / largest : 0.;
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
-        m_options.signals != Relocation_options::Signals::sampled, tau, m_options);
+        m_options.signals != Relocation_options::Signals::sampled, tau, m_options, m_limits);
     m_keeps_inner_products =
         m_limits.keep_inner_products && m_sampled && tau > 0 && m_op.coefficients.rows() == 0;
     if(m_keeps_inner_products)
@@ -514,21 +514,30 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 {
   Relocation_result result;
   Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
-  const Eigen::MatrixXd moved = relocation.run(result);
-  // Nothing gained: without inner products and with half the weight of eigenvalues, then with none.
-  const bool eigenvalues = options.eigenvalues.size() > 0 && options.eigenvalue_error > 0;
-  if(result.stop_reason == Relocation_result::Stop_reason::no_gain && result.norm_before > 0 &&
-     (relocation.keeps_inner_products() || eigenvalues)) {
+  Eigen::MatrixXd moved = relocation.run(result);
+  // Little gained: without inner products, and with the eigenvalues at less and less weight.
+  const bool eigenvalues = options.eigenvalues.size() > 0 && limits.eigenvalue_error > 0;
+  const Eigen::Index K = options.modes > 0 ? options.modes : F.cols();
+  const bool gained = result.stop_reason != Relocation_result::Stop_reason::no_gain &&
+                      (V.rows() < 3 * K || result.norm_after < limits.gain * result.norm_before);
+  if(!gained && result.norm_before > 0 && (relocation.keeps_inner_products() || eigenvalues)) {
     Relocation_options without = options;
     Relocation_limits fewer = limits;
     fewer.keep_inner_products = false;
-    without.eigenvalue_error *= relocation.keeps_inner_products() ? std::sqrt(2.) : 0.;
+    fewer.eigenvalue_error *= relocation.keeps_inner_products() ? std::sqrt(2.)
+                              : limits.eigenvalue_error < 0.1   ? 2.
+                                                                : 0.;
     without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
     if(options.progress) // a fraction never decreases
       without.progress = [&](double) { return options.progress(1.); };
-    Relocation_result second = relocate_within(V, T, P, fine, F, Z, op, fixed, without, fewer);
-    second.seconds += result.seconds;
-    return second;
+    Eigen::MatrixXd anew = V;
+    Relocation_result second = relocate_within(anew, T, P, fine, F, Z, op, fixed, without, fewer);
+    const double seconds = result.seconds + second.seconds;
+    if(second.norm_after < result.norm_after) {
+      result = std::move(second);
+      moved.swap(anew);
+    }
+    result.seconds = seconds;
   }
   V = moved;
   return result;

@@ -212,12 +212,13 @@ public:
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                        const Local_operator& op, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,
-                       const Relocation_options& options)
+                       const Relocation_options& options, const Relocation_limits& limits)
     : m_E(T, F, Z, op)
     , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
-    , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options)
+    , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options.eigenvalues,
+                 limits)
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);

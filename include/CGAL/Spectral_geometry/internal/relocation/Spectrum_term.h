@@ -46,14 +46,16 @@ public:
   using Index = Eigen::Index;
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
 
-  /// `modes`: K. Without modes, or where a vertex has no face, it does nothing.
+  /// `modes`: K; `eigenvalues`: of the fine mesh at unit area, or none. Without modes, or where a
+  /// vertex has no face, it does nothing.
   Spectrum_term(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op,
-                const Index modes, const Relocation_options& options)
+                const Index modes, const Eigen::VectorXd& eigenvalues,
+                const Relocation_limits& limits)
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_modes(V.rows() - 1)
     , m_first(modes)
-    , m_error(options.eigenvalue_error)
+    , m_error(limits.eigenvalue_error)
   {
     bool all_have_faces = true;
     for(Index v = 0; v < V.rows(); ++v) {
@@ -63,11 +65,11 @@ public:
     // Zero has no relative error, and does not fall.
     if(all_have_faces)
       m_first = (std::max)(modes, number_of_zero_eigenvalues(laplace_operator(V, T, op)));
-    m_last = m_first + Index(options.beyond * double(modes));
-    const Index known = (std::min)(options.eigenvalues.size(), m_modes / 4),
+    m_last = m_first + Index(limits.beyond * double(modes));
+    const Index known = (std::min)(eigenvalues.size(), m_modes / 4),
                 goals = (std::min)({known, modes, m_modes / 6});
     if(goals > 0 && m_error > 0) {
-      Eigen::VectorXd sorted = options.eigenvalues;
+      Eigen::VectorXd sorted = eigenvalues;
       std::sort(sorted.data(), sorted.data() + sorted.size());
       if(set_goals(sorted.head(goals)))
         m_after_goals = sorted.segment(goals, known - goals).transpose().array();
