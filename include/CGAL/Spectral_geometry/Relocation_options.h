@@ -51,9 +51,9 @@ struct Relocation_options
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The
   /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of
   /// those that follow, at most up to a quarter of the vertices, the mean. Not for lumped masses,
-  /// where the shape would make up for the error of the elements. Where |C|_L falls by less than a
-  /// quarter, the relocation is done anew with half their weight, then without, and the result of
-  /// the smallest |C|_L is taken. Empty: no such term.
+  /// where the shape would make up for the error of the elements. Where |C|_L does not fall, or of
+  /// 3 K vertices by less than three per cent, the relocation is done anew with half their weight,
+  /// an eighth, a thirty-second, and none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
   /// No vertex moves further than this from the fine surface unless it was; in the unit of the
   /// mesh.
@@ -157,8 +157,8 @@ struct Relocation_limits
   double relative_decrease = 0.005;
   /// Where |C|_L of at least 3 K vertices does not come below this part of what it was, fewer terms
   /// are tried, and the best of the results is taken: the modes beyond K, cut within a cluster of
-  /// eigenvalues, can end a descent.
-  double gain = 0.75;
+  /// eigenvalues, can end a descent. Masses that are not averaged gain 10 to 30 per cent.
+  double gain = 0.97;
   /// Inner products of the signals take part.
   bool keep_inner_products = true;
   /// epsilon of `Spectrum_term`: relative errors of the first K eigenvalues of this size in the
