@@ -52,7 +52,7 @@ struct Relocation_options
   /// first K of the coarse ones are drawn to them, at most as many as a sixth of the vertices; of
   /// those that follow, at most up to a quarter of the vertices, the mean. Not for lumped masses,
   /// where the shape would make up for the error of the elements. Where |C|_L does not fall, or of
-  /// 3 K vertices by less than three per cent, the relocation is done anew with half their weight,
+  /// 4 K vertices by less than three per cent, the relocation is done anew with half their weight,
   /// an eighth, a thirty-second, and none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
   /// No vertex moves further than this from the fine surface unless it was; in the unit of the
@@ -155,7 +155,7 @@ struct Relocation_limits
   double size_tolerance = 0.03;
   /// The descent ends when ten steps lower the objective by less than this part.
   double relative_decrease = 0.005;
-  /// Where |C|_L of at least 3 K vertices does not come below this part of what it was, fewer terms
+  /// Where |C|_L of at least 4 K vertices does not come below this part of what it was, fewer terms
   /// are tried, and the best of the results is taken: the modes beyond K, cut within a cluster of
   /// eigenvalues, can end a descent. Masses that are not averaged gain 10 to 30 per cent.
   double gain = 0.97;

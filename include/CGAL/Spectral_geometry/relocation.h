@@ -519,7 +519,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
   const bool eigenvalues = options.eigenvalues.size() > 0 && limits.eigenvalue_error > 0;
   const Eigen::Index K = options.modes > 0 ? options.modes : F.cols();
   const bool gained = result.stop_reason != Relocation_result::Stop_reason::no_gain &&
-                      (V.rows() < 3 * K || result.norm_after < limits.gain * result.norm_before);
+                      (V.rows() < 4 * K || result.norm_after < limits.gain * result.norm_before);
   if(!gained && result.norm_before > 0 && (relocation.keeps_inner_products() || eigenvalues)) {
     Relocation_options without = options;
     Relocation_limits fewer = limits;

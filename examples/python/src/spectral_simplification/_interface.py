@@ -265,8 +265,8 @@ def eigenpairs(
     mass : str
         'lumped', 'averaged', 'consistent', as LaPy takes it, or 'voronoi'
     tolerance : float
-        of the residuals: the norm of L phi - lambda M phi (in M^-1, lumped) over lambda + 4 pi / area;
-        a warning says where it is not reached. A run of simplify() has pairs of 1e-8
+        of the residuals: the norm of L phi - lambda M phi (in M^-1, lumped) over
+        lambda + 4 pi / area; a warning says where it is not reached. A run of simplify() has pairs of 1e-8
     coefficients, boundary, intrinsic_delaunay, threads, progress : array, optional
         as of simplify()
 
@@ -306,7 +306,8 @@ def eigsh(
     k : int
         From 1 to n.
     tolerance : float
-        Of the residuals, relative to the size of the eigenvalues; a warning says where it is not reached.
+        Of the residuals, relative to the size of the eigenvalues; a warning says where it is not
+        reached.
     threads : int, optional
         All cores by default; the result does not depend on it.
     progress : function, optional
