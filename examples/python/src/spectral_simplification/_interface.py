@@ -266,7 +266,8 @@ def eigenpairs(
         'lumped', 'averaged', 'consistent', as LaPy takes it, or 'voronoi'
     tolerance : float
         of the residuals: the norm of L phi - lambda M phi (in M^-1, lumped) over
-        lambda + 4 pi / area; a warning says where it is not reached. A run of simplify() has pairs of 1e-8
+        lambda + 4 pi / area; a warning says where it is not reached. A run of simplify() has
+        pairs of 1e-8
     coefficients, boundary, intrinsic_delaunay, threads, progress : array, optional
         as of simplify()
 
