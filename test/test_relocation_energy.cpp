@@ -266,7 +266,7 @@ TEST_CASE("the term of the spectrum compares with the start, also where it has t
 TEST_CASE("signals read off a surface have the slope of its triangles")
 {
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);
-  const Rows F = rough_signals(fine, 4), Z = 2 * F;
+  const Eigen::MatrixXd F = rough_signals(fine, 4), Z = 2 * F;
   const SG::internal::Closest_point_query closest(fine);
   Positions V(32, 3); // inside of faces, and off the surface
   for(Eigen::Index i = 0; i < V.rows(); ++i) {

@@ -289,24 +289,24 @@ private:
     const double s = result.shift;
     const Eigen::VectorXd& a = result.coefficients;
     const Panel_space space(s * permuted(m_op.B, m_factor.order()), m_options.threads);
-    Panel last(n), before(n), x(n), y(n), b(n);
+    Panel last(n), before(n), y(n), x(n);
     result.F.resize(n, r);
     result.Z.resize(n, r);
     for(Index panel = 0; panel < m_panels; ++panel) {
       int solved = 0;
-      const auto solve = [&](const Panel& rhs, Panel& solution) {
+      const auto solve = [&](const Panel& rhs, Panel& solution) { // may be one panel
         m_factor.solve(rhs, solution, m_options.threads);
         const double done = double(panel * m_options.solves + ++solved);
         m_problem.report(0.3 + 0.7 * done / double(m_panels * m_options.solves));
       };
       // last = T_j X w, before = T_{j-1} X w, y = their sum so far
-      make_noise(panel, s, b);
-      solve(b, last);
+      make_noise(panel, s, x);
+      solve(x, last);
       for_each_range(
           [&](Index first, Index end) { rows(y, first, end) = a[0] * rows(last, first, end); });
       for(Index j = 1; j < a.size(); ++j) {
-        space.multiply_mass(last, b);
-        solve(b, x);
+        space.multiply_mass(last, x);
+        solve(x, x);
         for_each_range([&](Index first, Index end) {
           auto next = rows(before, first, end);
           if(j == 1)
@@ -317,8 +317,8 @@ private:
         });
         std::swap(last, before);
       }
-      space.multiply_mass(y, b);
-      solve(b, x);
+      space.multiply_mass(y, x);
+      solve(x, x);
       for_each_range([&](Index first, Index end) {
         const Index column = panel * panel_width,
                     columns = (std::min)(Index(panel_width), r - column);

@@ -80,6 +80,9 @@ public:
     m_alive[removed] = false;
   }
 
+  /// makes room for so many merges in all.
+  void reserve(Index number_of_merges) { m_merges.reserve(std::size_t(number_of_merges)); }
+
   /// number of vertices of the fine mesh, the columns of `P`.
   Index number_of_slots() const { return static_cast<Index>(m_alive.size()); }
 

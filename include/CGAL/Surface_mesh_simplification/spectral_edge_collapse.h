@@ -162,7 +162,7 @@ template <class TriangleMesh, class PoliciesNamedParameters, class NamedParamete
 void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
                         const Spectral_edge_collapse_options& given,
                         const PoliciesNamedParameters& policies_np, const NamedParameters& np,
-                        const Pre_simplification& first, Spectral_edge_collapse_result& result)
+                        Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
@@ -240,7 +240,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   result.eigenpairs = policies.eigenpairs();
   std::vector<Eigen::Index> slots = state.current_slots();
   if(first.done) {
-    Collapse_log log = first.log;
+    Collapse_log log = std::move(first.log);
     log.append(policies.log(), first.slots);
     for(Eigen::Index& s : slots)
       s = first.slots[s];
@@ -258,7 +258,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
 template <class TriangleMesh, class NamedParameters>
 void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                            Spectral_edge_collapse_options options, const NamedParameters& np,
-                           const Pre_simplification& first, Spectral_edge_collapse_result& result)
+                           Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
   using parameters::choose_parameter;
@@ -372,7 +372,7 @@ spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   if(number_of_vertices < result.input_vertices && !std::isfinite(options.maximum_error))
     internal::check_useful_target(Spectral_geometry::mesh_matrices(mesh, np), number_of_vertices,
                                   internal::number_of_signals(options));
-  const internal::Pre_simplification first =
+  internal::Pre_simplification first =
       internal::pre_simplify(mesh, result.input_vertices, number_of_vertices, options, np);
   result.seconds_pre_simplification = timer.time();
   result.quadric_collapses = first.log.points().size();

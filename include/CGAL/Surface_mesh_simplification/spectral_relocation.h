@@ -140,9 +140,11 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
   if(pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
     relocation.eigenvalues = state.area() * pairs->all_values();
-  const auto [F, Z] = signals.for_relocation();
+  const Spectral_geometry::Filtered_signals* const filtered = state.filtered_signals();
+  const auto mixtures = filtered ? decltype(signals.mixtures())() : signals.mixtures();
   Spectral_geometry::Relocation_result result =
-      relocate_mesh(mesh, P, state.fine(), F, Z, op, relocation, std::move(fixed), np);
+      relocate_mesh(mesh, P, state.fine(), filtered ? filtered->F : mixtures.first,
+                    filtered ? filtered->Z : mixtures.second, op, relocation, std::move(fixed), np);
   if(!result.resampled)
     return result;
   // Where the input has several points in one place, the closest may be another's.

@@ -221,7 +221,7 @@ public:
   /// The row of A that is row i of the factor and of panels.
   const std::vector<int>& order() const { return m_order; }
 
-  /// x = A^-1 b, in the order of the factor.
+  /// x = A^-1 b, in the order of the factor; b may be x.
   void solve(const Panel& b, Panel& x, int threads)
   {
     if(m_workspace.size() < std::size_t(m_slots * panel_width))

@@ -14,18 +14,20 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Signals of the fine mesh, read off at the closest points of the coarse vertices.
+/// Signals of the fine mesh, read off at the closest points of the coarse vertices. Few of its rows
+/// are ever read: those are kept side by side.
 class Surface_signals : public Position_dependent_signals
 {
 public:
-  /// F and Z: fine x K. The first two, of the fine surface, are kept by reference.
-  Surface_signals(const Mesh_matrices& fine, Followed_closest_points& closest, Rows F, Rows Z,
-                  const int threads)
+  /// F and Z: fine x K. All but the number of threads are kept by reference.
+  Surface_signals(const Mesh_matrices& fine, Followed_closest_points& closest,
+                  const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z, const int threads)
     : m_fine(fine)
     , m_closest(closest)
-    , m_F(std::move(F))
-    , m_Z(std::move(Z))
+    , m_F(F)
+    , m_Z(Z)
     , m_threads(threads)
+    , m_place(std::size_t(fine.V.rows()), -1)
   {}
 
   void evaluate(const Positions& V, Rows& F, Rows& Z) override
@@ -33,14 +35,16 @@ public:
     F.resize(V.rows(), m_F.cols());
     Z.resize(V.rows(), m_F.cols());
     m_answers.resize(std::size_t(V.rows()));
+    const auto find = [&](const Eigen::Index w) {
+      m_answers[std::size_t(w)] = m_closest(w, V.row(w));
+    };
+    for_each_task(V.rows(), m_threads, find, 16);
+    read_new_rows();
     const auto read_off = [&](const Eigen::Index w) {
-      Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      a = m_closest(w, V.row(w));
-      const Eigen::RowVector3i t = m_fine.T.row(a.face);
-      F.row(w) = a.weights(0) * m_F.row(t(0)) + a.weights(1) * m_F.row(t(1)) +
-                 a.weights(2) * m_F.row(t(2));
-      Z.row(w) = a.weights(0) * m_Z.row(t(0)) + a.weights(1) * m_Z.row(t(1)) +
-                 a.weights(2) * m_Z.row(t(2));
+      const Eigen::Vector3d& weights = m_answers[std::size_t(w)].weights;
+      const auto t = corners(w);
+      F.row(w) = weights(0) * f(t(0)) + weights(1) * f(t(1)) + weights(2) * f(t(2));
+      Z.row(w) = weights(0) * z(t(0)) + weights(1) * z(t(1)) + weights(2) * z(t(2));
     };
     for_each_task(V.rows(), m_threads, read_off, 16);
   }
@@ -51,7 +55,7 @@ public:
   {
     const auto add = [&](const Eigen::Index w) {
       const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
-      const Eigen::RowVector3i t = m_fine.T.row(a.face);
+      const auto t = corners(w);
       Eigen::Matrix3d p;
       for(int k = 0; k < 3; ++k)
         p.col(k) = m_fine.V.row(t(k));
@@ -67,7 +71,7 @@ public:
         return;
       Eigen::Vector3d g = Eigen::Vector3d::Zero();
       for(int k = 0; k < 3; ++k) {
-        const double slope = by_F.row(w).dot(m_F.row(t(k))) + by_Z.row(w).dot(m_Z.row(t(k)));
+        const double slope = by_F.row(w).dot(f(t(k))) + by_Z.row(w).dot(z(t(k)));
         g += slope / size2 * normal.cross(p.col((k + 2) % 3) - p.col((k + 1) % 3));
       }
       if(zeros == 1) {
@@ -80,11 +84,45 @@ public:
   }
 
 private:
+  // Of the face that the closest point of w lies in.
+  Eigen::RowVector3i corners(const Eigen::Index w) const
+  {
+    return m_fine.T.row(m_answers[std::size_t(w)].face);
+  }
+
+  using Row = Eigen::Map<const Eigen::RowVectorXd>;
+
+  Row f(const int v) const { return {m_rows.row(m_place[std::size_t(v)]).data(), m_F.cols()}; }
+  Row z(const int v) const { return {f(v).data() + m_F.cols(), m_F.cols()}; }
+
+  void read_new_rows()
+  {
+    std::vector<int> added;
+    for(Eigen::Index w = 0; w < Eigen::Index(m_answers.size()); ++w)
+      for(const int v : corners(w))
+        if(Eigen::Index& place = m_place[std::size_t(v)]; place < 0) {
+          place = m_number_of_rows + Eigen::Index(added.size());
+          added.push_back(v);
+        }
+    const Eigen::Index first = m_number_of_rows, K = m_F.cols();
+    m_number_of_rows += Eigen::Index(added.size());
+    if(m_number_of_rows > m_rows.rows())
+      m_rows.conservativeResize((std::max)(m_number_of_rows, 3 * m_rows.rows() / 2), 2 * K);
+    for(Eigen::Index k = 0; k < K; ++k)
+      for(std::size_t i = 0; i < added.size(); ++i) {
+        m_rows(first + Eigen::Index(i), k) = m_F(added[i], k);
+        m_rows(first + Eigen::Index(i), K + k) = m_Z(added[i], k);
+      }
+  }
+
   const Mesh_matrices& m_fine;
   Followed_closest_points& m_closest;
-  Rows m_F, m_Z;
+  const Eigen::MatrixXd &m_F, &m_Z;
   int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;
+  std::vector<Eigen::Index> m_place; // of a fine vertex in m_rows, or -1
+  Rows m_rows;                       // of F and of Z beside them
+  Eigen::Index m_number_of_rows = 0;
 };
 
 /// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a

@@ -30,7 +30,7 @@ public:
     const std::size_t n = boxes.size();
     for(m_first_leaf = 1; m_first_leaf < n;)
       m_first_leaf *= 2;
-    m_nodes.assign(2 * m_first_leaf, Box());
+    m_nodes.assign(m_first_leaf + n + 1, Box());
     m_item.resize(n);
     m_leaf.resize(n);
     std::iota(m_item.begin(), m_item.end(), 0u);
@@ -42,7 +42,7 @@ public:
       m_leaf[m_item[i]] = std::uint32_t(m_first_leaf + i);
       m_nodes[m_first_leaf + i] = boxes[m_item[i]];
     }
-    for(std::size_t node = m_first_leaf; node-- > 1;)
+    for(std::size_t node = (std::min)(m_first_leaf, m_nodes.size() / 2); node-- > 1;)
       m_nodes[node] = m_nodes[2 * node].merged(m_nodes[2 * node + 1]);
   }
 

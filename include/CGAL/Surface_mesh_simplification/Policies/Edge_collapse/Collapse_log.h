@@ -90,6 +90,13 @@ public:
                       " merges; give one for each.");
   }
 
+  /// Makes room for so many merges in all.
+  void reserve(const std::size_t number_of_merges)
+  {
+    m_forest.reserve(Index(number_of_merges));
+    m_points.reserve(number_of_merges);
+  }
+
   /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha
   /// F_removed. What `Merge_forest::merge()` throws.
   void merge(const Index removed, const Index kept, const double alpha,
@@ -115,6 +122,7 @@ public:
                       second.m_forest.number_of_slots(), " vertices, but ",
                       number_of_vertices_left(), " are left here, and ", slots.size(),
                       " slots are given; let all three agree.");
+    reserve(m_points.size() + second.m_points.size());
     for(std::size_t i = 0; i < second.m_points.size(); ++i) {
       const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
       merge(slots[m.removed], slots[m.kept], m.alpha, second.m_points[i]);

@@ -148,14 +148,12 @@ public:
                                                  : given().cols();
   }
 
-  /// What the relocation sees: as many mixtures as the collapses, others. Of eigenvectors the low
-  /// ones weigh more, 1 / lambda: |C|_L is 0.98 times as large, biharmonic distances are 0.94 times
-  /// as far off. Twice as many mixtures take 1.2 times as long, with |C|_L 0.98 times as large and
-  /// errors of eigenvalues 1.03 times.
-  Signals for_relocation() const
+  /// What the relocation sees, unless signals are filtered: as many mixtures as the collapses,
+  /// others. Of eigenvectors the low ones weigh more, 1 / lambda: |C|_L is 0.98 times as large,
+  /// biharmonic distances are 0.94 times as far off. Twice as many mixtures take 1.2 times as long,
+  /// with |C|_L 0.98 times as large and errors of eigenvalues 1.03 times.
+  Signals mixtures() const
   {
-    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
-      return {filtered->F, filtered->Z};
     Spectral_options options;
     options.number_of_mixtures = m_options.number_of_mixtures;
     options.seed = m_options.seed + 1; // others than those of the collapses
@@ -421,7 +419,7 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   const Eigen::MatrixXd R = mixing_matrix(options, weights);
   const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
   basis.signals = Spectral_signals(Z.rows(), R.cols());
-  basis.signals.set(0, options.signals * R, Z * R);
+  basis.signals.set(0, Eigen::MatrixXd(options.signals * R), Eigen::MatrixXd(Z * R));
   basis.sum_of_squares =
       ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
   const double rounding =
@@ -463,7 +461,9 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
     if(basis.rough)
       basis.signals.set(first, F, area * spectral_z(op, F));
     else
-      basis.signals.set(first, F, pairs->vectors * ((area * pairs->values).asDiagonal() * columns));
+      basis.signals.set(
+          first, F,
+          Eigen::MatrixXd(pairs->vectors * ((area * pairs->values).asDiagonal() * columns)));
   }
   basis.eigenpairs = std::move(pairs);
   return basis;

@@ -107,6 +107,7 @@ public:
   {
     auto [points, rings] = read_geometry();
     m_core.set_input(std::move(points), std::move(rings));
+    m_core.release_rings(); // which take more memory than the quadrics
     const auto [log, slots] = collapse();
     m_slots.set(slots);
     for(std::size_t i = 0; i < log.points().size(); ++i) {

@@ -54,7 +54,8 @@ public:
   Spectral_block* operator[](const std::size_t w) { return &m_values[w * std::size_t(m_blocks)]; }
 
   /// Sets the columns from `first` on, a multiple of 16, of F and Z.
-  void set(const Eigen::Index first, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
+  template <class Matrix_F, class Matrix_Z>
+  void set(const Eigen::Index first, const Matrix_F& F, const Matrix_Z& Z)
   {
     for(Eigen::Index k = 0; k < F.cols(); ++k)
       for(Eigen::Index w = 0; w < F.rows(); ++w) {

@@ -208,6 +208,7 @@ public:
       if(m_mesh.opposite[c] < c)
         push(c);
     const std::size_t n = m_log.number_of_vertices();
+    m_log.reserve(n - (std::min)(n, target));
     const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
     std::size_t next_report = n - (std::min)(n, step), before = n;
     while(m_log.number_of_vertices_left() > target) {

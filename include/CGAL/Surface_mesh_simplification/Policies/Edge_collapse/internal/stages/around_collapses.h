@@ -136,10 +136,13 @@ public:
                    m_result.relative_error, "; set relocate to false to keep it."));
     // Carried signals keep P as it is; sampled ones bring their own, from the mesh of the
     // eigenpairs.
-    if(relocation.resampled)
-      m_result.restriction =
-          first.done ? SpMat(relocation.restriction * first.log.forest().restriction(first.slots))
-                     : relocation.restriction;
+    if(relocation.resampled && first.done) {
+      const Spectral_geometry::Merge_forest& forest = m_result.log.forest();
+      m_result.restriction = relocation.restriction *
+                             forest.restriction(first.slots, forest.number_of_slots() -
+                                                                 Eigen::Index(first.slots.size()));
+    } else if(relocation.resampled)
+      m_result.restriction = relocation.restriction;
     relocation.restriction.resize(0, 0);
   }
 
