@@ -18,6 +18,9 @@ endif()
 get_filename_component(consumer_compiler_name "${consumer_compiler}" NAME)
 set(consumer_options -DCMAKE_CXX_COMPILER=${consumer_compiler}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
+if(SPECTRAL_SANITIZE) # the library that they link is sanitized
+  list(APPEND consumer_options -DCMAKE_CXX_FLAGS=-fsanitize=${spectral_sanitizers})
+endif()
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
 # Not optimised and without debug symbols it takes half the time to compile.

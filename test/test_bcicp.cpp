@@ -7,7 +7,7 @@
 #include "catch.h"
 #include "shapes.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 #include <cmath>
 #include <numeric>

@@ -29,9 +29,9 @@ using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Policies = SMS::Spectral_policies<Mesh, Kernel>;
 using Result = SMS::Spectral_edge_collapse_result;
+using SG::Phase;
+using SG::Progress;
 using SMS::Spectral_edge_collapse_options;
-using SMS::Spectral_phase;
-using SMS::Spectral_progress;
 
 TEST_CASE("What only the collapses need is given back, to the last number")
 {
@@ -184,8 +184,8 @@ TEST_CASE("Progress towards a bound of the error never goes back and ends near 1
   options.maximum_error = 0.2;
   std::vector<double> fractions;
   std::size_t vertices = 0;
-  options.progress = [&](const Spectral_progress& p) {
-    if(p.phase == Spectral_phase::collapses)
+  options.progress = [&](const Progress& p) {
+    if(p.phase == Phase::collapses)
       fractions.push_back(p.fraction);
     vertices = p.number_of_vertices;
     return true;
@@ -206,10 +206,10 @@ TEST_CASE("Another thread can cancel, in every phase")
   Spectral_edge_collapse_options options = options_with(20);
   std::atomic<bool> cancel{false};
   options.cancel = &cancel;
-  Spectral_phase phase = Spectral_phase::eigenpairs;
+  Phase phase = Phase::eigenpairs;
   double fraction = 0;
   const bool tells_progress = GENERATE(true, false);
-  options.progress = [&](const Spectral_progress& p) {
+  options.progress = [&](const Progress& p) {
     if(p.phase == phase && p.fraction >= fraction)
       std::thread([&cancel] { cancel = true; }).join();
     return true;
@@ -229,14 +229,14 @@ TEST_CASE("Another thread can cancel, in every phase")
   }
   SECTION("while the first costs are computed")
   {
-    phase = Spectral_phase::first_costs;
+    phase = Phase::first_costs;
     fraction = 0.1;
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);
   }
   SECTION("between two collapses")
   {
-    phase = Spectral_phase::collapses;
+    phase = Phase::collapses;
     fraction = 0.5;
     const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
     CHECK(result.stop_reason == Result::Stop_reason::cancelled);
@@ -256,14 +256,11 @@ TEST_CASE(
   Mesh mesh = make_mesh(input);
   Spectral_edge_collapse_options options = options_with(20);
   options.pre_simplify = 300;
-  const Spectral_phase phase = GENERATE(Spectral_phase::pre_simplification,
-                                        Spectral_phase::eigenpairs, Spectral_phase::first_costs);
+  const Phase phase = GENERATE(Phase::pre_simplification, Phase::eigenpairs, Phase::first_costs);
   const double fraction = GENERATE(0., 0.5);
   CAPTURE(int(phase), fraction);
-  options.progress = [&](const Spectral_progress& p) {
-    return p.phase != phase || p.fraction < fraction;
-  };
-  if(phase == Spectral_phase::pre_simplification) {
+  options.progress = [&](const Progress& p) { return p.phase != phase || p.fraction < fraction; };
+  if(phase == Phase::pre_simplification) {
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);
     return;
@@ -343,8 +340,8 @@ TEST_CASE(
   std::atomic<bool> cancel{false};
   Spectral_edge_collapse_options options = options_with(10);
   options.cancel = &cancel;
-  options.progress = [&](const Spectral_progress& p) {
-    cancel = p.phase == Spectral_phase::collapses && p.fraction > 0.5;
+  options.progress = [&](const Progress& p) {
+    cancel = p.phase == Phase::collapses && p.fraction > 0.5;
     return true;
   };
   const Policies policies(mesh, options);

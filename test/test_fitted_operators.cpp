@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 #include <CGAL/Spectral_toolbox/fit_operators_of_run.h>
 #include <CGAL/Spectral_toolbox/fitted_operators.h>
+#include <CGAL/Spectral_toolbox/vertex_maps.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
 #include "catch.h"
@@ -19,6 +20,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -149,7 +151,7 @@ TEST_CASE("Wrong entries are put right when P is the identity", "[fitted_operato
 
   Operator_fit_options options;
   options.mass = pattern;
-  options.tie = 1e-6;
+  options.regularization = 1e-6;
   options.tolerance = 1e-3;
   options.maximum_iterations = 60;
   const auto result = fit(p, options);
@@ -377,7 +379,7 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
   Problem p = nested(1, 12);
   Operator_fit_options options;
   options.orthonormality = 0.1;
-  options.tie = 0.3; // a well-conditioned program: gradients converge
+  options.regularization = 0.3; // a well-conditioned program: gradients converge
   options.tolerance = 1e-9;
   options.maximum_iterations = 100;
   options.smallest_weight = 0.9; // some bounds bind
@@ -435,7 +437,7 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
     MatrixXd R = terms[a].second ? MatrixXd(dG * lambda.asDiagonal()) : MatrixXd(-dG);
     R = R * W.cwiseSqrt().asDiagonal();
     const MatrixXd projected = G.transpose() * R;
-    const MatrixXd local = std::sqrt(options.plain) *
+    const MatrixXd local = std::sqrt(options.whole_residual) *
                            (p.coarse.mass / area).cwiseSqrt().cwiseInverse().asDiagonal() * R;
     MatrixXd T = MatrixXd::Zero(K, K);
     if(terms[a].second)
@@ -445,9 +447,9 @@ TEST_CASE("The fit agrees with an independent dense bounded solver", "[fitted_op
     A.col(a).segment(2 * K * K, N * K) = local.reshaped();
     if(terms[a].second)
       A(2 * K * K + N * K, a) = 100. * d.sum() * d.sum();
-    const double tie = std::sqrt(options.tie / N) / (start[a] + typical[a]);
-    A(A.rows() - n + a, a) = tie;
-    b(A.rows() - n + a) = tie * start[a];
+    const double row = std::sqrt(options.regularization / N) / (start[a] + typical[a]);
+    A(A.rows() - n + a, a) = row;
+    b(A.rows() - n + a) = row * start[a];
   }
   b.segment(K * K, K * K) = std::sqrt(options.orthonormality) * MatrixXd::Identity(K, K).reshaped();
   b(2 * K * K + N * K) = 100.;
@@ -516,8 +518,8 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   options.rings = 3;
   refused("rings must be 1 or 2, but is 3", options);
   options = {};
-  options.tie = 0.;
-  refused("tie", options);
+  options.regularization = 0.;
+  refused("regularization", options);
   options = {};
   options.orthonormality = -1.;
   refused("orthonormality", options);
@@ -595,6 +597,49 @@ TEST_CASE("The fit of a run reports its solve and itself, and is cancelled in bo
   const double end = GENERATE(0., 0.5, 0.51);
   fit.progress = [&](const double fraction) { return fraction < end; };
   CHECK_THROWS_AS(SMS::fit_operators_of_run(input, coarse, options, result, fit), SG::Cancelled);
+}
+
+TEST_CASE("A flag cancels whatever takes a second, and its progress tells the phase",
+          "[fitted_operators]")
+{
+  const shapes::Matrices input = wavy_grid_matrices(24, 20);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  Mesh mesh = make_mesh(input);
+  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
+  const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
+  const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
+  const SG::Eigenpairs& pairs = *result.eigenpairs;
+  const MatrixXd Z = pairs.vectors * pairs.values.asDiagonal();
+  const std::atomic<bool> cancel{true};
+  const auto phases = [&](auto how, const auto& compute) {
+    std::set<SG::Phase> told;
+    how.progress = [&](const SG::Progress& p) { return told.insert(p.phase), true; };
+    compute(how);
+    const std::set<SG::Phase> result = told;
+    how.cancel = &cancel;
+    told.clear();
+    CHECK_THROWS_AS(compute(how), SG::Cancelled);
+    CHECK(told.empty());
+    return result;
+  };
+  using Phases = std::set<SG::Phase>;
+  CHECK(phases(SG::Eigenpairs_options(), [&](const auto& how) { SG::eigenpairs(op, 20, how); }) ==
+        Phases{SG::Phase::eigenpairs});
+  CHECK(phases(SG::Filtered_signals_options(), [&](const auto& how) {
+          SG::filtered_signals(op, 20, how);
+        }) == Phases{SG::Phase::eigenpairs});
+  CHECK(phases(SG::Relocation_options(), [&](const auto& how) {
+          MatrixXd V = coarse.V;
+          SG::relocate_positions(V, coarse.T, result.restriction, input, pairs.vectors, Z,
+                                 SG::Mass::averaged, {}, how);
+        }) == Phases{SG::Phase::relocation});
+  CHECK(phases(Operator_fit_options(), [&](const auto& how) {
+          SMS::fit_operators_of_run(input, coarse, options, result, how);
+        }) == Phases{SG::Phase::operator_fit});
+  CHECK(phases(SG::Run_control(), [&](const auto& how) {
+          SG::nearest_rows(pairs.vectors, pairs.vectors, how);
+        }) == Phases{SG::Phase::matching});
 }
 
 TEST_CASE("Runs of whose kind no operators can be fitted are refused", "[fitted_operators]")

@@ -124,9 +124,9 @@ TEST_CASE("A second run with a predicate that was cancelled or has reached its t
   std::atomic<bool> cancel{true};
   auto options = options_with(4);
   options.cancel = &cancel;
-  options.progress = [&](const SMS::Spectral_progress& p) {
-    cancel = cancel || (p.phase == SMS::Spectral_phase::collapses && p.fraction > 0.5 &&
-                        p.number_of_vertices > 100);
+  options.progress = [&](const SG::Progress& p) {
+    cancel = cancel ||
+             (p.phase == SG::Phase::collapses && p.fraction > 0.5 && p.number_of_vertices > 100);
     return true;
   };
   cancel = false;

@@ -513,7 +513,7 @@ TEST_CASE("Energies of relocation with an operator are those of its matrices, gr
   SG::Relocation_energy energy(s->coarse.T, F, Z, local);
   CHECK(relative_difference(energy.value(s->coarse.V), slow) < 1e-10);
   SG::Relocation_energy smoothed(s->coarse.T, F, Z, local, 0.01, 0.3);
-  CHECK(relative_difference((smoothed.value(s->coarse.V), smoothed.plain_part()), slow) < 1e-9);
+  CHECK(relative_difference((smoothed.value(s->coarse.V), smoothed.energy_part()), slow) < 1e-9);
 
   using Positions = SG::Relocation_energy::Positions;
   Positions V = s->coarse.V, gradient, direction(V.rows(), 3);

@@ -27,9 +27,9 @@ namespace test_one_call {
 using namespace spectral_test;
 using Catch::Matchers::ContainsSubstring;
 using Result = SMS::Spectral_edge_collapse_result;
+using SG::Phase;
+using SG::Progress;
 using SMS::Spectral_edge_collapse_options;
-using SMS::Spectral_phase;
-using SMS::Spectral_progress;
 using Point = Kernel::Point_3;
 
 namespace {
@@ -482,14 +482,14 @@ TEST_CASE("Progress runs through the phases, never backwards, and does not chang
   Mesh expected = make_mesh(input);
   SMS::spectral_edge_collapse(expected, 100, options);
 
-  std::vector<Spectral_progress> reports;
-  options.progress = [&](const Spectral_progress& p) { return reports.push_back(p), true; };
+  std::vector<Progress> reports;
+  options.progress = [&](const Progress& p) { return reports.push_back(p), true; };
   Mesh mesh = make_mesh(input);
   SMS::spectral_edge_collapse(mesh, 100, options);
   CHECK(positions(mesh) == positions(expected));
-  std::map<Spectral_phase, int> count;
+  std::map<Phase, int> count;
   for(std::size_t i = 0; i < reports.size(); ++i) {
-    const Spectral_progress& p = reports[i];
+    const Progress& p = reports[i];
     ++count[p.phase];
     CHECK((p.fraction >= 0 && p.fraction <= 1));
     CHECK(p.number_of_vertices >= 100);
@@ -500,21 +500,19 @@ TEST_CASE("Progress runs through the phases, never backwards, and does not chang
       CHECK(reports[i - 1].number_of_vertices >= p.number_of_vertices);
     }
   }
-  CHECK(count[Spectral_phase::eigenpairs] > 1);
-  CHECK(count[Spectral_phase::first_costs] > 0);
-  CHECK(count[Spectral_phase::collapses] > 50);
-  CHECK(count[Spectral_phase::collapses] < 150);
+  CHECK(count[Phase::eigenpairs] > 1);
+  CHECK(count[Phase::first_costs] > 0);
+  CHECK(count[Phase::collapses] > 50);
+  CHECK(count[Phase::collapses] < 150);
 }
 
 TEST_CASE("A run can be cancelled in every phase")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);
   Spectral_edge_collapse_options options = options_with(20);
-  Spectral_phase phase = Spectral_phase::eigenpairs;
+  Phase phase = Phase::eigenpairs;
   double fraction = 0;
-  options.progress = [&](const Spectral_progress& p) {
-    return p.phase != phase || p.fraction < fraction;
-  };
+  options.progress = [&](const Progress& p) { return p.phase != phase || p.fraction < fraction; };
   Mesh mesh = make_mesh(input);
   SECTION("while the eigenpairs are computed: the mesh is untouched")
   {
@@ -525,13 +523,13 @@ TEST_CASE("A run can be cancelled in every phase")
   }
   SECTION("while the first costs are computed: the mesh is untouched")
   {
-    phase = Spectral_phase::first_costs;
+    phase = Phase::first_costs;
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);
   }
   SECTION("between collapses: what was done is returned")
   {
-    phase = Spectral_phase::collapses;
+    phase = Phase::collapses;
     fraction = 0.5;
     const Result result = SMS::spectral_edge_collapse(mesh, 100, options);
     CHECK(result.stop_reason == Result::Stop_reason::cancelled);

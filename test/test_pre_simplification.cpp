@@ -194,7 +194,7 @@ TEST_CASE("Vertices that are fixed stay, and the unit of length does not matter"
     const auto& merge = log.forest().merges()[i];
     CHECK(!fixed[std::size_t(merge.removed)]);
     if(fixed[std::size_t(merge.kept)]) {
-      CHECK(merge.alpha == 0);
+      CHECK(merge.weight == 0);
       CHECK(log.points()[i] == Eigen::Vector3d(input.V.row(merge.kept)));
     }
   }
@@ -502,12 +502,9 @@ TEST_CASE("A run that is cancelled while quadrics come first leaves the mesh as 
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(4);
   Mesh mesh = make_mesh(input);
   SMS::Spectral_edge_collapse_options options = ahead_options();
-  const SMS::Spectral_phase phase =
-      GENERATE(SMS::Spectral_phase::pre_simplification, SMS::Spectral_phase::first_costs);
-  options.progress = [&](const SMS::Spectral_progress& p) {
-    return p.phase != phase || p.fraction < 0.5;
-  };
-  if(phase == SMS::Spectral_phase::pre_simplification) {
+  const SG::Phase phase = GENERATE(SG::Phase::pre_simplification, SG::Phase::first_costs);
+  options.progress = [&](const SG::Progress& p) { return p.phase != phase || p.fraction < 0.5; };
+  if(phase == SG::Phase::pre_simplification) {
     CHECK_THROWS_AS(SMS::spectral_edge_collapse(mesh, 100, options), SG::Cancelled);
     CHECK(positions(mesh) == input.V);
     return;

@@ -70,10 +70,9 @@ void set(SMS::Spectral_options& options, const Trial& trial)
   options.kept_vertices = trial.kept;
   options.threads = trial.threads;
   if(trial.cancelled_below != 0)
-    options.progress = [trial](const SMS::Spectral_progress& p) {
-      return p.phase != SMS::Spectral_phase::relocation &&
-             (p.phase != SMS::Spectral_phase::collapses ||
-              p.number_of_vertices >= trial.cancelled_below);
+    options.progress = [trial](const SG::Progress& p) {
+      return p.phase != SG::Phase::relocation &&
+             (p.phase != SG::Phase::collapses || p.number_of_vertices >= trial.cancelled_below);
     };
 }
 

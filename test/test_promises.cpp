@@ -317,8 +317,8 @@ TEST_CASE("a stage after the collapses that runs out of memory is a warning: mes
   const auto without = SMS::spectral_edge_collapse(collapsed, 100, options);
   options.relocate = true;
   int left = -1;
-  options.progress = [&](const SMS::Spectral_progress& p) {
-    if(p.phase == SMS::Spectral_phase::relocation && left < 0)
+  options.progress = [&](const SG::Progress& p) {
+    if(p.phase == SG::Phase::relocation && left < 0)
       left = 10;
     return true;
   };
@@ -351,8 +351,8 @@ TEST_CASE("what a callback throws after the collapses comes through, and leaves 
   Mesh collapsed = make_mesh(input), thrown = collapsed;
   SMS::spectral_edge_collapse(collapsed, 100, options);
   options.relocate = true;
-  options.progress = [](const SMS::Spectral_progress& p) {
-    if(p.phase == SMS::Spectral_phase::relocation && p.fraction > 0)
+  options.progress = [](const SG::Progress& p) {
+    if(p.phase == SG::Phase::relocation && p.fraction > 0)
       throw std::domain_error("of the user's");
     return true;
   };

@@ -10,7 +10,7 @@
 #include "catch.h"
 #include "relocation_helpers.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
@@ -574,8 +574,8 @@ TEST_CASE("the one-call form relocates: same triangles, E of the mesh as it is, 
   options.relocate = true;
   options.relocation.signals = Signals::carried_and_sampled;
   bool told = false;
-  options.progress = [&](const SMS::Spectral_progress& p) {
-    told = told || p.phase == SMS::Spectral_phase::relocation;
+  options.progress = [&](const SG::Progress& p) {
+    told = told || p.phase == SG::Phase::relocation;
     return true;
   };
   auto constraints = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
@@ -792,9 +792,7 @@ TEST_CASE("a relocation that is cancelled in the one-call form leaves what the c
   Mesh plain = make_mesh(input), mesh = make_mesh(input);
   SMS::spectral_edge_collapse(plain, 80, options);
   options.relocate = true;
-  options.progress = [](const SMS::Spectral_progress& p) {
-    return p.phase != SMS::Spectral_phase::relocation;
-  };
+  options.progress = [](const SG::Progress& p) { return p.phase != SG::Phase::relocation; };
   const auto result = SMS::spectral_edge_collapse(mesh, 80, options);
   CHECK(result.stop_reason == SMS::Spectral_edge_collapse_result::Stop_reason::cancelled);
   CHECK_THAT(result.explanation, ContainsSubstring("cancelled"));

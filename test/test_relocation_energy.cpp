@@ -115,7 +115,7 @@ TEST_CASE("the smoothed energy is that of dense matrices")
   SG::Relocation_energy energy(s.coarse.T, s.P * s.F(), s.P * s.Z(), 0.5, tau, mu);
   CHECK(relative_difference(energy.value(s.coarse.V), smoothed + mu * plain) < 1e-9);
   CHECK(relative_difference(energy.smoothed_part(), smoothed) < 1e-9);
-  CHECK(relative_difference(energy.plain_part(), plain) < 1e-9);
+  CHECK(relative_difference(energy.energy_part(), plain) < 1e-9);
 }
 
 TEST_CASE("inner products of moving signals are compared with those of the fine mesh")

@@ -68,10 +68,10 @@ Sparse product_of_merges(const Merge_forest& forest, Index number_of_merges,
     for(Index w = 0; w < static_cast<Index>(slots.size()); ++w)
       if(slots[w] != merge.removed) {
         Q.insert(static_cast<Index>(left.size()), w) =
-            slots[w] == merge.kept ? 1. - merge.alpha : 1.;
+            slots[w] == merge.kept ? 1. - merge.weight : 1.;
         if(slots[w] == merge.kept) {
           const auto v = std::find(slots.begin(), slots.end(), merge.removed) - slots.begin();
-          Q.insert(static_cast<Index>(left.size()), v) = merge.alpha;
+          Q.insert(static_cast<Index>(left.size()), v) = merge.weight;
         }
         left.push_back(slots[w]);
       }

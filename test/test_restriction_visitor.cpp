@@ -156,8 +156,8 @@ TEST_CASE("Edges without length are merged half and half")
     const Visitor visitor(mesh);
     collapse_to(mesh, 167, SMS::Edge_length_cost<Mesh>(), SMS::Midpoint_placement<Mesh>(), visitor);
     REQUIRE(visitor.forest().number_of_merges() == 2);
-    CHECK(visitor.forest().merges()[0].alpha == 0.5);
-    CHECK(visitor.forest().merges()[1].alpha == 0.5);
+    CHECK(visitor.forest().merges()[0].weight == 0.5);
+    CHECK(visitor.forest().merges()[1].weight == 0.5);
     CHECK(fault_of_restriction(visitor.restriction(), visitor.vertex_map()) == "");
     CHECK(position_error(visitor.restriction(), input.V, positions(mesh)) < 1e-12);
   }

@@ -177,17 +177,17 @@ TEST_CASE("Nearest rows are those of a search through all of them")
     CHECK((points.row(found[static_cast<std::size_t>(i)]) - queries.row(i)).squaredNorm() ==
           Approx(least));
   }
-  CHECK(SG::nearest_rows(points, queries, 3) == found);
-  CHECK(SG::nearest_rows(points, queries.topRows(2), 5) == Map(found.begin(), found.begin() + 2));
+  CHECK(SG::nearest_rows(points, queries, {3}) == found);
+  CHECK(SG::nearest_rows(points, queries.topRows(2), {5}) == Map(found.begin(), found.begin() + 2));
   CHECK_THROWS_AS(SG::nearest_rows(points, queries.leftCols(3)), std::invalid_argument);
   CHECK_THROWS_AS(SG::nearest_rows(points.topRows(0), queries), std::invalid_argument);
-  CHECK_THROWS_AS(SG::nearest_rows(points, queries, 0), std::invalid_argument);
+  CHECK_THROWS_AS(SG::nearest_rows(points, queries, {0}), std::invalid_argument);
   for(const int threads : {1, 3}) {
     std::atomic<int> calls{0};
     const auto stop = [&](double) { return ++calls < 20; };
-    CHECK_THROWS_AS(SG::nearest_rows(points, queries, threads, stop), SG::Cancelled);
+    CHECK_THROWS_AS(SG::nearest_rows(points, queries, {threads, stop}), SG::Cancelled);
     CHECK(calls < 20 + threads);
-    CHECK(SG::nearest_rows(points, queries, threads, [](double) { return true; }) == found);
+    CHECK(SG::nearest_rows(points, queries, {threads, [](double) { return true; }}) == found);
   }
 }
 
@@ -213,7 +213,7 @@ TEST_CASE("Nearest rows in many dimensions: the first of those that are equally 
   Eigen::MatrixXd shuffled(queries.rows(), dimension);
   for(Index i = 0; i < queries.rows(); ++i)
     shuffled.row(i) = queries.row(p[static_cast<std::size_t>(i)]);
-  const Map again = SG::nearest_rows(points, shuffled, 2);
+  const Map again = SG::nearest_rows(points, shuffled, {2});
   for(std::size_t i = 0; i < p.size(); ++i)
     CHECK(again[i] == found[static_cast<std::size_t>(p[i])]);
   const Eigen::MatrixXd one_place = Eigen::MatrixXd::Ones(40, 3);

@@ -45,12 +45,12 @@ inline constexpr Word<CGAL::Spectral_geometry::Boundary_condition> boundary_word
     {CGAL::Spectral_geometry::Boundary_condition::neumann, "neumann"},
     {CGAL::Spectral_geometry::Boundary_condition::dirichlet, "dirichlet"}};
 
-inline constexpr Word<CGAL::Surface_mesh_simplification::Spectral_phase> phase_words[] = {
-    {CGAL::Surface_mesh_simplification::Spectral_phase::pre_simplification, "pre_simplification"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::eigenpairs, "eigenpairs"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::first_costs, "first_costs"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::collapses, "collapses"},
-    {CGAL::Surface_mesh_simplification::Spectral_phase::relocation, "relocation"}};
+inline constexpr Word<CGAL::Spectral_geometry::Phase> phase_words[] = {
+    {CGAL::Spectral_geometry::Phase::pre_simplification, "pre_simplification"},
+    {CGAL::Spectral_geometry::Phase::eigenpairs, "eigenpairs"},
+    {CGAL::Spectral_geometry::Phase::first_costs, "first_costs"},
+    {CGAL::Spectral_geometry::Phase::collapses, "collapses"},
+    {CGAL::Spectral_geometry::Phase::relocation, "relocation"}};
 
 template <class Value, std::size_t n>
 const char* word_of(const Word<Value> (&words)[n], const Value value)

@@ -19,7 +19,7 @@
 #include "option_words.h"
 
 #include <CGAL/Real_timer.h>
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 #include <exception>
 #include <filesystem>

@@ -227,7 +227,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   options.threads = a.threads;
   if(a.pre_simplify)
     options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
-  options.progress = [&bar](const SMS::Spectral_progress& progress) {
+  options.progress = [&bar](const SG::Progress& progress) {
     bar.show(word_of(phase_words, progress.phase), progress.fraction);
     return true;
   };

@@ -55,21 +55,21 @@ py::object records(const SMS::Collapse_log& log)
 {
   const auto& merges = log.forest().merges();
   std::vector<Index> removed, kept;
-  py::array_t<double> alpha(py::ssize_t(merges.size())),
+  py::array_t<double> weight(py::ssize_t(merges.size())),
       point({py::ssize_t(merges.size()), py::ssize_t(3)});
   for(std::size_t i = 0; i < merges.size(); ++i) {
     removed.push_back(merges[i].removed);
     kept.push_back(merges[i].kept);
-    alpha.mutable_at(i) = merges[i].alpha;
+    weight.mutable_at(i) = merges[i].weight;
     for(Index j = 0; j < 3; ++j)
       point.mutable_at(i, j) = log.points()[i][j];
   }
   py::object result = py::module_::import("numpy").attr("empty")(
       merges.size(),
-      py::eval("[('removed', 'i8'), ('kept', 'i8'), ('alpha', 'f8'), ('point', 'f8', 3)]"));
+      py::eval("[('removed', 'i8'), ('kept', 'i8'), ('weight', 'f8'), ('point', 'f8', 3)]"));
   result["removed"] = array_of(removed);
   result["kept"] = array_of(kept);
-  result["alpha"] = alpha;
+  result["weight"] = weight;
   result["point"] = point;
   return result;
 }
@@ -80,11 +80,11 @@ SMS::Collapse_log log_of(const py::object& records, const Index n)
   const auto column = [&](const char* name) { return records.attr("__getitem__")(name); };
   const auto removed = py::array_t<std::int64_t>(column("removed")),
              kept = py::array_t<std::int64_t>(column("kept"));
-  const auto alpha = py::array_t<double>(column("alpha")),
+  const auto weight = py::array_t<double>(column("weight")),
              point = py::array_t<double>(column("point"));
   SMS::Collapse_log log(n);
   for(py::ssize_t i = 0; i < removed.size(); ++i)
-    log.merge(removed.at(i), kept.at(i), alpha.at(i),
+    log.merge(removed.at(i), kept.at(i), weight.at(i),
               {point.at(i, 0), point.at(i, 1), point.at(i, 2)});
   return log;
 }
@@ -254,7 +254,7 @@ py::dict simplify(const Arguments& a)
       std::unique(options.kept_vertices.begin(), options.kept_vertices.end()),
       options.kept_vertices.end());
   Watch watch(a);
-  options.progress = [&](const SMS::Spectral_progress& progress) {
+  options.progress = [&](const SG::Progress& progress) {
     return watch(word_of(phase_words, progress.phase), progress.fraction);
   };
   Run run = watch.run([&] {

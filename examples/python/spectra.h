@@ -339,7 +339,7 @@ inline Fitted_pairs fit_operators(const Arguments& a)
     options.rings = int(a.integer("rings", 1, 2));
   options.low_modes = a.number("low_modes", 0);
   options.orthonormality = a.number("orthonormality", 0);
-  options.plain = a.number("plain", 0);
+  options.whole_residual = a.number("whole_residual", 0);
   SG::Local_operator local(fine.op->theta);
   local.voronoi = fine.op->voronoi;
   local.boundary = fine.op->boundary;
@@ -446,8 +446,8 @@ inline py::array point_map(const Arguments& a)
   Watch watch;
   return array_of(watch.run([&] {
     return SG::target_to_source_map(
-        C, source.pairs->vectors, target.pairs->vectors, threads,
-        [&](const double fraction) { return watch("point_map", fraction); });
+        C, source.pairs->vectors, target.pairs->vectors,
+        {threads, [&](const double fraction) { return watch("point_map", fraction); }});
   }));
 }
 

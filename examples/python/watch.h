@@ -7,7 +7,7 @@
 
 #include "arguments.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 #include <atomic>
 #include <chrono>

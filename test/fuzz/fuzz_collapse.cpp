@@ -409,9 +409,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   *flags_before.flags = *flags_of_replay.flags = *flags.flags;
   int calls = 0;
   SMS::Spectral_edge_collapse_options options = call.options;
-  options.progress = [&](const SMS::Spectral_progress&) {
-    return ++calls != call.calls_until_cancelled;
-  };
+  options.progress = [&](const SG::Progress&) { return ++calls != call.calls_until_cancelled; };
   SMS::Spectral_edge_collapse_result result;
   try {
     const auto np = CGAL::parameters::edge_is_constrained_map(flags);
@@ -423,9 +421,8 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   } catch(const std::invalid_argument& error) {
     const std::string sentence = error.what();
     bool expected = false;
-    for(const char* const part :
-        {"both to be kept", "where functions vanish", "but 1 component needs at least",
-         "components need at least"})
+    for(const char* const part : {"both to be kept", "where functions vanish",
+                                  "but 1 component needs at least", "components need at least"})
       expected = expected || sentence.find(part) != std::string::npos;
     return expected && unchanged(mesh, before) ? "" : "refused: " + sentence;
   } catch(const std::runtime_error& error) {

@@ -308,8 +308,8 @@ inline SG::Operator_fit_options fit_options_from(Bytes& bytes)
   };
   o.low_modes = one_of({0, 1, 2.5, 6});
   o.orthonormality = one_of({0, 0.01, 1, 1e6});
-  o.plain = one_of({0, 0.2, 1e6});
-  o.tie = one_of({0.05, 1e-9, 1e6});
+  o.whole_residual = one_of({0, 0.2, 1e6});
+  o.regularization = one_of({0.05, 1e-9, 1e6});
   o.smallest_weight = one_of({0.02, 1e-6, 1});
   o.smallest_mass = one_of({0.01, 1e-6, 1});
   o.tolerance = one_of({0.05, 1e-6, 0.9});

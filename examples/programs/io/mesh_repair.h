@@ -7,7 +7,7 @@
 
 #include "mesh_io.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 #include <cstddef>
 #include <functional>

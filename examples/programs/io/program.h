@@ -7,7 +7,7 @@
 
 #include "threads.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 #include <atomic>
 #include <csignal>

@@ -6,7 +6,7 @@
 
 #include "matcher.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_toolbox/functional_map_estimation.h>
 #include <CGAL/Spectral_toolbox/vertex_maps.h>
 
@@ -279,8 +279,8 @@ private:
     Eigen::MatrixXd x(X_in_X.rows(), X_in_X.cols() + X_in_Y.cols()), y(Y_in_X.rows(), x.cols());
     x << X_in_X, X_in_Y;
     y << Y_in_X, Y_in_Y;
-    m_maps.X_to_Y = SG::nearest_rows(y, x, m_threads);
-    m_maps.Y_to_X = SG::nearest_rows(x, y, m_threads);
+    m_maps.X_to_Y = SG::nearest_rows(y, x, {m_threads});
+    m_maps.Y_to_X = SG::nearest_rows(x, y, {m_threads});
   }
 
   static Eigen::MatrixXd functional_map(const Surface& source, const Surface& target,

@@ -11,7 +11,7 @@
 #include "starts.h"
 
 #include <CGAL/Real_timer.h>
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_toolbox/hierarchical_functional_maps.h>
 #include <CGAL/Spectral_toolbox/vertex_maps.h>
@@ -71,7 +71,7 @@ Eigen::MatrixXd filtered(Eigen::MatrixXd C, const Shape& X, const Shape& Y,
   // A bijection rounds to vertices, which costs the upper modes: up-sample once more.
   const Eigen::Index half = C.rows() / 2;
   return SG::zoom_out(C.topLeftCorner(half, half), Y.spectral, X.spectral, C.rows(),
-                      2 * options.zoom_step, options.threads);
+                      2 * options.zoom_step, {options.threads});
 }
 
 // One step of ZoomOut between the levels, from the map C of fine Y to fine X to k modes: the
@@ -88,7 +88,7 @@ Eigen::MatrixXd refined_once(const Eigen::MatrixXd& C, const Shape& X, const Pro
     at_representatives.row(i) =
         phi.row(coarse_X.representative[static_cast<std::size_t>(i)]).head(C.rows());
   const std::vector<Eigen::Index> images =
-      SG::target_to_source_map(C, psi, at_representatives, threads);
+      SG::target_to_source_map(C, psi, at_representatives, {threads});
   const Eigen::MatrixXd coarse_phi = coarse.pairs.vectors.leftCols(k);
   const Eigen::MatrixXd to_coarse =
       SG::functional_map_of_vertex_map(psi.leftCols(k), coarse_phi, coarse.op.B, images);

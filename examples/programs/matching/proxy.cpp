@@ -55,7 +55,7 @@ Simplification simplified_spectrally(Mesh mesh, const Shape& fine, std::size_t v
   pairs.values /= fine.area;
   pairs.vectors /= std::sqrt(fine.area);
   options.eigenpairs = std::make_shared<SG::Eigenpairs>(std::move(pairs));
-  options.progress = [&](const SMS::Spectral_progress&) { return keep_going(); };
+  options.progress = [&](const SG::Progress&) { return keep_going(); };
   const auto result = simplify_mesh(mesh, vertices, options);
   if(!result.explanation.empty() && keep_going())
     throw std::runtime_error(result.explanation);

@@ -7,7 +7,7 @@
 #include "elastic_surface.h"
 #include "matcher.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_toolbox/vertex_maps.h>
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
@@ -118,7 +118,7 @@ Eigen::MatrixXd carried(const Eigen::MatrixXd& fine, const Eigen::MatrixXd& fine
   Eigen::MatrixXd points(V.cols(), 6), queries(fine.cols(), 6);
   points << V.transpose(), weight_of_normals * normals.transpose();
   queries << fine.transpose(), weight_of_normals * fine_normals.transpose();
-  const std::vector<Eigen::Index> nearest = SG::nearest_rows(points, queries, threads);
+  const std::vector<Eigen::Index> nearest = SG::nearest_rows(points, queries, {threads});
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3, fine.cols());
   for(Eigen::Index v = 0; v < fine.cols(); ++v) {
     const std::set<Eigen::Index>& around =
@@ -264,7 +264,7 @@ Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations,
     if(!keep_going())
       throw SG::Cancelled();
     const Eigen::MatrixXd modes = psi * C.transpose();
-    std::vector<Eigen::Index> next = SG::nearest_rows(modes, phi, m_threads);
+    std::vector<Eigen::Index> next = SG::nearest_rows(modes, phi, {m_threads});
     if(m_largest_weight > 0) { // what a band is worth is judged by a map that did not use it
       std::vector<Eigen::Index> fine;
       for(const Eigen::Index y : next)
@@ -274,7 +274,7 @@ Eigen::MatrixXd Registration::settled(Eigen::MatrixXd C, int iterations,
           queries(phi.rows(), points.cols());
       points << modes, bands_Y * weights.asDiagonal();
       queries << phi, bands_X * weights.asDiagonal();
-      next = SG::nearest_rows(points, queries, m_threads);
+      next = SG::nearest_rows(points, queries, {m_threads});
     }
     std::size_t changes = images.empty() ? next.size() : 0;
     for(std::size_t i = 0; i < images.size(); ++i)
@@ -296,7 +296,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   const Eigen::MatrixXd &phi = m_shape_X.spectral.pairs.vectors,
                         &psi = m_shape_Y.spectral.pairs.vectors;
   if(iterations == 0)
-    return {SG::target_to_source_map(C, psi, phi, m_threads), {}};
+    return {SG::target_to_source_map(C, psi, phi, {m_threads}), {}};
 
   // The modes say where a limb is, but not how it is turned about its axis: it is thinner than they
   // are long. The surface is first drawn with both smoothed, which leaves limbs free to turn with
@@ -311,7 +311,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
   constexpr int settling_iterations = 4;
   std::vector<Eigen::Index> images =
       SG::target_to_source_map(settled(C, (std::min)(iterations, settling_iterations), keep_going),
-                               psi, at_control(phi, m_X), m_threads);
+                               psi, at_control(phi, m_X), {m_threads});
   Eigen::MatrixXd targets(3, n);
   for(Eigen::Index i = 0; i < n; ++i)
     targets.col(i) = m_Y.V.col(images[static_cast<std::size_t>(i)]);
@@ -348,7 +348,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
     const Eigen::MatrixXd normals = vertex_normals(P, m_X.control.T);
     const Eigen::MatrixXd of_X = features(P, normals, m_bands_X, weights),
                           of_Y = features(m_Y.V, m_Y.normals, m_Y.bands, weights);
-    images = SG::nearest_rows(of_Y, of_X, m_threads);
+    images = SG::nearest_rows(of_Y, of_X, {m_threads});
     springs = Springs(n);
     for(Eigen::Index i = 0; i < n; ++i) {
       const Eigen::Index y = images[static_cast<std::size_t>(i)];
@@ -357,7 +357,7 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
     Eigen::MatrixXd of_control(m_Y.areas.size(), of_Y.cols());
     for(Eigen::Index k = 0; k < of_control.rows(); ++k)
       of_control.row(k) = of_Y.row(m_Y.nearest[static_cast<std::size_t>(k)]);
-    const std::vector<Eigen::Index> origins = SG::nearest_rows(of_X, of_control, m_threads);
+    const std::vector<Eigen::Index> origins = SG::nearest_rows(of_X, of_control, {m_threads});
     for(Eigen::Index k = 0; k < of_control.rows(); ++k) {
       const Eigen::Index y = m_Y.nearest[static_cast<std::size_t>(k)],
                          i = origins[static_cast<std::size_t>(k)];
@@ -374,7 +374,8 @@ Registration::Maps Registration::refine(const Eigen::MatrixXd& C, int iterations
     const Eigen::MatrixXd moved = carried(of_X.V, of_X.normals, elastic, P, m_threads);
     const Eigen::MatrixXd no_bands_X(0, of_X.V.cols()), no_bands_Y(0, of_Y.V.cols());
     return SG::nearest_rows(features(of_Y.V, of_Y.normals, no_bands_Y, none),
-                            features(moved, vertex_normals(moved, T), no_bands_X, none), m_threads);
+                            features(moved, vertex_normals(moved, T), no_bands_X, none),
+                            {m_threads});
   };
   Maps result;
   result.map = map(m_X, m_shape_X.matrices.T, m_Y);

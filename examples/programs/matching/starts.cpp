@@ -4,7 +4,7 @@
 
 #include "starts.h"
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_toolbox/spectral_distances.h>
 
 #include <algorithm>
@@ -117,7 +117,7 @@ public:
     weights.orientation *= orientation;
     return SG::zoom_out(
         SG::functional_map_of_descriptors(m_Y, m_X, descriptors.f_Y, descriptors.f_X, k, weights),
-        m_Y, m_X, modes, 2 * m_options.zoom_step, 1);
+        m_Y, m_X, modes, 2 * m_options.zoom_step);
   }
 
   std::vector<Start> of_descriptors(const Descriptors& descriptors, Eigen::Index modes) const
@@ -185,8 +185,7 @@ private:
   {
     std::vector<Start> result(maps.size());
     for_each_index(maps.size(), m_options.threads, m_keep_going, [&](std::size_t i) {
-      result[i] =
-          judged(SG::zoom_out(maps[i], m_Y, m_X, (std::max)(last, maps[i].rows()), step, 1));
+      result[i] = judged(SG::zoom_out(maps[i], m_Y, m_X, (std::max)(last, maps[i].rows()), step));
     });
     return result;
   }
@@ -242,7 +241,7 @@ Eigen::MatrixXd map_of_descriptors(const SG::Spectral_shape& X, const SG::Spectr
   const Eigen::Index last = starts.last_mode();
   return SG::zoom_out(starts.of_descriptors(Descriptors(X, Y, landmarks), 1., 1.,
                                             (std::min)(last, options.initial_modes + 4)),
-                      Y, X, last, options.zoom_step, options.threads);
+                      Y, X, last, options.zoom_step, {options.threads});
 }
 
 Eigen::MatrixXd map_of_many_starts(const SG::Spectral_shape& X, const SG::Spectral_shape& Y,
@@ -256,5 +255,6 @@ Eigen::MatrixXd map_of_many_starts(const SG::Spectral_shape& X, const SG::Spectr
     for(Start& start : starts.grown(middle))
       all.push_back(std::move(start));
   keep_best(all, 1, 0.);
-  return SG::zoom_out(all.front().C, Y, X, starts.last_mode(), options.zoom_step, options.threads);
+  return SG::zoom_out(all.front().C, Y, X, starts.last_mode(), options.zoom_step,
+                      {options.threads});
 }

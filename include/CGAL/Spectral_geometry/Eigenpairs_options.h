@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_OPTIONS_H
 #define CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_OPTIONS_H
 
-#include <CGAL/Spectral_geometry/internal/basics.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 
 namespace CGAL::Spectral_geometry {
 
@@ -52,7 +52,7 @@ struct Eigenpairs
 enum class Eigenpairs_method { automatic, block, dense };
 
 /// \brief how `eigenpairs()` computes. The defaults are for tight pairs.
-struct Eigenpairs_options
+struct Eigenpairs_options : Run_control
 {
   Eigenpairs_method method = Eigenpairs_method::automatic; ///< see there
   /// of the residuals, \f$\|L \phi - \lambda B \phi\|_{M^{-1}} \le\f$ tolerance \f$(\lambda + s)\f$
@@ -72,10 +72,6 @@ struct Eigenpairs_options
   /// vectors of the Krylov space of `block` before a restart, at least K + 32, or 0 for max(3.6 K,
   /// K + 120): fewer take less memory and more time
   Eigen::Index maximum_vectors = 0;
-  /// threads for `block`, at least 1; the result does not depend on it
-  int threads = 1;
-  /// is called with the fraction done, in [0, 1]; returns false to cancel
-  std::function<bool(double)> progress;
 
   /// the defaults with another tolerance
   static Eigenpairs_options with_tolerance(double tolerance)

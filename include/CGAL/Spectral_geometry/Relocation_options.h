@@ -18,7 +18,7 @@ namespace CGAL::Spectral_geometry {
 How `relocate_positions()` moves the vertices of a coarse mesh, and what it may not do. The defaults
 are those that were measured.
 */
-struct Relocation_options
+struct Relocation_options : Run_control
 {
   /// What a vertex' signals are while it moves.
   enum class Signals {
@@ -59,16 +59,11 @@ struct Relocation_options
   /// mesh.
   double largest_distance = std::numeric_limits<double>::infinity();
 
-  /// Number of threads; from 1. The result does not depend on it.
-  int threads = 1;
-
   /// Ends after so many steps; one step is a value and a gradient, seldom two. 60 are six sevenths
   /// of the time, with 1.01 times the |C|_L.
   int maximum_steps = 70;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();
-  /// Called at each step with the fraction of the budget that is spent; returns false to cancel.
-  std::function<bool(double)> progress;
 };
 
 /// What `relocate_positions()` did.
@@ -136,7 +131,7 @@ namespace internal {
 /// Weight of E beside the smoothed term, relative to what the two are at the start. Most of E lies
 /// in modes that the norms do not see: a large weight costs them their gain. With none E rose to
 /// twelve times what it was on falconstatue; with this it falls on seven of eight meshes.
-constexpr double weight_of_plain_energy = 0.03;
+constexpr double weight_of_energy = 0.03;
 
 /// What no vertex and no triangle may do while vertices are relocated, and when the descent ends.
 struct Relocation_limits

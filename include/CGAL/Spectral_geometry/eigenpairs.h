@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H
 #define CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
@@ -323,10 +323,12 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
       const double share = double(K) * double(size) / double(total);
       const Eigen::Index wanted = known > 0 ? known + known / 2 + 8 : Eigen::Index(1.2 * share) + 8;
       const Laplace_operator op = operator_of_part(problem.op(), parts[p]);
-      const Eigen_problem part(op, problem.scale(), [&](const double fraction) {
-        problem.report((double(done) - (1. - fraction) * double(size)) / double(total));
-        return true;
-      });
+      const Eigen_problem part(op, problem.scale(),
+                               {1, [&](const double fraction) {
+                                  problem.report((double(done) - (1. - fraction) * double(size)) /
+                                                 double(total));
+                                  return true;
+                                }});
       pairs[p] = pairs_of_part(part, (std::min)({wanted, size, K}), options);
     }
     order.clear();
@@ -383,7 +385,7 @@ inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* 
 
 Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K, const Eigenpairs_options& options)
 {
-  const internal::Eigen_problem problem(op, options.progress);
+  const internal::Eigen_problem problem(op, options);
   problem.check(K);
   internal::check_eigenpairs_options(options, K);
   internal::check_mass_matrix(problem, options.threads);

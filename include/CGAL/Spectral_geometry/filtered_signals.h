@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_FILTERED_SIGNALS_H
 #define CGAL_SPECTRAL_GEOMETRY_FILTERED_SIGNALS_H
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
 
@@ -15,15 +15,12 @@ namespace CGAL::Spectral_geometry {
 /// @{
 
 /// \brief how `filtered_signals()` computes.
-struct Filtered_signals_options
+struct Filtered_signals_options : Run_control
 {
   Eigen::Index signals = 16; ///< r, at least 1; computed eight at a time
   std::uint64_t seed = 1;    ///< of the noise
   /// m, solves with the factor for eight signals, from 3 to 32; the more, the sharper the filter
   int solves = 5;
-  int threads = 1; ///< at least 1; the result does not depend on it
-  /// is called with the fraction done, in [0, 1]; returns false to cancel
-  std::function<bool(double)> progress;
 };
 
 /// \brief random functions on a mesh in which eigenvectors have the weights \f$f(\lambda_k)\f$.
@@ -390,7 +387,7 @@ Filtered_signals filtered_signals(const Laplace_operator& op, Eigen::Index K,
                                   const Filtered_signals_options& options)
 {
   internal::check_filtered_signals_options(options);
-  const internal::Eigen_problem problem(op, options.progress);
+  const internal::Eigen_problem problem(op, options);
   problem.check(K);
   internal::check_dominance(op.B);
   problem.report(0.);

@@ -77,7 +77,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
@@ -158,7 +158,8 @@ public:
     using Reason = Relocation_result::Stop_reason;
     for(result.stop_reason = Reason::steps;
         !nothing_to_gain && result.steps < m_options.maximum_steps;) {
-      report_to(m_options.progress, double(result.steps) / double(m_options.maximum_steps));
+      report_to(m_options,
+                {Phase::relocation, double(result.steps) / double(m_options.maximum_steps)});
       if(!(m_timer.time() < m_options.maximum_seconds)) {
         result.stop_reason = Reason::seconds;
         break;
@@ -529,7 +530,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
                                                                 : 0.;
     without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
     if(options.progress) // a fraction never decreases
-      without.progress = [&](double) { return options.progress(1.); };
+      without.progress = [&](const Progress&) { return options.progress({Phase::relocation, 1.}); };
     Eigen::MatrixXd anew = V;
     Relocation_result second = relocate_within(anew, T, P, fine, F, Z, op, fixed, without, fewer);
     const double seconds = result.seconds + second.seconds;

@@ -160,7 +160,7 @@ public:
   /// The first term where the last value was taken.
   double smoothed_part() const { return m_smoothed; }
   /// E, without its weight, where the last value was taken.
-  double plain_part() const { return m_plain; }
+  double energy_part() const { return m_energy; }
 
 private:
   static constexpr int width = 32, lanes = 8;
@@ -183,14 +183,14 @@ private:
   // What 32 signals add, and the memory to find it.
   struct Work
   {
-    double smoothed, plain, inner = 0;
+    double smoothed, energy, inner = 0;
     Entries derivatives;
     Panel Y, X, multiplier, scratch, BF, by_F;
   };
 
   double evaluate(const Positions& V, Positions* gradient)
   {
-    m_smoothed = m_plain = std::numeric_limits<double>::infinity();
+    m_smoothed = m_energy = std::numeric_limits<double>::infinity();
     if(!m_geometry.assemble(V, m_entries) || (m_tau > 0 && !factorise()))
       return m_smoothed;
     Rows F, Z, by_F, by_Z;
@@ -218,12 +218,12 @@ private:
       if(m_nu > 0)
         add_inner_products(first, signals.F, gradient != nullptr, work, by_F);
     });
-    m_smoothed = m_plain = 0;
+    m_smoothed = m_energy = 0;
     double inner = 0;
     Entries derivatives = m_geometry.zero_entries();
     for(const Work& work : m_work) {
       m_smoothed += work.smoothed;
-      m_plain += work.plain;
+      m_energy += work.energy;
       inner += work.inner;
       if(gradient)
         derivatives += work.derivatives;
@@ -236,7 +236,7 @@ private:
       }
       m_geometry.add_gradient(derivatives, V, *gradient);
     }
-    return m_smoothed + m_mu * m_plain + m_nu * inner;
+    return m_smoothed + m_mu * m_energy + m_nu * inner;
   }
 
   // With a = tr M, G = F^T B F / a and D = G - T: d|D|^2 = 2 D . (2 F^T B dF + F^T dB F - G da) /
@@ -366,7 +366,7 @@ private:
   {
     const Index n = number_of_vertices();
     Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
-    work.smoothed = work.plain = 0;
+    work.smoothed = work.energy = 0;
     work.derivatives = m_geometry.zero_entries();
     Y.setZero(n, width);
     X.setZero(n, width);
@@ -384,7 +384,7 @@ private:
       if(m_geometry.row(w).empty())
         continue;
       const double mass = m_entries.mass(w), E = dot(r, r) / mass;
-      work.plain += E;
+      work.energy += E;
       add_multiple(m_mu / mass, r, Q.row(w).data());
       if(derive)
         work.derivatives.mass(w) -= m_mu * E / mass;
@@ -488,7 +488,7 @@ private:
   std::vector<Signals> m_given;
   Entries m_entries;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
-  double m_smoothed = 0, m_plain = 0, m_nu = 0;
+  double m_smoothed = 0, m_energy = 0, m_nu = 0;
   std::vector<Eigen::MatrixXd> m_inner_products; // of the fine mesh, of 32 signals each
   int m_threads = 1;
   std::vector<Work> m_work;

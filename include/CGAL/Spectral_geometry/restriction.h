@@ -17,20 +17,20 @@ The fine-to-coarse restriction matrix `P = Q_m ... Q_2 Q_1` of a sequence of ver
 (section 3.2 of Lescoat et al. 2020), recorded in constant time per merge.
 
 A *slot* is the index, in `[0, n)`, of a vertex of the fine mesh. The merge of the slot `r`
-(removed) into the slot `k` (kept) with weight alpha stands for the matrix `Q` with
+(removed) into the slot `k` (kept) with weight \f$ \alpha \f$ stands for the matrix `Q` with
 \f[ (Q F)_k = (1 - \alpha) F_k + \alpha F_r, \qquad (Q F)_w = F_w \ \mbox{for the other slots}, \f]
 after which `r`
 is gone and `k` goes on, and may be kept or removed by later merges.
 
 The slots merged into one another are disjoint sets, so every fine vertex ends in exactly one coarse
 vertex and `P` has at most one nonzero per column: the merges form a binary forest with a weight on
-each arc (alpha for the removed side, 1 - alpha for the kept side), and a nonzero of `P` is the
-product of the arcs from a fine vertex up to its root. The forest is stored as the log of its merges
-in order. Reading the log backwards visits every node before its two children, so that `P` is
-expanded in linear time, at the end of the log or after any number of its merges, without a single
-product of sparse matrices.
+each arc (\f$ \alpha \f$ for the removed side, \f$ 1 - \alpha \f$ for the kept one), and a nonzero
+of `P` is the product of the arcs from a fine vertex up to its root. The forest is stored as the log
+of its merges in order. Reading the log backwards visits every node before its two children, so that
+`P` is expanded in linear time, at the end of the log or after any number of its merges, without a
+single product of sparse matrices.
 
-Every row of `P` sums to 1. When each alpha is 0 or 1, every row holds exactly one nonzero, equal
+Every row of `P` sums to 1. When each weight is 0 or 1, every row holds exactly one nonzero, equal
 to 1.
 
 Reference: T. Lescoat, H.-T. D. Liu, J.-M. Thiery, A. Jacobson, T. Boubekeur, M. Ovsjanikov,
@@ -42,12 +42,12 @@ public:
   using Index = Eigen::Index;                 ///< of a slot or a merge
   using Matrix = Eigen::SparseMatrix<double>; ///< type of `P`
 
-  /// one merge: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
+  /// one merge: `F_kept <- (1 - weight) F_kept + weight F_removed`.
   struct Merge
   {
     Index removed; ///< the slot that is gone
     Index kept;    ///< the slot that goes on
-    double alpha;  ///< in [0, 1], the weight of the removed slot
+    double weight; ///< alpha, in [0, 1], of the removed slot
   };
 
   /// the forest of the empty mesh.
@@ -63,20 +63,21 @@ public:
   }
 
   /*!
-  merges the slot `removed` into the slot `kept`: `F_kept <- (1 - alpha) F_kept + alpha F_removed`.
+  merges the slot `removed` into the slot `kept`: `F_kept <- (1 - weight) F_kept + weight
+  F_removed`.
 
   Constant (amortised) time. Throws `std::invalid_argument`, and changes nothing, if a slot is out
-  of range or has been removed before, if both are the same, or if `alpha` is not in `[0, 1]`.
+  of range or has been removed before, if both are the same, or if `weight` is not in `[0, 1]`.
   */
-  void merge(Index removed, Index kept, double alpha)
+  void merge(Index removed, Index kept, double weight)
   {
     check_alive(removed);
     check_alive(kept);
     internal::require(removed != kept, "Merge_forest: slot ", kept,
                       " is merged into itself, pass two different slots.");
-    internal::require(alpha >= 0 && alpha <= 1, "Merge_forest: the weight of slot ", removed,
-                      " is ", alpha, ", clamp it to [0, 1].");
-    m_merges.push_back({removed, kept, alpha});
+    internal::require(weight >= 0 && weight <= 1, "Merge_forest: the weight of slot ", removed,
+                      " is ", weight, ", clamp it to [0, 1].");
+    m_merges.push_back({removed, kept, weight});
     m_alive[removed] = false;
   }
 
@@ -110,8 +111,8 @@ public:
   returns `P` (`slots.size()` x `number_of_slots()`): row `i` is the coarse vertex that lives in
   `slots[i]`.
 
-  At most one nonzero per column; zeros (a merge with alpha 0 or 1 makes some) are not written. Rows
-  sum to 1.
+  At most one nonzero per column; zeros (a merge with weight 0 or 1 makes some) are not written.
+  Rows sum to 1.
 
   @param slots every slot that is left after the merges, once, in the order wanted for the rows: for
   a simplified mesh the slots of `vertices(mesh)` in their order, which `collect_garbage()` may
@@ -202,8 +203,8 @@ private:
       const std::size_t k = static_cast<std::size_t>(m.kept),
                         r = static_cast<std::size_t>(m.removed);
       e.row[r] = e.row[k];
-      e.weight[r] = e.weight[k] * m.alpha;
-      e.weight[k] *= 1 - m.alpha;
+      e.weight[r] = e.weight[k] * m.weight;
+      e.weight[k] *= 1 - m.weight;
     }
     return e;
   }

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_TOOLBOX_CURVATURE_COEFFICIENTS_H
 #define CGAL_SPECTRAL_TOOLBOX_CURVATURE_COEFFICIENTS_H
 
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 #include <CGAL/Spectral_geometry/local_operator.h>
 
@@ -34,7 +35,7 @@ Cancelled when the progress callback returned false
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE Operator_coefficients
 curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const double alpha,
-                       const std::function<bool(double)>& progress = {});
+                       const Progress_callback& progress = {});
 
 /// @}
 
@@ -47,15 +48,13 @@ curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const
 #include <CGAL/Monge_via_jet_fitting.h>
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
 
 namespace CGAL::Spectral_geometry {
 
 Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                                             const double alpha,
-                                             const std::function<bool(double)>& progress)
+                                             const double alpha, const Progress_callback& progress)
 {
   using Kernel = CGAL::Cartesian<double>;
   using Point = Kernel::Point_3;
@@ -74,7 +73,7 @@ Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eig
       weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>(); // the identity
   for(Eigen::Index v = 0; v < V.rows() && alpha > 0; ++v) {
     if(v % 1024 == 0)
-      internal::report_to(progress, double(v) / double(V.rows()));
+      internal::report_to({1, progress}, {Phase::curvature, double(v) / double(V.rows())});
     points.clear();
     for(const int w : rings.around(int(v), wanted, seen)) {
       const Eigen::Vector3d x = (V.row(w) - V.row(v)) / radius;

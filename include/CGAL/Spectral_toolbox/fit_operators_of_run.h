@@ -53,14 +53,19 @@ inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
   if(!pairs) {
     Eigenpairs_options solver = options.eigenpairs_options;
     solver.threads = (std::max)(solver.threads, options.threads);
-    solver.progress = [&](const double fraction) { return !progress || progress(fraction / 2); };
+    solver.cancel = fit.cancel;
+    solver.progress = [&](const Progress& p) {
+      return !progress || progress({Phase::operator_fit, p.fraction / 2});
+    };
     const Eigen::Index K = options.number_of_eigenvectors;
     pairs = std::make_shared<Eigenpairs>(
         eigenpairs(fine, (std::min)(K + K / 5, fine.L.rows()), solver));
   }
   fit.threads = (std::max)(fit.threads, options.threads);
   if(progress)
-    fit.progress = [&](const double fraction) { return progress((1 + fraction) / 2); };
+    fit.progress = [&](const Progress& p) {
+      return progress({Phase::operator_fit, (1 + p.fraction) / 2});
+    };
   return fit_operators(
       laplace_operator(output.V, output.T, {options.mass, result.coefficients, options.boundary}),
       result.restriction, fine, *pairs, fit);

@@ -18,7 +18,7 @@ namespace CGAL::Spectral_geometry {
 How `fit_operators()` chooses the entries of a coarse Laplacian and mass. All numbers are free of
 scale; the defaults are those that were measured.
 */
-struct Operator_fit_options
+struct Operator_fit_options : Run_control
 {
   /// Where the mass has entries.
   enum class Mass_pattern {
@@ -41,10 +41,10 @@ struct Operator_fit_options
   /// eta: weight of the whole residual beside the part of it that the functional map sees, the
   /// projection on the restricted eigenvectors. Less lowers \f$ \|C\|_L \f$, more keeps the modes
   /// beyond K; from 0.
-  double plain = 0.2;
+  double whole_residual = 0.2;
   /// tau: weight of the mean squared change of an entry, relative to the entry and a typical one.
   /// Positive: it alone decides on what the eigenvectors do not.
-  double tie = 0.05;
+  double regularization = 0.05;
   /// No weight of an edge falls below this part of its own, nor of a twentieth of the median one:
   /// what keeps each component together. In ]0, 1].
   double smallest_weight = 0.02;
@@ -56,12 +56,6 @@ struct Operator_fit_options
   double tolerance = 0.05;
   /// Ends after so many iterations, each of one factorisation and a few products; from 0.
   int maximum_iterations = 30;
-  /// Threads of the products, factorisations and solves, at least 1; the result does not depend on
-  /// it.
-  int threads = 1;
-  /// Called before each iteration with the fraction of `maximum_iterations` that is done; returns
-  /// false to cancel.
-  std::function<bool(double)> progress;
 
   /// For a mass of the blend \f$ \theta \f$ of `laplace_operator()`: on the edges, where it is
   /// lumped on the diagonal.
@@ -163,7 +157,7 @@ CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
 #include <CGAL/Spectral_toolbox/internal/fit_matrices.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
@@ -206,7 +200,8 @@ public:
     m_total = Vector::Zero(n);
     m_total.tail(n - nL) = (m_mass.vectors() * Vector::Ones(G.rows())).cwiseAbs2();
     find_components(own);
-    m_tie = (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.tie / G.rows());
+    m_regularization =
+        (m_start + m_typical).cwiseAbs2().cwiseInverse() * (options.regularization / G.rows());
     assemble_normal_matrix(G);
   }
 
@@ -222,7 +217,8 @@ public:
     double f = evaluate(m_lowest + s, g);
     Vector z = (0.1 * f / n) * s.cwiseInverse();
     while(!result.converged && result.iterations < m_options.maximum_iterations) {
-      report_to(m_options.progress, result.iterations / double(m_options.maximum_iterations));
+      report_to(m_options,
+                {Phase::operator_fit, result.iterations / double(m_options.maximum_iterations)});
       const Vector barrier = z.cwiseQuotient(s), target = (0.2 * s.dot(z) / n) * s.cwiseInverse();
       Vector dx, Qdx;
       const double newton = newton_step(target - g, barrier, dx, Qdx);
@@ -466,7 +462,7 @@ private:
         auto E = R.rows(q, first, rows);
         E = BG.rows(q, 0, rows).rowwise() * of_panel(m_lambda, q) - LG.rows(q, 0, rows);
         const Panel_numbers W = of_panel(m_weight, q);
-        const auto row_weight = m_options.plain / m_row_mass.segment(first, rows).array();
+        const auto row_weight = m_options.whole_residual / m_row_mass.segment(first, rows).array();
         if(affine)
           sum.f += ((E.square().rowwise() * W).rowwise().sum() * row_weight).sum();
         E = ((E.rowwise() * W).colwise() * row_weight).eval();
@@ -486,7 +482,7 @@ private:
     const Vector change = affine ? Vector(x - m_start) : x;
     if(affine)
       f += (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
-           penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_tie);
+           penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_regularization);
     const Panel_blocks of_L(-X * m_weight.asDiagonal()), of_B(-m_options.orthonormality * T);
     Vector by_L(L.nonZeros()), by_B(B.nonZeros());
     for_each_block([&](Index, Index first, Index rows, Tall_matrix& A, Tall_matrix&) {
@@ -513,7 +509,7 @@ private:
     g.resize(x.size());
     g.head(nL) = -m_stiffness.derivatives(by_L);
     g.tail(nB) = m_mass.derivatives(by_B);
-    g += penalty * m_total.cwiseProduct(spread(total)) + m_tie.cwiseProduct(change);
+    g += penalty * m_total.cwiseProduct(spread(total)) + m_regularization.cwiseProduct(change);
     return f;
   }
 
@@ -546,13 +542,14 @@ private:
   }
 
   // Conjugate gradients for (Q + barrier) dx = r, to a tenth in the norm of the preconditioner (eta
-  // + 1/10) H + tie + barrier + penalty; returns the square of that norm of r.
+  // + 1/10) H + regularization + barrier + penalty; returns the square of that norm of r.
   double newton_step(Vector r, const Vector& barrier, Vector& dx, Vector& Qdx)
   {
     Vector y(r.size()), q, p;
     if(m_steps > 5) { // products are cheaper than a factorisation
-      Sparse_matrix M = (m_options.plain + 0.1) * m_H;
-      M.diagonal() += m_tie + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
+      Sparse_matrix M = (m_options.whole_residual + 0.1) * m_H;
+      M.diagonal() +=
+          m_regularization + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
       if(m_cholesky)
         m_cholesky->factorise(M, m_options.threads);
       else
@@ -600,7 +597,7 @@ private:
   const Vector m_lambda;
   const double m_area;
   const Vector m_row_mass;
-  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_tie, m_share;
+  Vector m_weight, m_start, m_lowest, m_typical, m_total, m_regularization, m_share;
   std::vector<Index> m_component; // of each unknown
   Rank_one_terms m_stiffness, m_mass;
   Sparse_matrix m_H;
@@ -644,11 +641,13 @@ void check_operator_fit_options(const Operator_fit_options& o)
 {
   require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
           ".");
-  require(o.orthonormality >= 0. && o.plain >= 0. && std::isfinite(o.orthonormality + o.plain),
-          "operator fit: orthonormality and plain must be numbers from 0.");
+  require(o.orthonormality >= 0. && o.whole_residual >= 0. &&
+              std::isfinite(o.orthonormality + o.whole_residual),
+          "operator fit: orthonormality and whole_residual must be numbers from 0.");
   require(o.low_modes >= 0. && o.low_modes <= 20.,
           "operator fit: low_modes must be a number from 0 to 20.");
-  require(o.tie > 0. && std::isfinite(o.tie), "operator fit: tie must be a positive number.");
+  require(o.regularization > 0. && std::isfinite(o.regularization),
+          "operator fit: regularization must be a positive number.");
   require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. &&
               o.smallest_mass <= 1.,
           "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
@@ -719,7 +718,7 @@ Operator_fit_result fit_operators(const Laplace_operator& coarse,
   } catch(const internal::Not_positive_definite&) { // whose sentence is that of the eigensolvers
     throw std::runtime_error(
         "operator fit: the preconditioner could not be factorised; look for needle faces in the "
-        "coarse mesh, or raise Operator_fit_options::tie.");
+        "coarse mesh, or raise Operator_fit_options::regularization.");
   }
   result.op.theta =
       options.mass == Operator_fit_options::Mass_pattern::diagonal ? 0. : coarse.theta;

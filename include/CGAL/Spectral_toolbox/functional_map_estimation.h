@@ -109,13 +109,14 @@ on coarse meshes the rounding to vertices would be the largest error.
 @param X, Y source and target
 @param last number of modes to end with, at least k, at most what both shapes have
 @param step at least 1
-@param threads of the searches
+@param control of the searches
 @return \f$ C_{X,Y} \f$, `last` x `last`. It is that of a map of points, also when k is `last`
 already
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X,
                                                       const Spectral_shape& Y, Eigen::Index last,
-                                                      Eigen::Index step = 1, int threads = 1);
+                                                      Eigen::Index step = 1,
+                                                      const Run_control& control = {});
 
 /*!
 returns the scores \f$ K_Y B_Y \Pi K_X = \Psi e^{-t \Lambda_Y} C e^{-t \Lambda_X} \Phi^\top \f$ of
@@ -259,7 +260,7 @@ Eigen::MatrixXd nearest_orthogonal_map(const Eigen::MatrixXd& C)
 }
 
 Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X, const Spectral_shape& Y,
-                         Eigen::Index last, Eigen::Index step, int threads)
+                         Eigen::Index last, Eigen::Index step, const Run_control& control)
 {
   internal::check_modes(X, last, "source");
   internal::check_modes(Y, last, "target");
@@ -269,7 +270,7 @@ Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X, const Spect
   Eigen::Index k = (std::max)(C.rows(), C.cols());
   do {
     const Eigen::SparseMatrix<double> points =
-        target_to_source_points(C, X.pairs.vectors, X.T, Y.pairs.vectors, threads);
+        target_to_source_points(C, X.pairs.vectors, X.T, Y.pairs.vectors, control);
     k = (std::min)(k + step, last);
     C = functional_map(Y.pairs.vectors.leftCols(k), Y.op.B, points, X.pairs.vectors.leftCols(k));
   } while(k < last);

@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_TOOLBOX_VERTEX_MAPS_H
 #define CGAL_SPECTRAL_TOOLBOX_VERTEX_MAPS_H
 
-#include <CGAL/Spectral_geometry/internal/basics.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_toolbox/internal/separate_compilation.h>
 
 /*!
@@ -34,17 +34,15 @@ near to the next.
 
 @param points n x d, n and d positive, finite
 @param queries m x d, finite
-@param threads how many share the queries, at least 1; the result does not depend on it
-@param progress is called by each thread, at every query, with the fraction done; returns false to
-cancel
+@param control of the search; each thread reports, at every query
 @return m indices in [0, n)
 
 Throws `std::invalid_argument` for sizes that do not match, an empty set of points or a number that
 is not finite; `Cancelled` when the progress callback returned false.
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
-nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries, int threads = 1,
-             const std::function<bool(double)>& progress = {});
+nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries,
+             const Run_control& control = {});
 
 /*!
 returns the functional map \f$ C_{X,Y} = \Phi_Y^\top B_Y \Pi \Phi_X \f$ of a vertex map T from Y to
@@ -70,7 +68,7 @@ et al. 2012; with C of a vertex map this is the step of ZoomOut, Melzi et al. 20
 @param C k_Y x k_X
 @param source_vectors \f$ \Phi_X \f$, at least k_X columns, of which the first are used
 @param target_vectors \f$ \Phi_Y \f$, at least k_Y columns
-@param threads, progress of the search
+@param control of the search
 @return one vertex of X for each vertex of Y
 
 Throws `std::invalid_argument` if there are fewer eigenvectors than C needs, or a number that is not
@@ -78,8 +76,7 @@ finite.
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
 target_to_source_map(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
-                     const Eigen::MatrixXd& target_vectors, int threads = 1,
-                     const std::function<bool(double)>& progress = {});
+                     const Eigen::MatrixXd& target_vectors, const Run_control& control = {});
 
 /*!
 returns the map from the vertices of Y to *points* of X of a functional map \f$ C_{X,Y} \f$: for
@@ -90,14 +87,14 @@ of the nearest vertex.
 A vertex map between coarse meshes is off by half an edge; this one is as exact as the functional
 map, and between coarse meshes the maps made of it keep more modes.
 
-@param C, source_vectors, target_vectors, threads as for `target_to_source_map()`
+@param C, source_vectors, target_vectors, control as for `target_to_source_map()`
 @param source_T the triangles of X, m x 3
 @return n_Y x n_X, at most three nonzeros in each row, none negative, which sum to 1
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE Eigen::SparseMatrix<double>
 target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_vectors,
                         const Eigen::MatrixXi& source_T, const Eigen::MatrixXd& target_vectors,
-                        int threads = 1);
+                        const Run_control& control = {});
 
 /// @}
 
@@ -105,7 +102,6 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_toolbox/internal/Ball_tree.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
@@ -115,14 +111,13 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 namespace CGAL::Spectral_geometry {
 
 std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points,
-                                       const Eigen::MatrixXd& queries, int threads,
-                                       const std::function<bool(double)>& progress)
+                                       const Eigen::MatrixXd& queries, const Run_control& control)
 {
   internal::require(points.size() != 0,
                     "nearest rows: there is no point to search for, pass at least one.");
   internal::check_dimension("the number of columns of the queries", queries.cols(), points.cols());
-  internal::require(threads >= 1, "nearest rows: the number of threads is ", threads,
-                    ", pass at least 1.");
+  internal::require(control.threads >= 1, "nearest rows: the number of threads is ",
+                    control.threads, ", pass at least 1.");
   for(const Eigen::MatrixXd* matrix : {&points, &queries})
     for(Eigen::Index i = 0; i < matrix->rows(); ++i)
       internal::require(matrix->row(i).allFinite(), "nearest rows: row ", i, " of the ",
@@ -134,10 +129,10 @@ std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points,
   std::vector<Eigen::Index> result(static_cast<std::size_t>(queries.rows()));
   constexpr Eigen::Index share = 256;
   internal::for_each_task(
-      static_cast<int>((queries.rows() + share - 1) / share), threads, [&](const int k) {
+      static_cast<int>((queries.rows() + share - 1) / share), control.threads, [&](const int k) {
         std::size_t place = 0;
         for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i) {
-          internal::report_to(progress, double(i) / double(queries.rows()));
+          internal::report_to(control, {Phase::matching, double(i) / double(queries.rows())});
           result[i] = tree.nearest(query_columns.col(i), place);
         }
       });
@@ -169,25 +164,25 @@ Eigen::MatrixXd functional_map_of_vertex_map(const Eigen::MatrixXd& source_vecto
 
 std::vector<Eigen::Index> target_to_source_map(const Eigen::MatrixXd& C,
                                                const Eigen::MatrixXd& source_vectors,
-                                               const Eigen::MatrixXd& target_vectors, int threads,
-                                               const std::function<bool(double)>& progress)
+                                               const Eigen::MatrixXd& target_vectors,
+                                               const Run_control& control)
 {
   internal::require(source_vectors.cols() >= C.cols() && target_vectors.cols() >= C.rows(),
                     "vertex map: C is ", internal::size_name(C), ", but there are ",
                     target_vectors.cols(), " target and ", source_vectors.cols(),
                     " source eigenvectors, pass as many.");
   return nearest_rows(source_vectors.leftCols(C.cols()) * C.transpose(),
-                      target_vectors.leftCols(C.rows()), threads, progress);
+                      target_vectors.leftCols(C.rows()), control);
 }
 
 Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
                                                     const Eigen::MatrixXd& source_vectors,
                                                     const Eigen::MatrixXi& source_T,
                                                     const Eigen::MatrixXd& target_vectors,
-                                                    int threads)
+                                                    const Run_control& control)
 {
   const std::vector<Eigen::Index> nearest =
-      target_to_source_map(C, source_vectors, target_vectors, threads);
+      target_to_source_map(C, source_vectors, target_vectors, control);
   internal::check_triangles(source_T, source_vectors.rows());
   const Eigen::MatrixXd points = C * source_vectors.leftCols(C.cols()).transpose(),
                         queries = target_vectors.leftCols(C.rows()).transpose();
@@ -241,7 +236,7 @@ Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
       }
     }
   };
-  internal::for_each_task(queries.cols(), threads, look, 64);
+  internal::for_each_task(queries.cols(), control.threads, look, 64);
   std::vector<Eigen::Triplet<double>> entries;
   for(std::size_t y = 0; y < found.size(); ++y)
     for(int c = 0; c < 3; ++c)

@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/Quadric_collapses.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Spectral_basis.h>
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -178,7 +178,7 @@ struct Quadric_edge_collapse_result
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>
 Quadric_edge_collapse_result
 quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                      const std::function<bool(double)>& progress = {},
+                      const Spectral_geometry::Progress_callback& progress = {},
                       const NamedParameters& np = parameters::default_values())
 {
   static_assert(
@@ -190,8 +190,10 @@ quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("quadric_edge_collapse", number_of_vertices, n);
   const auto report = [&](const std::size_t left) {
+    const double fraction =
+        double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)));
     Spectral_geometry::internal::report_to(
-        progress, double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1))));
+        {1, progress}, {Spectral_geometry::Phase::pre_simplification, fraction, left});
   };
   Quadric_edge_collapse_result result;
   auto [log, slots] = internal::collapse_by_quadrics(mesh, number_of_vertices,

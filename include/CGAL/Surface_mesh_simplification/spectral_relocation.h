@@ -113,7 +113,10 @@ judging_eigenpairs(const State& state, const Spectral_options& options, const Ei
   auto solver = Spectral_geometry::Eigenpairs_options::with_tolerance(1e-3);
   solver.threads = relocation.threads;
   if(relocation.progress)
-    solver.progress = [&](double) { return relocation.progress(0.); };
+    solver.progress = [&](const Spectral_geometry::Progress&) {
+      return relocation.progress({Spectral_geometry::Phase::relocation, 0.});
+    };
+  solver.cancel = relocation.cancel;
   return std::make_shared<Spectral_geometry::Eigenpairs>(Spectral_geometry::eigenpairs(
       op, (std::min)({K, vertices, op.L.rows() - op.vanishing}), solver));
 }
@@ -291,9 +294,11 @@ spectral_relocation(TriangleMesh& mesh,
                     "spectral_relocation: the restriction that it takes anew is not binary; set "
                     "signals to carried.");
   Spectral_geometry::Relocation_options relocation = options;
+  if(relocation.cancel == nullptr)
+    relocation.cancel = state.options().cancel;
   if(!relocation.progress)
     relocation.progress = [&state](const double fraction) {
-      return state.report(Spectral_phase::relocation, fraction);
+      return state.report(Spectral_geometry::Phase::relocation, fraction);
     };
   std::vector<bool> fixed = state.fixed_vertices();
   internal::add_fixed_vertices(fixed, mesh, np);

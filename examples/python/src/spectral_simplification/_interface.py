@@ -458,7 +458,7 @@ def fit_operators(
     *,
     low_modes: float = 2.5,
     orthonormality: float = 0.01,
-    plain: float = 0.2,
+    whole_residual: float = 0.2,
     coefficients: numpy.ndarray | None = None,
     progress: Progress | None = None,
 ) -> Fitted_operators:
@@ -484,7 +484,7 @@ def fit_operators(
         e: mode k has the weight (lambda_k + 4 pi)^-e; more is for distances, less for C_L
     orthonormality : float
         weight of orthonormality; more lowers C_D and raises C_L
-    plain : float
+    whole_residual : float
         weight of the whole residual; more keeps the modes beyond k
     coefficients : array, optional
         (vc, 7), of the coarse mesh: coefficients of a Simplification; where eigenpairs have such

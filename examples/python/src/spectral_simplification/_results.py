@@ -792,8 +792,8 @@ class Simplification(Level):
     Attributes
     ----------
     collapses : structured array
-        One record for each collapse, in order: the vertices of the input removed and kept, alpha,
-        the weight of the removed one, and point, where the vertex was put. Vertices are counted
+        One record for each collapse, in order: the vertices of the input removed and kept, the
+        weight of the removed one, and point, where the vertex was put. Vertices are counted
         among `used`.
     eigenpairs : Eigenpairs or None
         Of the input, for simplify(..., eigenpairs=...) and evaluate(); None with signals or
@@ -897,7 +897,7 @@ class Simplification(Level):
             rings=None,
             low_modes=2.5,
             orthonormality=0.01,
-            plain=0.2,
+            whole_residual=0.2,
             coefficients=self.coefficients,
             progress=progress,
         )
@@ -1012,16 +1012,16 @@ class Simplification(Level):
     def _merge_restriction(self) -> scipy.sparse.csr_matrix:
         """P of the merges alone, rows in the order of this mesh."""
         n = len(self.used)
-        weight = numpy.ones(n)
+        entry = numpy.ones(n)
         log = self.collapses[::-1]
-        for removed, kept, alpha in zip(
-            log["removed"].tolist(), log["kept"].tolist(), log["alpha"].tolist()
+        for removed, kept, weight in zip(
+            log["removed"].tolist(), log["kept"].tolist(), log["weight"].tolist()
         ):
             # Before this merge both had what the kept one has afterwards, in their shares.
-            weight[removed] = weight[kept] * alpha
-            weight[kept] = weight[kept] * (1 - alpha)
+            entry[removed] = entry[kept] * weight
+            entry[kept] = entry[kept] * (1 - weight)
         rows = self.vertex_map[self.used]
-        P = scipy.sparse.csr_matrix((weight, (rows, self.used)), (len(self.V), len(self.fine_V)))
+        P = scipy.sparse.csr_matrix((entry, (rows, self.used)), (len(self.V), len(self.fine_V)))
         P.eliminate_zeros()
         return P
 

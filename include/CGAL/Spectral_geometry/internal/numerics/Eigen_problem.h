@@ -5,7 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_EIGEN_PROBLEM_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_EIGEN_PROBLEM_H
 
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
@@ -60,17 +60,15 @@ struct Not_converged : std::runtime_error
 class Eigen_problem
 {
 public:
-  explicit Eigen_problem(const Laplace_operator& op,
-                         const std::function<bool(double)>& progress = {})
-    : Eigen_problem(op, pencil_shift(op), progress)
+  explicit Eigen_problem(const Laplace_operator& op, const Run_control& control = {})
+    : Eigen_problem(op, pencil_shift(op), control)
   {}
 
   /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole,
   /// whose shift is `scale`.
-  Eigen_problem(const Laplace_operator& op, const double scale,
-                const std::function<bool(double)>& progress)
+  Eigen_problem(const Laplace_operator& op, const double scale, const Run_control& control)
     : m_op(op)
-    , m_progress(progress)
+    , m_control(control)
     , m_shift(pencil_shift(op))
     , m_scale(scale)
   {}
@@ -115,7 +113,7 @@ public:
   void report(double fraction) const
   {
     m_fraction = (std::min)(1., (std::max)(m_fraction, fraction));
-    report_to(m_progress, m_fraction);
+    report_to(m_control, {Phase::eigenpairs, m_fraction});
   }
 
   Eigen::VectorXd residuals(const Eigenpairs& pairs) const
@@ -167,7 +165,7 @@ public:
 
 private:
   const Laplace_operator& m_op;
-  std::function<bool(double)> m_progress;
+  Run_control m_control;
   double m_shift, m_scale;
   mutable double m_fraction = 0.;
 };

@@ -25,12 +25,13 @@ public:
     : m_problem(problem)
     , m_options(options)
     , m_part(problem.op(), problem.scale(),
-             [this](const double fraction) {
-               const double end = double((std::min)(m_found + size, m_pairs.size()));
-               m_problem.report((fraction * end + (1. - fraction) * double(m_found)) /
-                                double(m_pairs.size()));
-               return true;
-             })
+             {1,
+              [this](const double fraction) {
+                const double end = double((std::min)(m_found + size, m_pairs.size()));
+                m_problem.report((fraction * end + (1. - fraction) * double(m_found)) /
+                                 double(m_pairs.size()));
+                return true;
+              }})
     , m_lanczos(m_part, largest, options)
   {
     m_pairs.values.resize(K);

@@ -84,7 +84,7 @@ public:
   }
 
 private:
-  // Of the face that the closest point of w lies in.
+  // The corners of the face that the closest point of w lies in.
   Eigen::RowVector3i corners(const Eigen::Index w) const
   {
     return m_fine.T.row(m_answers[std::size_t(w)].face);
@@ -260,8 +260,8 @@ public:
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
-    if(tau > 0 && m_S.plain_part() > 0) {
-      m_S.set_mu(weight_of_plain_energy * m_S.smoothed_part() / m_S.plain_part());
+    if(tau > 0 && m_S.energy_part() > 0) {
+      m_S.set_mu(weight_of_energy * m_S.smoothed_part() / m_S.energy_part());
       m_scale = m_S.value(start);
     }
   }

@@ -27,7 +27,7 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
 {
   if(kept != m.kept) {
     CGAL_assertion(kept == m.removed);
-    m = {m.kept, m.removed, 1 - m.alpha};
+    m = {m.kept, m.removed, 1 - m.weight};
   }
   return m;
 }
@@ -97,14 +97,14 @@ public:
     m_points.reserve(number_of_merges);
   }
 
-  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - alpha) F_kept + alpha
+  /// `removed` goes into `kept`, which then lies at `point`: F_kept = (1 - weight) F_kept + weight
   /// F_removed. What `Merge_forest::merge()` throws.
-  void merge(const Index removed, const Index kept, const double alpha,
+  void merge(const Index removed, const Index kept, const double weight,
              const Eigen::Vector3d& point)
   {
     m_points.push_back(point); // first, so that both get it or none
     try {
-      m_forest.merge(removed, kept, alpha);
+      m_forest.merge(removed, kept, weight);
     } catch(...) {
       m_points.pop_back();
       throw;
@@ -125,7 +125,7 @@ public:
     reserve(m_points.size() + second.m_points.size());
     for(std::size_t i = 0; i < second.m_points.size(); ++i) {
       const Spectral_geometry::Merge_forest::Merge& m = second.m_forest.merges()[i];
-      merge(slots[m.removed], slots[m.kept], m.alpha, second.m_points[i]);
+      merge(slots[m.removed], slots[m.kept], m.weight, second.m_points[i]);
     }
   }
 

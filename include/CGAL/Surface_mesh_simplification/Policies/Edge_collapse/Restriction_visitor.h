@@ -58,7 +58,7 @@ public:
     if(!m_announced) // an edge without length, collapsed before the loop
       m_announced = {m_slots.slot(profile.v0()), m_slots.slot(profile.v1()), 0.5};
     const Merge m = merge_into(m_slots.slot(kept_vertex), *std::exchange(m_announced, {}));
-    m_log.merge(m.removed, m.kept, m.alpha,
+    m_log.merge(m.removed, m.kept, m.weight,
                 to_vector(get(profile.vertex_point_map(), kept_vertex)));
   }
 

@@ -8,8 +8,6 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 
-#include <atomic>
-
 namespace CGAL::Surface_mesh_simplification {
 
 /// \addtogroup PkgSpectralMeshSimplificationPolicies
@@ -54,32 +52,17 @@ struct Spectral_refusals
   std::size_t crossing = 0;
 };
 
-/// What a run is doing; see `Spectral_options::progress`.
-enum class Spectral_phase {
-  pre_simplification, ///< collapsing by quadrics, of `Spectral_edge_collapse_options::pre_simplify`
-                      ///< or `quadrics_above`
-  eigenpairs,         ///< solving for the basis
-  first_costs,        ///< evaluating every edge once
-  collapses,          ///< inside the collapse loop
-  relocation ///< moving the vertices that are left, see `Spectral_edge_collapse_options::relocate`
-};
-
-/// The argument of `Spectral_options::progress`.
-struct Spectral_progress
-{
-  Spectral_phase phase; ///< what is being done
-  /// of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may
-  /// come twice
-  double fraction;
-  std::size_t number_of_vertices; ///< of the mesh as it is now
-};
-
 /*!
  * The options of `Spectral_policies`, in the manner of the parameter structures of the other
  * policies; those of `spectral_edge_collapse()` are `Spectral_edge_collapse_options`. The defaults
  * are what was found best, see `best()`.
+ *
+ * Threads find eigenpairs, and relocate in `spectral_edge_collapse()`; the collapses run on one. To
+ * cancel throws `Spectral_geometry::Cancelled` before the mesh changes. Afterwards
+ * `spectral_edge_collapse()`, and `edge_collapse()` with `Spectral_stop_predicate`, stop between
+ * two collapses and return a valid mesh with the P of what was done.
  */
-struct Spectral_options
+struct Spectral_options : Spectral_geometry::Run_control
 {
   /// The defaults: averaged mass, free placement, shape term, no new self-intersections. Chosen by
   /// measurement, see the manual.
@@ -205,21 +188,6 @@ struct Spectral_options
   /// `preserve_border` (an edge from a kept inner vertex to a border vertex that is not kept stays)
   /// and with `Spectral_edge_collapse_options::pre_simplify`.
   std::vector<std::size_t> kept_vertices;
-
-  /// Number of threads that find eigenpairs, and that relocate in `spectral_edge_collapse()`; from
-  /// 1. The result does not depend on it. The collapses run on one.
-  int threads = 1;
-
-  /// Called now and then with the phase, how far it is, and the number of vertices now. Returning
-  /// `false` cancels: before the mesh changes `Spectral_geometry::Cancelled` is thrown; afterwards
-  /// `spectral_edge_collapse()` stops between two collapses and returns a valid mesh with the P of
-  /// what was done. The same holds for `edge_collapse()` with `Spectral_stop_predicate`.
-  std::function<bool(const Spectral_progress&)> progress;
-
-  /// A flag that cancels the run as the callback does; set it from another thread or a signal
-  /// handler. It is polled between collapses and before each report, and never written. Must
-  /// outlive the policies. Null: nobody cancels.
-  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// `Spectral_options::weights` for a target of N vertices. From 3 K vertices on all K eigenvectors
@@ -239,25 +207,6 @@ inline Eigen::VectorXd weights_for_target(const std::size_t number_of_vertices,
 }
 
 /// @}
-
-namespace internal {
-
-inline bool is_cancelled(const Spectral_options& options)
-{
-  return options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed);
-}
-
-/// Calls the progress callback, if any; `false` means that the user cancelled.
-inline bool report_progress(const Spectral_options& options, const Spectral_phase phase,
-                            const double fraction, const std::size_t number_of_vertices)
-{
-  return !is_cancelled(options) &&
-         (!options.progress ||
-          options.progress(Spectral_progress{phase, fraction, number_of_vertices})) &&
-         !is_cancelled(options); // the callback may have waited for somebody
-}
-
-} // namespace internal
 
 } // namespace CGAL::Surface_mesh_simplification
 

@@ -65,7 +65,7 @@ public:
     m_fraction = (std::max)(m_fraction, fraction());
     if(m_fraction >= m_next_report) {
       m_next_report = m_fraction + 0.01;
-      m_cancelled = !m_state->report(Spectral_phase::collapses, m_fraction);
+      m_cancelled = !m_state->report(Spectral_geometry::Phase::collapses, m_fraction);
     }
     m_cancelled = m_cancelled || m_state->is_cancelled();
     if(!m_cancelled && std::isfinite(m_bound))

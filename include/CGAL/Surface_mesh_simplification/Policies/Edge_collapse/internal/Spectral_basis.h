@@ -478,7 +478,8 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
   how.seed = options.seed;
   how.threads = options.threads;
   how.progress = [&options, &op](const double fraction) {
-    return report_progress(options, Spectral_phase::eigenpairs, fraction, std::size_t(op.L.rows()));
+    return Spectral_geometry::internal::goes_on(
+        options, {Spectral_geometry::Phase::eigenpairs, fraction, std::size_t(op.L.rows())});
   };
   const auto filtered = std::make_shared<Spectral_geometry::Filtered_signals>(
       Spectral_geometry::filtered_signals(op, options.number_of_eigenvectors, how));
@@ -514,11 +515,11 @@ Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T
       solver.threads =
           (std::max)(solver.threads, options.threads); // the result does not depend on it
       // A callback of the solver's own is asked as well.
-      solver.progress = [&options, &V](const double fraction) {
+      solver.progress = [&options, &V](const Spectral_geometry::Progress& p) {
         const auto& own = options.eigenpairs_options.progress;
-        return report_progress(options, Spectral_phase::eigenpairs, fraction,
-                               std::size_t(V.rows())) &&
-               (!own || own(fraction));
+        return Spectral_geometry::internal::goes_on(options, {Spectral_geometry::Phase::eigenpairs,
+                                                              p.fraction, std::size_t(V.rows())}) &&
+               (!own || own(p));
       };
       pairs = std::make_shared<Spectral_geometry::Eigenpairs>(
           Spectral_geometry::eigenpairs(op, options.number_of_eigenvectors, solver));

@@ -112,7 +112,7 @@ public:
     m_slots.set(slots);
     for(std::size_t i = 0; i < log.points().size(); ++i) {
       const Merge& m = log.forest().merges()[i];
-      m_core.follow(Slot(m.removed), Slot(m.kept), m.alpha, log.points()[i]);
+      m_core.follow(Slot(m.removed), Slot(m.kept), m.weight, log.points()[i]);
       merge_constraints(Slot(m.removed), Slot(m.kept));
     }
   }
@@ -135,7 +135,7 @@ public:
     m_answer = Answer();
     m_postponed = Postponed();
     m_seconds_first_costs = timer.time(); // so far
-    m_first_costs.reset();
+    m_first_costs = Real_timer(); // that of a run that an exception ended goes on
     m_first_costs.start();
     m_number_of_first_costs = 0;
     m_expected_first_costs = edges(mesh).size(); // num_edges() may count what has been removed
@@ -217,7 +217,7 @@ public:
     m_answer = Answer();
     m_postponed = Postponed();
     merge_constraints(Slot(m.removed), kept);
-    m_core.commit(Slot(m.removed), kept, m.alpha, to_vector(get(m_vpm, kept_vertex)),
+    m_core.commit(Slot(m.removed), kept, m.weight, to_vector(get(m_vpm, kept_vertex)),
                   ring_of(kept_vertex));
   }
 
@@ -418,12 +418,13 @@ public:
 
   /// @}
 
-  bool is_cancelled() const { return internal::is_cancelled(m_core.options()); }
+  bool is_cancelled() const { return Spectral_geometry::internal::is_cancelled(m_core.options()); }
 
   /// Calls the progress callback, if any; `false` means that the user cancelled.
-  bool report(const Spectral_phase phase, const double fraction) const
+  bool report(const Spectral_geometry::Phase phase, const double fraction) const
   {
-    return report_progress(m_core.options(), phase, fraction, number_of_vertices());
+    return Spectral_geometry::internal::goes_on(m_core.options(),
+                                                {phase, fraction, number_of_vertices()});
   }
 
 private:
@@ -489,7 +490,7 @@ private:
     const std::size_t between_reports =
         (std::min)(std::size_t(1024), m_expected_first_costs / 100 + 1);
     if(m_number_of_first_costs++ % between_reports == 0 &&
-       !report(Spectral_phase::first_costs,
+       !report(Spectral_geometry::Phase::first_costs,
                (std::min)(1., double(m_number_of_first_costs) / double(m_expected_first_costs))))
       throw Spectral_geometry::Cancelled();
   }

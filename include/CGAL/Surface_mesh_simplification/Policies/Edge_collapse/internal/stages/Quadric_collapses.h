@@ -468,13 +468,13 @@ private:
 
   void collapse(const int c, const int gone, const int kept, const Eigen::Vector3d& x)
   {
-    double alpha =
+    double weight =
         m_mesh.fixed[kept] ? 0. : projected_edge_weight(m_points[kept], m_points[gone], x);
     if(m_mesh.border_is_apart && is_border_vertex(kept) != is_border_vertex(gone))
-      alpha = is_border_vertex(kept) ? 0. : 1.;
+      weight = is_border_vertex(kept) ? 0. : 1.;
     if(m_mesh.binary)
-      alpha = alpha <= 0.5 ? 0. : 1.;
-    m_log.merge(gone, kept, alpha, x + m_origin);
+      weight = weight <= 0.5 ? 0. : 1.;
+    m_log.merge(gone, kept, weight, x + m_origin);
 
     std::vector<int>& ring = m_ring; // what is left of both
     ring.clear();

@@ -16,7 +16,7 @@
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/Cancelled.h>
+#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
 #include <CGAL/Named_function_parameters.h>
@@ -64,8 +64,8 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t 
 {
   const auto report = [&](const std::size_t left) {
     const double fraction = double(n - left) / double(n - target);
-    if(!report_progress(options, Spectral_phase::pre_simplification, fraction, left))
-      throw Spectral_geometry::Cancelled();
+    Spectral_geometry::internal::report_to(
+        options, {Spectral_geometry::Phase::pre_simplification, fraction, left});
   };
   return collapse_by_quadrics(mesh, target, kept,
                               options.preserve_border ||
@@ -165,7 +165,7 @@ private:
     }
   }
 
-  std::function<bool(double)> reporting(const Spectral_phase phase) const
+  Spectral_geometry::Progress_callback reporting(const Spectral_geometry::Phase phase) const
   {
     return [this, phase](const double fraction) {
       m_thrown_by_callback = true;
@@ -201,7 +201,7 @@ private:
                    Spectral_geometry::mass_name(m_options.mass),
                    " one it bends the shape to cancel the error of the elements."));
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.progress = reporting(Spectral_phase::relocation);
+    relocation.progress = reporting(Spectral_geometry::Phase::relocation);
     const auto points = m_state.vertex_point_map();
     std::vector<typename Policies::State::Point> before;
     for(const auto v : vertices(m_mesh))
