@@ -85,7 +85,7 @@ Eigen::MatrixXd tracked_signals(const SMS::internal::Spectral_basis& basis)
   SMS::internal::Spectral_fields fields;
   fields.signals = basis.signals;
   Eigen::MatrixXd F(basis.number_of_vertices, basis.signals.size());
-  for(Eigen::Index w = 0; w < F.rows(); ++w)
+  for(Eigen::Index w = 0; w < F.rows() && F.cols() > 0; ++w)
     F.row(w) = spectral_test::tracked_signals(fields, w);
   return F;
 }
