@@ -19,7 +19,7 @@ get_filename_component(consumer_compiler_name "${consumer_compiler}" NAME)
 set(consumer_options -DCMAKE_CXX_COMPILER=${consumer_compiler}
                      -DCGAL_DIR=${CGAL_DIR} -DEigen3_DIR=${Eigen3_DIR})
 if(SPECTRAL_SANITIZE) # the library that they link is sanitized
-  list(APPEND consumer_options -DCMAKE_CXX_FLAGS=-fsanitize=${spectral_sanitizers})
+  list(APPEND consumer_options "-DCMAKE_CXX_FLAGS=-fsanitize=${spectral_sanitizers} -fno-sanitize-recover=all")
 endif()
 
 # Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
@@ -31,7 +31,7 @@ function(spectral_add_consumer_test name source options program)
                    --build-generator ${CMAKE_GENERATOR} --build-noclean --build-target ${program}
                    --build-options ${consumer_options} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 ${options}
                    --test-command ${program} ${ARGN})
-  set_tests_properties("${name}" PROPERTIES LABELS consumer TIMEOUT 1200 COST 100) # the longest come first
+  set_tests_properties("${name}" PROPERTIES LABELS consumer TIMEOUT ${long_timeout} COST 100) # the longest come first
 endfunction()
 
 add_test(NAME "install" COMMAND ${CMAKE_COMMAND} --install "${PROJECT_BINARY_DIR}" --prefix "${prefix}")
@@ -60,5 +60,5 @@ if(CMAKE_NM AND NOT APPLE)
                    "${prefix}/${CMAKE_INSTALL_INCLUDEDIR}" "${CMAKE_CURRENT_SOURCE_DIR}/consumer"
                    "${CMAKE_CURRENT_BINARY_DIR}/include-folder" ${CGAL_INCLUDE_DIRS}
                    $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
-  set_tests_properties("consumer-include-folder" PROPERTIES LABELS consumer TIMEOUT 1200 COST 200 FIXTURES_REQUIRED installed)
+  set_tests_properties("consumer-include-folder" PROPERTIES LABELS consumer TIMEOUT ${long_timeout} COST 200 FIXTURES_REQUIRED installed)
 endif()

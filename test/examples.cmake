@@ -41,13 +41,13 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
   target_link_libraries(check_outputs PRIVATE spectral_examples_io nlohmann_json::nlohmann_json)
   add_test(NAME "cli" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/cli_test.sh" $<TARGET_FILE:spectral_simplify>
                               $<TARGET_FILE:check_outputs> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/cli")
-  set_tests_properties("cli" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("cli" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout})
 endif()
 
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "input" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/input_test.sh" $<TARGET_FILE:spectral_simplify> "${shape}"
                                 "${CMAKE_CURRENT_BINARY_DIR}/input")
-  set_tests_properties("input" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("input" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout})
 endif()
 
 # With the other programs where they are built.
@@ -55,14 +55,14 @@ if(TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "brought-files"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/brought_files_test.sh" $<TARGET_FILE_DIR:spectral_simplify> "${shape}"
                    "${CMAKE_CURRENT_BINARY_DIR}/brought")
-  set_tests_properties("brought-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 60)
+  set_tests_properties("brought-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout} COST 60)
 endif()
 
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "corrupted-files"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/corrupted_files.sh" $<TARGET_FILE:spectral_simplify> "${shape}"
                    "${CMAKE_CURRENT_BINARY_DIR}/corrupted")
-  set_tests_properties("corrupted-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("corrupted-files" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout})
 endif()
 
 find_program(SPECTRAL_BASH bash)
@@ -76,7 +76,7 @@ endif()
 if(TARGET spectral_compare AND TARGET spectral_simplify AND TARGET make_demo_shape)
   add_test(NAME "compare" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/compare_test.sh" $<TARGET_FILE:spectral_compare>
                                   $<TARGET_FILE:spectral_simplify> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/compare")
-  set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 140)
+  set_tests_properties("compare" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout} COST 140)
 endif()
 
 if(TARGET spectral_simplify AND TARGET make_demo_shape)
@@ -89,21 +89,21 @@ endif()
 if(TARGET shape_matching AND TARGET make_demo_shape)
   add_test(NAME "matching" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/matching_test.sh" $<TARGET_FILE:shape_matching>
                                    $<TARGET_FILE:make_demo_shape> "${shape}" "${CMAKE_CURRENT_BINARY_DIR}/matching")
-  set_tests_properties("matching" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600 COST 150)
+  set_tests_properties("matching" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout} COST 150)
 endif()
 
 if(TARGET spectral_distances_on_proxy AND TARGET make_demo_shape)
   add_test(NAME "distances" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/distances_test.sh"
                                     $<TARGET_FILE:spectral_distances_on_proxy> "${shape}"
                                     "${CMAKE_CURRENT_BINARY_DIR}/distances")
-  set_tests_properties("distances" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT 600)
+  set_tests_properties("distances" PROPERTIES LABELS examples FIXTURES_REQUIRED shape TIMEOUT ${timeout})
 endif()
 
 if(TARGET spectral_simplification AND TARGET spectral_simplify)
   function(spectral_add_python_test name)
     add_test(NAME "${name}" COMMAND ${CMAKE_COMMAND} -E env "PYTHONPATH=${PROJECT_BINARY_DIR}/examples/python"
                                     PYTHONDONTWRITEBYTECODE=1 "${SPECTRAL_PYTHON_EXECUTABLE}" ${ARGN})
-    set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT 600 COST 145) # long ones come first
+    set_tests_properties("${name}" PROPERTIES LABELS python TIMEOUT ${timeout} COST 145) # long ones come first
   endfunction()
   spectral_add_python_test("python" "${CMAKE_CURRENT_SOURCE_DIR}/python_test.py" $<TARGET_FILE:spectral_simplify>)
   spectral_add_python_test("python-package" "${CMAKE_CURRENT_SOURCE_DIR}/python_package_test.py" $<TARGET_FILE:spectral_simplify>)
@@ -111,7 +111,7 @@ if(TARGET spectral_simplification AND TARGET spectral_simplify)
   spectral_add_python_test("python-adapters" ${adapters_test} Adapters)
   add_test(NAME "python-wheel" COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/python_wheel_test.sh" "${SPECTRAL_PYTHON_EXECUTABLE}"
                                        $<TARGET_FILE:spectral_simplification> "${CMAKE_CURRENT_BINARY_DIR}/python-wheel")
-  set_tests_properties("python-wheel" PROPERTIES LABELS python SKIP_RETURN_CODE 77 TIMEOUT 600)
+  set_tests_properties("python-wheel" PROPERTIES LABELS python SKIP_RETURN_CODE 77 TIMEOUT ${timeout})
   execute_process(COMMAND "${SPECTRAL_PYTHON_EXECUTABLE}" -c "import matplotlib" RESULT_VARIABLE no_matplotlib
                   OUTPUT_QUIET ERROR_QUIET)
   if(no_matplotlib OR NOT TARGET spectral_examples_matching)

@@ -20,7 +20,7 @@ class Cancelled : public std::runtime_error
 {
 public:
   Cancelled()
-    : std::runtime_error("The computation was cancelled by the progress callback.")
+    : std::runtime_error("The computation was cancelled.")
   {}
 };
 
@@ -41,15 +41,16 @@ enum class Phase {
 struct Progress
 {
   Phase phase; ///< what is being done
-  /// of this phase, in [0,1]; never decreases within a phase, of which `pre_simplification` may
-  /// come twice
+  /// of this phase, in [0,1]; never decreases within a phase, but a run may enter a phase again
   double fraction;
-  std::size_t number_of_vertices = 0; ///< of the mesh that is simplified, as it is now
+  /// of the mesh that is simplified, as it is now; 0 where none is
+  std::size_t number_of_vertices = 0;
 
   operator double() const { return fraction; } ///< `fraction`
 };
 
-/// \brief is called now and then; returns `false` to cancel.
+/// \brief is called now and then; returns `false` to cancel. Searches of nearest rows call it from
+/// each of their threads, with the fraction that the thread has come to.
 using Progress_callback = std::function<bool(const Progress&)>;
 
 /// \brief how a computation runs. No result depends on it.

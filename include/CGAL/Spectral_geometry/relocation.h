@@ -260,6 +260,7 @@ private:
     Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
     options.verify = false;
     options.threads = m_options.threads;
+    options.cancel = m_options.cancel;
     const Eigenpairs pairs = eigenpairs(op, modes, options);
     const Eigen::MatrixXd BPhi = op.B * pairs.vectors;
     Eigen::MatrixXd C, D;
@@ -514,20 +515,25 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
                 const Relocation_options& options, const Relocation_limits& limits)
 {
   Relocation_result result;
-  Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
-  Eigen::MatrixXd moved = relocation.run(result);
+  Eigen::MatrixXd moved;
+  bool keeps_inner_products;
+  { // what a second relocation needs memory for
+    Relocation relocation(V, T, P, fine, F, Z, op, fixed, options, limits);
+    moved = relocation.run(result);
+    keeps_inner_products = relocation.keeps_inner_products();
+  }
   // Little gained: without inner products, and with the eigenvalues at less and less weight.
   const bool eigenvalues = options.eigenvalues.size() > 0 && limits.eigenvalue_error > 0;
   const Eigen::Index K = options.modes > 0 ? options.modes : F.cols();
   const bool gained = result.stop_reason != Relocation_result::Stop_reason::no_gain &&
                       (V.rows() < 4 * K || result.norm_after < limits.gain * result.norm_before);
-  if(!gained && result.norm_before > 0 && (relocation.keeps_inner_products() || eigenvalues)) {
+  if(!gained && result.norm_before > 0 && (keeps_inner_products || eigenvalues)) {
     Relocation_options without = options;
     Relocation_limits fewer = limits;
     fewer.keep_inner_products = false;
-    fewer.eigenvalue_error *= relocation.keeps_inner_products() ? std::sqrt(2.)
-                              : limits.eigenvalue_error < 0.1   ? 2.
-                                                                : 0.;
+    fewer.eigenvalue_error *= keeps_inner_products            ? std::sqrt(2.)
+                              : limits.eigenvalue_error < 0.1 ? 2.
+                                                              : 0.;
     without.maximum_seconds = (std::max)(0., options.maximum_seconds - result.seconds);
     if(options.progress) // a fraction never decreases
       without.progress = [&](const Progress&) { return options.progress({Phase::relocation, 1.}); };

@@ -45,9 +45,10 @@ inline double memory_of_eigenpairs(const double n, const double K,
  * pairs; 3.5 K where the mesh has more than four components, which is not looked at; 5.2 n^2
  * doubles where the solve is dense, see `Eigenpairs_method`), and the loop, which keeps the
  * eigenpairs (n K doubles) and 384 bytes a vertex for every 16 signals or mixtures that the metric
- * sees. Relocation keeps F and Z of these, twice; `fit_operators_of_run()` solves
- * once more beside them. Filtered noise takes a factor and the signals. The constants were measured
- * on closed meshes of 50,000 to 500,000 vertices; estimates are within about a quarter.
+ * sees. Relocation keeps F and Z of these, and the rows of them that it reads;
+ * `fit_operators_of_run()` solves once more beside them. Filtered noise takes a factor and the
+ * signals. The constants were measured on closed meshes of 50,000 to 500,000 vertices; estimates
+ * are within about a quarter.
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
  * first stage takes a number of bytes per vertex of the input that does not depend on K. What
@@ -85,8 +86,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
       1650 + sizeof(internal::Spectral_block) * std::ceil(seen / internal::spectral_width);
   if(options.shape > 0)
     loop += sizeof(internal::Spectral_quadric);
-  if(options.keep_free_of_self_intersections) // a leaf and a node above it, of which a power of 2
-                                              // is there
+  if(options.keep_free_of_self_intersections) // a leaf and a node above it
     loop += 1.5 * 2 * sizeof(Eigen::AlignedBox3d) + 8;
   const double solver = solves ? internal::memory_of_eigenpairs(n, K, options.eigenpairs_options)
                         : filtered ? n * (900 + 8 * 3 * noise)
@@ -94,8 +94,8 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   // Columns that stay: eigenvectors, those of the user, F and Z of filtered noise.
   const double given = filtered ? 2 * noise : options.signals.size() != 0 ? 3 * K : K;
   const double collapses = n * (8 * given + loop);
-  // F and Z twice: as they are, and by rows.
-  const double after = !options.relocate ? 0 : filtered ? 4 * noise : 4 * seen;
+  // F and Z, unless they are those of the collapses, and the rows that are read: half, say.
+  const double after = !options.relocate ? 0 : filtered ? noise : 3 * seen;
   // A fit solves for those of the whole input.
   const double fit =
       fits_operators && !options.eigenpairs

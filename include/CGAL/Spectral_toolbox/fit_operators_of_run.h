@@ -53,7 +53,8 @@ inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
   if(!pairs) {
     Eigenpairs_options solver = options.eigenpairs_options;
     solver.threads = (std::max)(solver.threads, options.threads);
-    solver.cancel = fit.cancel;
+    if(fit.cancel != nullptr)
+      solver.cancel = fit.cancel;
     solver.progress = [&](const Progress& p) {
       return !progress || progress({Phase::operator_fit, p.fraction / 2});
     };

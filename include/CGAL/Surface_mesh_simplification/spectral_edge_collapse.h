@@ -275,6 +275,8 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
   try {
     run_spectral_stage(mesh, target, options, policies_np, np, first, result);
   } catch(const Spectral_geometry::Cancelled&) {
+    if(first.log.number_of_vertices() == 0) // it has gone into the result
+      throw;
     result.output_vertices = result.pre_simplified_vertices = first.slots.size();
     result.collapses = result.input_vertices - result.output_vertices;
     set_cancelled(result, ", before the first spectral collapse");

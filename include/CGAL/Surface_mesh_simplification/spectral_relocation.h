@@ -249,7 +249,7 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
  *
  * @param mesh     that of the policies
  * @param policies after the collapses
- * @param options  as above; `modes` is replaced, and a `progress` that is empty by that of the
+ * @param options  as above; `modes` is replaced. An empty `progress` or `cancel` is that of the
  * policies
  * @param np an optional sequence of named parameters among those below, of `mesh` as it is
  *

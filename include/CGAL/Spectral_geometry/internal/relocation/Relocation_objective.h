@@ -14,8 +14,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// Signals of the fine mesh, read off at the closest points of the coarse vertices. Few of its rows
-/// are ever read: those are kept side by side.
+/// Signals of the fine mesh, read off at the closest points of the coarse vertices. The rows of F
+/// and Z that are read lie side by side in a copy: on a large mesh they are few.
 class Surface_signals : public Position_dependent_signals
 {
 public:
@@ -107,7 +107,9 @@ private:
     const Eigen::Index first = m_number_of_rows, K = m_F.cols();
     m_number_of_rows += Eigen::Index(added.size());
     if(m_number_of_rows > m_rows.rows())
-      m_rows.conservativeResize((std::max)(m_number_of_rows, 3 * m_rows.rows() / 2), 2 * K);
+      m_rows.conservativeResize((std::min)(Eigen::Index(m_place.size()),
+                                           (std::max)(m_number_of_rows, 3 * m_rows.rows() / 2)),
+                                2 * K);
     for(Eigen::Index k = 0; k < K; ++k)
       for(std::size_t i = 0; i < added.size(); ++i) {
         m_rows(first + Eigen::Index(i), k) = m_F(added[i], k);

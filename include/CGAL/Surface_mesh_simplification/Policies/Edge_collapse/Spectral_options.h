@@ -57,10 +57,11 @@ struct Spectral_refusals
  * policies; those of `spectral_edge_collapse()` are `Spectral_edge_collapse_options`. The defaults
  * are what was found best, see `best()`.
  *
- * Threads find eigenpairs, and relocate in `spectral_edge_collapse()`; the collapses run on one. To
- * cancel throws `Spectral_geometry::Cancelled` before the mesh changes. Afterwards
+ * Threads find eigenpairs, and relocate in `spectral_edge_collapse()`; the collapses run on one.
+ * Cancelling throws `Spectral_geometry::Cancelled` until the mesh changes. Later
  * `spectral_edge_collapse()`, and `edge_collapse()` with `Spectral_stop_predicate`, stop between
- * two collapses and return a valid mesh with the P of what was done.
+ * two collapses. The mesh is valid then, and P is that of what was done. Policies keep `progress`
+ * and `cancel`: what these refer to must outlive them.
  */
 struct Spectral_options : Spectral_geometry::Run_control
 {

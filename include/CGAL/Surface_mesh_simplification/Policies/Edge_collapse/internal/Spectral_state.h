@@ -107,7 +107,7 @@ public:
   {
     auto [points, rings] = read_geometry();
     m_core.set_input(std::move(points), std::move(rings));
-    m_core.release_rings(); // which take more memory than the quadrics
+    m_core.release_rings(); // rings take more memory than the quadrics
     const auto [log, slots] = collapse();
     m_slots.set(slots);
     for(std::size_t i = 0; i < log.points().size(); ++i) {
@@ -135,7 +135,7 @@ public:
     m_answer = Answer();
     m_postponed = Postponed();
     m_seconds_first_costs = timer.time(); // so far
-    m_first_costs = Real_timer(); // that of a run that an exception ended goes on
+    m_first_costs = Real_timer();         // a run that threw has left the old one running
     m_first_costs.start();
     m_number_of_first_costs = 0;
     m_expected_first_costs = edges(mesh).size(); // num_edges() may count what has been removed

@@ -46,7 +46,7 @@ public:
   /// border. set_geometry() does it in the first run, unless the mesh is another one then.
   void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
-  /// Gives their memory back until set_geometry() brings others.
+  /// Frees the rings until set_geometry() brings others.
   void release_rings() { m_fields.rings = {}; }
 
   /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The
