@@ -574,15 +574,29 @@ TEST_CASE("Operators are fitted to the mesh that a run leaves", "[fitted_operato
   CHECK(judged(fitted.op).errors.mean < 0.8 * judged(own).errors.mean);
 }
 
-TEST_CASE("The fit of a run reports its solve and itself, and is cancelled in both",
-          "[fitted_operators]")
+namespace {
+// A run of 20 eigenvectors from 480 vertices to 120.
+struct Small_run
 {
-  const shapes::Matrices input = wavy_grid_matrices(24, 20);
+  shapes::Matrices input = wavy_grid_matrices(24, 20);
   Spectral_edge_collapse_options options;
-  options.number_of_eigenvectors = 20;
-  Mesh mesh = make_mesh(input);
-  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
-  const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
+  Result result;
+  SG::Mesh_matrices coarse;
+
+  Small_run()
+  {
+    options.number_of_eigenvectors = 20;
+    Mesh mesh = make_mesh(input);
+    result = SMS::spectral_edge_collapse(mesh, 120, options);
+    coarse = SG::mesh_matrices(mesh);
+  }
+};
+} // namespace
+
+TEST_CASE_METHOD(Small_run,
+                 "The fit of a run reports its solve and itself, and is cancelled in both",
+                 "[fitted_operators]")
+{
   Operator_fit_options fit;
   std::vector<double> said;
   fit.progress = [&](const double fraction) {
@@ -599,15 +613,10 @@ TEST_CASE("The fit of a run reports its solve and itself, and is cancelled in bo
   CHECK_THROWS_AS(SMS::fit_operators_of_run(input, coarse, options, result, fit), SG::Cancelled);
 }
 
-TEST_CASE("A flag cancels whatever takes a second, and its progress tells the phase",
-          "[fitted_operators]")
+TEST_CASE_METHOD(Small_run,
+                 "A flag cancels whatever takes a second, and its progress tells the phase",
+                 "[fitted_operators]")
 {
-  const shapes::Matrices input = wavy_grid_matrices(24, 20);
-  Spectral_edge_collapse_options options;
-  options.number_of_eigenvectors = 20;
-  Mesh mesh = make_mesh(input);
-  const Result result = SMS::spectral_edge_collapse(mesh, 120, options);
-  const SG::Mesh_matrices coarse = SG::mesh_matrices(mesh);
   const SG::Laplace_operator op = SG::laplace_operator(input.V, input.T);
   const SG::Eigenpairs& pairs = *result.eigenpairs;
   const MatrixXd Z = pairs.vectors * pairs.values.asDiagonal();

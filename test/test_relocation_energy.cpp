@@ -263,7 +263,7 @@ TEST_CASE("the term of the spectrum compares with the start, also where it has t
     }
 }
 
-TEST_CASE("signals read off a surface have the slope of its triangles")
+TEST_CASE("signals read off a surface are those of its closest points, with the slope there")
 {
   const shapes::Matrices fine = wavy_grid_matrices(9, 9);
   const Eigen::MatrixXd F = rough_signals(fine, 4), Z = 2 * F;
@@ -281,6 +281,14 @@ TEST_CASE("signals read off a surface have the slope of its triangles")
                                               SG::closest_point_interpolation(V, fine));
   SG::internal::Followed_closest_points followed(closest, regions, std::size_t(V.rows()));
   SG::internal::Surface_signals signals(fine, followed, F, Z, GENERATE(1, 3));
+  for(const double step : {0., 0.06, 0.}) { // to other faces, and back to those that are known
+    const Positions W = V.rowwise() + Eigen::RowVector3d(step, step / 2, 0);
+    const Eigen::SparseMatrix<double> read = SG::closest_point_interpolation(W, fine);
+    Rows f, z;
+    signals.evaluate(W, f, z);
+    CHECK((Eigen::MatrixXd(f) - read * F).cwiseAbs().maxCoeff() < 1e-12);
+    CHECK((Eigen::MatrixXd(z) - read * Z).cwiseAbs().maxCoeff() < 1e-12);
+  }
   const auto value = [&](const Positions& at) {
     Rows f, z;
     signals.evaluate(at, f, z);

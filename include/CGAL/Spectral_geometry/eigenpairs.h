@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H
 #define CGAL_SPECTRAL_GEOMETRY_EIGENPAIRS_H
 
-#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/Eigenpairs_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
@@ -41,7 +40,7 @@ namespace CGAL::Spectral_geometry {
 ///
 /// \throws std::invalid_argument when K or an option is out of range or L, B differ in size;
 ///         std::runtime_error when the factorisation or the iteration fails;
-///         Cancelled when the progress callback returned false
+///         Cancelled when it is cancelled
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigenpairs eigenpairs(const Laplace_operator& op, Eigen::Index K,
                                                     const Eigenpairs_options& options = {});
 

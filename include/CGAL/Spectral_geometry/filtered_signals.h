@@ -77,7 +77,7 @@ struct Filtered_signals
 /// \throws std::invalid_argument when K or an option is out of range, or where a row of B is not
 ///         dominant, which is named;
 ///         std::runtime_error when the factorisation fails;
-///         Cancelled when the progress callback returned false
+///         Cancelled when it is cancelled
 CGAL_SPECTRAL_GEOMETRY_INLINE Filtered_signals filtered_signals(
     const Laplace_operator& op, Eigen::Index K, const Filtered_signals_options& options = {});
 

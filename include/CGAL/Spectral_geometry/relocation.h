@@ -52,7 +52,7 @@ the weight theta of the consistent mass
 @param options what to minimise, guards, when to stop
 
 Throws `std::invalid_argument` for matrices that do not belong together or options out of range,
-`Cancelled` when the progress callback returned false; V is then as it was.
+`Cancelled` when it is cancelled; V is then as it was.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
 relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T,

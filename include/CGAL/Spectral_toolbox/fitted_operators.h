@@ -132,7 +132,7 @@ judged the modes beyond, and \f$ \|C\|_D \f$, gain more
 
 Throws `std::invalid_argument` with one sentence that names the first offender for matrices that do
 not belong together, a number that is not finite, an option out of range; `std::runtime_error` when
-a preconditioner cannot be factorised; `Cancelled` when the progress callback returned false.
+a preconditioner cannot be factorised; `Cancelled` when it is cancelled.
 
 References: the operator-based view is that of H.-T. D. Liu, A. Jacobson, M. Ovsjanikov, *Spectral
 Coarsening of Geometric Operators*, 2019, and H. Chen et al., *Chordal Decomposition for Spectral
@@ -157,7 +157,6 @@ CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_
 #if !defined(CGAL_SPECTRAL_TOOLBOX_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_TOOLBOX)
 
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
-#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
 #include <CGAL/Spectral_toolbox/internal/fit_matrices.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>

@@ -38,7 +38,7 @@ near to the next.
 @return m indices in [0, n)
 
 Throws `std::invalid_argument` for sizes that do not match, an empty set of points or a number that
-is not finite; `Cancelled` when the progress callback returned false.
+is not finite; `Cancelled` when it is cancelled.
 */
 CGAL_SPECTRAL_TOOLBOX_INLINE std::vector<Eigen::Index>
 nearest_rows(const Eigen::MatrixXd& points, const Eigen::MatrixXd& queries,

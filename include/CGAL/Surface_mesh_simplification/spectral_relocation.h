@@ -211,7 +211,7 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
  * @return what was done, and the restriction to use from now on
  *
  * @throws std::invalid_argument for matrices that do not belong together, or options out of range
- * @throws Spectral_geometry::Cancelled when the progress callback returns false; the mesh is then
+ * @throws Spectral_geometry::Cancelled when it is cancelled; the mesh is then
  * as it was
  */
 template <class TriangleMesh, class NamedParameters = parameters::Default_named_parameters>

@@ -92,28 +92,28 @@ private:
 
   using Row = Eigen::Map<const Eigen::RowVectorXd>;
 
-  Row f(const int v) const { return {m_rows.row(m_place[std::size_t(v)]).data(), m_F.cols()}; }
+  Row f(const int v) const
+  {
+    return {m_rows.data() + m_place[std::size_t(v)] * 2 * m_F.cols(), m_F.cols()};
+  }
   Row z(const int v) const { return {f(v).data() + m_F.cols(), m_F.cols()}; }
 
   void read_new_rows()
   {
+    const Eigen::Index K = m_F.cols(), first = Eigen::Index(m_rows.size()) / (2 * K);
     std::vector<int> added;
     for(Eigen::Index w = 0; w < Eigen::Index(m_answers.size()); ++w)
       for(const int v : corners(w))
         if(Eigen::Index& place = m_place[std::size_t(v)]; place < 0) {
-          place = m_number_of_rows + Eigen::Index(added.size());
+          place = first + Eigen::Index(added.size());
           added.push_back(v);
         }
-    const Eigen::Index first = m_number_of_rows, K = m_F.cols();
-    m_number_of_rows += Eigen::Index(added.size());
-    if(m_number_of_rows > m_rows.rows())
-      m_rows.conservativeResize((std::min)(Eigen::Index(m_place.size()),
-                                           (std::max)(m_number_of_rows, 3 * m_rows.rows() / 2)),
-                                2 * K);
+    m_rows.resize(m_rows.size() + 2 * std::size_t(K) * added.size());
+    double* const rows = m_rows.data() + 2 * K * first;
     for(Eigen::Index k = 0; k < K; ++k)
       for(std::size_t i = 0; i < added.size(); ++i) {
-        m_rows(first + Eigen::Index(i), k) = m_F(added[i], k);
-        m_rows(first + Eigen::Index(i), K + k) = m_Z(added[i], k);
+        rows[2 * K * Eigen::Index(i) + k] = m_F(added[i], k);
+        rows[2 * K * Eigen::Index(i) + K + k] = m_Z(added[i], k);
       }
   }
 
@@ -123,8 +123,7 @@ private:
   int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;
   std::vector<Eigen::Index> m_place; // of a fine vertex in m_rows, or -1
-  Rows m_rows;                       // of F and of Z beside them
-  Eigen::Index m_number_of_rows = 0;
+  std::vector<double> m_rows;        // of F, of Z beside each
 };
 
 /// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a

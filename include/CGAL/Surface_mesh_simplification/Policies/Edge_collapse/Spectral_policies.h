@@ -120,7 +120,7 @@ public:
    * @throws std::invalid_argument when the mesh or an option cannot be used; one sentence names the
    * first offender
    * @throws std::runtime_error when the eigenpairs do not converge
-   * @throws Spectral_geometry::Cancelled when the progress callback returns false
+   * @throws Spectral_geometry::Cancelled when it is cancelled
    */
   template <class NamedParameters = parameters::Default_named_parameters>
   explicit Spectral_policies(Triangle_mesh& mesh,

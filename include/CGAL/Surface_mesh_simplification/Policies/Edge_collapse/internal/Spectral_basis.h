@@ -149,9 +149,9 @@ public:
   }
 
   /// Relocation sees as many mixtures as the collapses, but others. Filtered signals are not mixed.
-  /// Low eigenvectors weigh more, 1 / lambda: |C|_L is 0.98 times as large,
-  /// biharmonic distances are 0.94 times as far off. Twice as many mixtures take 1.2 times as long,
-  /// with |C|_L 0.98 times as large and errors of eigenvalues 1.03 times.
+  /// Low eigenvectors weigh more, 1 / lambda: |C|_L is 0.98 times as large, biharmonic distances
+  /// are 0.94 times as far off. Twice as many mixtures take 1.2 times as long, with |C|_L 0.98
+  /// times as large and errors of eigenvalues 1.03 times.
   Signals mixtures() const
   {
     Spectral_options options;
