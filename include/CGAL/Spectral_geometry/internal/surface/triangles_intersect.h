@@ -88,6 +88,8 @@ bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, c
 {
   std::vector<Corners> faces;
   std::vector<Box_tree::Box> boxes;
+  faces.reserve(std::size_t(T.rows()));
+  boxes.reserve(std::size_t(T.rows()));
   for(Eigen::Index f = 0; f < T.rows(); ++f) {
     faces.push_back(corners_of_face(V, T.row(f)));
     boxes.push_back(box_of(faces.back()));

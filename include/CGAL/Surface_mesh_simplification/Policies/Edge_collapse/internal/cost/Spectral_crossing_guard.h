@@ -30,10 +30,12 @@ public:
   template <class Fans>
   void set_geometry(const Points& points, const Fans& fans)
   {
-    std::vector<Box> boxes(points.size());
+    std::vector<Box> boxes;
+    for(const Eigen::Vector3d& p : points)
+      boxes.emplace_back(p);
+    m_tree.build(boxes); // by the points: what belongs to a slot may be nothing, for the time being
     for(std::size_t w = 0; w < points.size(); ++w)
-      boxes[w] = box_of_owned(points, fans, Spectral_slot(w));
-    m_tree.build(boxes);
+      m_tree.update(w, box_of_owned(points, fans, Spectral_slot(w)));
     m_refusals = points.size() / 20;
   }
 

@@ -41,12 +41,12 @@ struct Triangle_arrays
  * makes no needle (the height of a face below a thousandth of its longest side) where there was
  * none. Edges without length come first, those between vertices of many neighbours last.
  *
- * O(n log n), a few microseconds for each collapse, five times as many where faces would intersect;
+ * O(n log n), a few microseconds for each collapse, twice as many where faces would intersect;
  * deterministic.
  *
  * @param keep_free_of_self_intersections whether no collapse may put a face through another, see
  *        `Spectral_crossing_guard`: where faces intersect in the end, all is done once more with an
- *        eye on it
+ *        eye on the vertices of these faces
  * @param progress is called with the number of vertices left, each time a hundredth of the
  *        collapses is done and before refused edges are looked at again; what it throws comes
  *        through
@@ -178,12 +178,14 @@ private:
 class Quadric_collapser
 {
 public:
-  Quadric_collapser(Triangle_arrays mesh, const bool keep_free_of_self_intersections)
+  /// `watched`: a flag for each vertex around which no triangle may go through another.
+  Quadric_collapser(Triangle_arrays mesh, std::vector<char> watched)
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
     , m_mesh(std::move(mesh))
     , m_state(m_mesh.vertex.size(), none)
+    , m_watched(std::move(watched))
   {
     const std::size_t n = m_log.number_of_vertices();
     m_mesh.fixed.resize(n, false);
@@ -198,8 +200,8 @@ public:
     m_mark.assign(n, 0);
     for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
       add_corner(c);
-    if(keep_free_of_self_intersections)
-      m_crossing.set_geometry(m_points, *this);
+    if(std::count(m_watched.begin(), m_watched.end(), true) != 0)
+      m_crossing.set_geometry(m_points, Watched_fans{*this});
   }
 
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
@@ -238,8 +240,9 @@ public:
 
   Collapse_log take_log() { return std::move(m_log); }
 
-  /// Whether two faces of the mesh as it is intersect.
-  bool has_intersections() const
+  /// Flags the vertices of the input that have become those of faces that intersect, or neighbours
+  /// of these. Returns whether one that is now of such a face had no flag.
+  bool watch_intersections(std::vector<char>& watched) const
   {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
         m_points.front().data(), Eigen::Index(m_points.size()), 3);
@@ -249,8 +252,23 @@ public:
       if(m_mesh.vertex[c] != removed)
         T.row(faces++) << m_mesh.vertex[c], m_mesh.vertex[c + 1], m_mesh.vertex[c + 2];
     T.conservativeResize(faces, 3);
-    return Spectral_geometry::internal::any_self_intersecting_faces(
-        V, T, [](Eigen::Index, Eigen::Index) { return true; });
+    enum : char { apart, beside, of_face };
+    std::vector<char> place(watched.size(), apart);
+    for(const auto& [f, g] : Spectral_geometry::internal::self_intersecting_faces(V, T))
+      for(const Eigen::Index face : {f, g})
+        for(const int v : T.row(face)) {
+          place[v] = of_face;
+          for_neighbours(v, [&](const int w) { place[w] = (std::max)(place[w], char(beside)); });
+        }
+    const auto& merges = m_log.forest().merges();
+    for(auto m = merges.rbegin(); m != merges.rend(); ++m)
+      place[m->removed] = place[m->kept];
+    bool result = false;
+    for(std::size_t v = 0; v < watched.size(); ++v) {
+      result = result || (place[v] == of_face && !watched[v]);
+      watched[v] = watched[v] || place[v] != apart;
+    }
+    return result;
   }
 
   /// Calls visit(a, b) for each triangle (v, a, b), as `Spectral_crossing_guard` asks for.
@@ -277,6 +295,26 @@ private:
   static constexpr int none = -2, refused = -1;
 
   using Entry = Halfedge_queue::Entry;
+
+  // The triangles that have a watched vertex.
+  struct Watched_fans
+  {
+    const Quadric_collapser& run;
+
+    template <class Visit>
+    void for_triangles(const int v, const Visit& visit) const
+    {
+      run.for_triangles(v, [&](const int a, const int b) {
+        if(run.m_watched[v] || run.m_watched[a] || run.m_watched[b])
+          visit(a, b);
+      });
+    }
+    template <class Visit>
+    void for_neighbours(const int v, const Visit& visit) const
+    {
+      run.for_neighbours(v, visit);
+    }
+  };
 
   static constexpr int removed = -1; // vertex of the corners of a face that is gone
   static constexpr int unlimited = (std::numeric_limits<int>::max)() / 8;
@@ -367,7 +405,8 @@ private:
     }
     if(m_degree[u] + m_degree[v] > m_largest_degree || !keeps_manifold(c) ||
        !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
-       m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x)) {
+       ((m_watched[u] || m_watched[v]) &&
+        m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x))) {
       m_state[c] = refused;
       m_refused.push_back(c);
       return;
@@ -504,7 +543,11 @@ private:
       reconsider(h);
       reconsider(previous(h));
     }
-    m_crossing.commit(m_points, *this, Spectral_slot(gone), Spectral_slot(kept));
+    m_watched[kept] = m_watched[kept] || m_watched[gone];
+    bool near = m_watched[kept];
+    for_neighbours(kept, [&](const int w) { near = near || m_watched[w]; });
+    if(near)
+      m_crossing.commit(m_points, Watched_fans{*this}, Spectral_slot(gone), Spectral_slot(kept));
   }
 
   // Removes a face on the edge: its other two edges become one.
@@ -550,6 +593,7 @@ private:
   int m_marks = 0;
   std::vector<int> m_state; // of each halfedge
   std::vector<int> m_refused, m_ring;
+  std::vector<char> m_watched; // of each vertex
   // Hubs come last: to look at one takes as long as it has neighbours.
   int m_largest_degree = 200;
   Spectral_crossing_guard m_crossing;
@@ -561,17 +605,21 @@ Collapse_log quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_sel
                                const std::function<void(std::size_t)>& progress)
 {
   // To look for intersections at each collapse takes five times as long as the collapses: only
-  // where some are left in the end.
-  std::size_t least = std::size_t(mesh.V.rows());
+  // around those that are left in the end, until there are no others.
+  const std::size_t n = std::size_t(mesh.V.rows());
+  std::size_t least = n;
   const auto report = [&](const std::size_t left) {
     least = (std::min)(least, left);
     progress(least);
   };
-  for(bool guarded = false;; guarded = true) {
-    const bool last = guarded || !keep_free_of_self_intersections;
-    Quadric_collapser run(last ? std::move(mesh) : mesh, guarded);
+  std::vector<char> watched(n, false);
+  for(int round = 0;; ++round) {
+    if(round == 4)
+      watched.assign(n, true);
+    const bool last = round == 4 || !keep_free_of_self_intersections;
+    Quadric_collapser run(last ? std::move(mesh) : mesh, watched);
     run.run(target, report);
-    if(last || !run.has_intersections())
+    if(last || !run.watch_intersections(watched))
       return run.take_log();
   }
 }
