@@ -199,6 +199,23 @@ TEST_CASE("Progress towards a bound of the error never goes back and ends near 1
   CHECK(vertices < result.output_vertices + 60);
 }
 
+TEST_CASE("Fractions lie between 0 and 1, also where quadrics have nothing to collapse")
+{
+  const shapes::Matrices input = shapes::bumpy_icosphere_matrices(2);
+  const std::size_t n = std::size_t(input.V.rows()), target = GENERATE_COPY(n - 1, n - 2, n / 4);
+  Mesh mesh = make_mesh(input);
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 10;
+  options.quadrics_above = 1;
+  bool within = true;
+  options.progress = [&](const Progress& p) {
+    within = within && p.fraction >= 0 && p.fraction <= 1;
+    return true;
+  };
+  CHECK(SMS::spectral_edge_collapse(mesh, target, options).output_vertices == target);
+  CHECK(within);
+}
+
 TEST_CASE("Another thread can cancel, in every phase")
 {
   const shapes::Matrices input = shapes::bumpy_icosphere_matrices(3);

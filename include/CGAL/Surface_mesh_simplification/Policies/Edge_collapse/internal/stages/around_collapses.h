@@ -63,7 +63,7 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t 
                      const NamedParameters& np)
 {
   const auto report = [&](const std::size_t left) {
-    const double fraction = double(n - left) / double(n - target);
+    const double fraction = double(n - left) / double((std::max)(n - target, std::size_t(1)));
     Spectral_geometry::internal::report_to(
         options, {Spectral_geometry::Phase::pre_simplification, fraction, left});
   };
