@@ -265,6 +265,29 @@ TEST_CASE("Another thread can cancel, in every phase")
   }
 }
 
+TEST_CASE("The flag reaches the solves of a relocation that makes no steps")
+{
+  struct Cancelling : SMS::internal::Dummy_visitor
+  {
+    std::atomic<bool>& cancel;
+    explicit Cancelling(std::atomic<bool>& flag)
+      : cancel(flag)
+    {}
+    void OnFinished(Mesh&) const { cancel = true; }
+  };
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  std::atomic<bool> cancel{false};
+  Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 10;
+  options.cancel = &cancel;
+  options.relocation.maximum_steps = 0;
+  const Result result =
+      SMS::spectral_edge_collapse(mesh, 60, options, CGAL::parameters::visitor(Cancelling(cancel)));
+  CHECK(cancel);
+  CHECK(result.output_vertices == 60);
+  CHECK(result.stop_reason == Result::Stop_reason::cancelled);
+}
+
 TEST_CASE(
     "A run of two stages that is cancelled in the first leaves the mesh as it was, later what the "
     "first has made")

@@ -202,6 +202,8 @@ private:
                    " one it bends the shape to cancel the error of the elements."));
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
     relocation.progress = reporting(Spectral_geometry::Phase::relocation);
+    if(relocation.cancel == nullptr)
+      relocation.cancel = m_options.cancel;
     const auto points = m_state.vertex_point_map();
     std::vector<typename Policies::State::Point> before;
     for(const auto v : vertices(m_mesh))
