@@ -351,6 +351,26 @@ TEST_CASE("Relocation leaves no larger |C|_L than the collapses, also far below 
   CHECK(relocated > 20);
 }
 
+TEST_CASE(
+    "Filtered noise takes a number of eigenvectors that the mesh has, and says how many it saw")
+{
+  Mesh mesh = make_mesh(shapes::bumpy_icosphere_matrices(2));
+  Spectral_edge_collapse_options options = Spectral_edge_collapse_options::fast(40);
+  if(GENERATE(false, true))
+    options.source = SMS::Spectral_signal_source::eigenpairs;
+  for(const Eigen::Index K :
+      {Eigen::Index(-1), Eigen::Index(0), Eigen::Index(162), Eigen::Index(1) << 50}) {
+    options.number_of_eigenvectors = K;
+    CHECK_THROWS_WITH(SMS::spectral_edge_collapse(mesh, 40, options),
+                      ContainsSubstring("use a number from 1 to 161"));
+  }
+  options.number_of_eigenvectors = 30;
+  const Result result = SMS::spectral_edge_collapse(mesh, 40, options);
+  CHECK(result.signals == 11); // the constant one and 40 / 4
+  REQUIRE(result.warnings.size() == 1);
+  CHECK_THAT(result.warnings[0], ContainsSubstring("the first 11 eigenvectors"));
+}
+
 TEST_CASE("A target that leaves nothing of the shape is refused with the number to ask for")
 {
   // What is refused at N, and is not at the number that the sentence names.

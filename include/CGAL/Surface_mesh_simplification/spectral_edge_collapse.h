@@ -190,8 +190,8 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
   auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
-  result.signals =
-      std::size_t(options.weights.size() == 0 ? K : (options.weights.array() > 0).count());
+  result.signals = std::size_t(options.weights.size() == 0 ? number_of_signals(options)
+                                                           : (options.weights.array() > 0).count());
   warn_of_eigenpairs(result.warnings, policies.eigenpairs().get());
   if(!std::isfinite(options.maximum_error))
     warn_of_target(result.warnings, target, K, Eigen::Index(result.signals));
@@ -371,6 +371,7 @@ spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   result.input_vertices = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("spectral_edge_collapse", number_of_vertices, result.input_vertices);
   internal::check_edge_collapse_options(options);
+  internal::check_spectral_options(options, Eigen::Index(result.input_vertices));
   if(number_of_vertices < result.input_vertices && !std::isfinite(options.maximum_error))
     internal::check_useful_target(Spectral_geometry::mesh_matrices(mesh, np), number_of_vertices,
                                   internal::number_of_signals(options));
