@@ -328,6 +328,7 @@ TEST_CASE("span loss is what dense least squares leave of the fine eigenvectors,
             .span_loss));
     // Two functions are half lost where the span has one of them.
     CHECK(s.loss(s.fine_pairs.vectors.leftCols(2), MatrixXd::Ones(162, 1)) == Approx(0.5));
+    CHECK(s.loss(s.fine_pairs.vectors, MatrixXd(162, 0)) == 1);
     CHECK_THROWS_WITH(SG::span_loss(s.fine_pairs.vectors, s.fine_op.B, s.P, coarse),
                       ContainsSubstring("rows of Q"));
     CHECK_THROWS_WITH(SG::span_loss(s.fine_pairs.vectors, s.fine_op.B, s.Q, s.fine_pairs.vectors),

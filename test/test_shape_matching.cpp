@@ -356,6 +356,8 @@ TEST_CASE("Descriptors find a permutation, and ZoomOut all of its modes")
   const Eigen::MatrixXd C = SG::functional_map_of_descriptors(x, y, f, g, 12);
   CHECK((C - wanted.topLeftCorner(12, 12)).norm() < 1e-4);
   const Eigen::MatrixXd refined = SG::zoom_out(C, x, y, 40, 7);
+  CHECK(SG::zoom_out(C, x, y, 40, (std::numeric_limits<Eigen::Index>::max)()) ==
+        SG::zoom_out(C, x, y, 40, 40)); // at once
   CHECK((refined - wanted).norm() < 1e-3);
   CHECK(SG::target_to_source_map(refined, x.pairs.vectors, y.pairs.vectors) == p);
   CHECK_THROWS_AS(SG::zoom_out(C, x, y, 41), std::invalid_argument);

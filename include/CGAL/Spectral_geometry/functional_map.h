@@ -382,6 +382,8 @@ double span_loss(const Eigen::Ref<const Eigen::MatrixXd>& fine_vectors,
   internal::check_dimension("the size of the fine mass", fine_B.cols(), Q.rows());
   internal::check_dimension("the number of rows of the fine mass", fine_B.rows(), Q.rows());
   internal::require(fine_vectors.cols() != 0, "span loss: there is no fine vector, pass one.");
+  if(coarse_vectors.cols() == 0)
+    return 1;
   // Nothing here is fine x K: Q^T B has a few entries for each fine vertex.
   const Eigen::SparseMatrix<double> QtB = Eigen::SparseMatrix<double>(Q.transpose()) * fine_B,
                                     QtBQ = QtB * Q;

@@ -271,7 +271,7 @@ Eigen::MatrixXd zoom_out(Eigen::MatrixXd C, const Spectral_shape& X, const Spect
   do {
     const Eigen::SparseMatrix<double> points =
         target_to_source_points(C, X.pairs.vectors, X.T, Y.pairs.vectors, control);
-    k = (std::min)(k + step, last);
+    k += (std::min)(step, last - k);
     C = functional_map(Y.pairs.vectors.leftCols(k), Y.op.B, points, X.pairs.vectors.leftCols(k));
   } while(k < last);
   return C;
