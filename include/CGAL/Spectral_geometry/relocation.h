@@ -525,8 +525,9 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
   // Little gained: without inner products, and with the eigenvalues at less and less weight.
   const bool eigenvalues = options.eigenvalues.size() > 0 && limits.eigenvalue_error > 0;
   const Eigen::Index K = options.modes > 0 ? options.modes : F.cols();
-  const bool gained = result.stop_reason != Relocation_result::Stop_reason::no_gain &&
-                      (V.rows() < 4 * K || result.norm_after < limits.gain * result.norm_before);
+  const bool gained =
+      result.stop_reason != Relocation_result::Stop_reason::no_gain &&
+      result.norm_after < (V.rows() < 4 * K ? 1. : limits.gain) * result.norm_before;
   if(!gained && result.norm_before > 0 && (keeps_inner_products || eigenvalues)) {
     Relocation_options without = options;
     Relocation_limits fewer = limits;
