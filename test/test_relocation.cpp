@@ -554,6 +554,47 @@ TEST_CASE("relocation refuses what does not belong together")
   CHECK_THAT(refusal(V, s.P, {}), ContainsSubstring("vertex 5"));
 }
 
+TEST_CASE("relocation refuses indices, numbers and eigenpairs that cannot be used")
+{
+  const Simplified_mesh& s = closed_example();
+  const auto refused = [&](const std::string& sentence, const SG::Mesh_matrices& coarse,
+                           const SG::Mesh_matrices& fine, const Eigen::MatrixXd& F,
+                           const Eigen::SparseMatrix<double>& P,
+                           const SG::Eigenpairs* const pairs = nullptr) {
+    Eigen::MatrixXd V = coarse.V;
+    SG::Relocation_options options;
+    options.eigenpairs = pairs;
+    CHECK_THROWS_WITH(SG::relocate_positions(V, coarse.T, P, fine, F, s.Z(), 0.5, {}, options),
+                      ContainsSubstring(sentence));
+    CHECK(V == coarse.V);
+  };
+  for(const int vertex : {-1, 1 << 20}) {
+    SG::Mesh_matrices coarse = s.coarse, fine = s.fine;
+    coarse.T(3, 1) = fine.T(7, 2) = vertex;
+    refused("face 3 of the coarse mesh", coarse, s.fine, s.F(), s.P);
+    refused("face 7 of the fine mesh", s.coarse, fine, s.F(), s.P);
+  }
+  SG::Mesh_matrices coarse = s.coarse, fine = s.fine;
+  coarse.T.resize(0, 3);
+  refused("the coarse mesh has no face", coarse, s.fine, s.F(), s.P);
+  fine.V(5, 1) = std::nan("");
+  refused("vertex 5 of the fine mesh", s.coarse, fine, s.F(), s.P);
+  Eigen::MatrixXd F = s.F();
+  F(2, 1) = std::nan("");
+  refused("not a finite number", s.coarse, s.fine, F, s.P);
+  refused("not a finite number", s.coarse, s.fine, s.F(), std::nan("") * s.P);
+
+  Mesh mesh = make_mesh(s.coarse);
+  SG::Eigenpairs pairs = s.pairs;
+  pairs.values.conservativeResize(10);
+  refused("one vector for each value", s.coarse, s.fine, s.F(), s.P, &pairs);
+  CHECK_THROWS_WITH(SMS::spectral_relocation(mesh, s.P, s.fine, pairs),
+                    ContainsSubstring("10 eigenvalues for 30 eigenvectors"));
+  pairs.values.resize(0);
+  pairs.vectors.resize(s.fine.V.rows(), 0);
+  refused("or are none", s.coarse, s.fine, s.F(), s.P, &pairs);
+}
+
 TEST_CASE("a remeshed start: any mesh of the surface with its closest-point restriction")
 {
   const Simplified_mesh& made = closed_example();

@@ -51,8 +51,8 @@ the weight theta of the consistent mass
 @param fixed  for each coarse vertex whether it must stay; empty: none
 @param options what to minimise, guards, when to stop
 
-Throws `std::invalid_argument` for matrices that do not belong together or options out of range,
-`Cancelled` when it is cancelled; V is then as it was.
+Throws `std::invalid_argument` for matrices that do not belong together, an index, a number or an
+option out of range, `Cancelled` when it is cancelled; V is then as it was.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result
 relocate_positions(Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
@@ -78,6 +78,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
 
 #include <CGAL/Spectral_geometry/Run_control.h>
+#include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
@@ -569,9 +570,18 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
   for(Eigen::Index v = 0; v < V.rows(); ++v)
     require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
             " has a coordinate that is not a finite number; repair it.");
+  internal::check_surface({V, T}, "relocation: ", "coarse mesh");
+  internal::check_surface(fine, "relocation: ", "fine mesh");
+  require((P * Eigen::VectorXd::Ones(P.cols())).allFinite() && F.allFinite() && Z.allFinite(),
+          "relocation: P, F or Z has an entry that is not a finite number; correct it.");
   require(options.eigenpairs == nullptr || options.eigenpairs->vectors.rows() == P.cols(),
           "relocation: the eigenpairs are not of the fine mesh, which has ", P.cols(),
           " vertices.");
+  require(options.eigenpairs == nullptr ||
+              (options.eigenpairs->size() != 0 &&
+               options.eigenpairs->vectors.cols() == options.eigenpairs->size()),
+          "relocation: the eigenpairs do not have one vector for each value, or are none; pass "
+          "those of the fine mesh.");
   require(fixed.empty() || Eigen::Index(fixed.size()) == V.rows(),
           "relocation: the list of fixed vertices has ", fixed.size(), " entries for ", V.rows(),
           " vertices; pass one for each, or none.");

@@ -223,6 +223,9 @@ spectral_relocation(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
                     const Spectral_geometry::Relocation_options& options = {},
                     const NamedParameters& np = parameters::default_values())
 {
+  internal::require(pairs.vectors.cols() == pairs.size(), "spectral_relocation: there are ",
+                    pairs.size(), " eigenvalues for ", pairs.vectors.cols(),
+                    " eigenvectors; give one for each.");
   Spectral_geometry::Relocation_options with_goals = options;
   if(options.eigenpairs == nullptr)
     with_goals.eigenpairs = &pairs;
