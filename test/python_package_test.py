@@ -142,9 +142,20 @@ class Results_live(Case):
 
     def test_other_files_are_refused(self):
         np.savez(self.path("other.npz"), a=np.ones(3))
+        np.savez(self.path("list.npz"), spectral_simplification=np.array("[1, 2]"))
         with open(self.path("text.npz"), "w") as file:
             file.write("no archive")
-        for name in "other.npz", "text.npz":
+        RUN.save(self.path("run.npz"))
+        with open(self.path("run.npz"), "rb") as file:
+            whole = file.read()
+        for name, at in ("early.npz", 300), ("middle.npz", len(whole) // 2):
+            with open(self.path(name), "wb") as file:
+                file.write(whole[:at] + bytes(200) + whole[at + 200 :])
+        with np.load(self.path("run.npz")) as arrays:
+            parts = dict(arrays)
+        parts["r.P.indices"] = parts["r.P.indices"] + 10**6
+        np.savez(self.path("far.npz"), **parts)
+        for name in sorted(set(os.listdir(self.folder)) - {"run.npz"}):
             with self.assertRaisesRegex(ValueError, "holds no result of spectral_simplification"):
                 ss.load(self.path(name))
 
@@ -844,6 +855,53 @@ class Collections(Case):
             ss.simplify_collection(files, 160, out, k=40)
         with self.assertRaisesRegex(ValueError, r"'shapes/\*.off': pass a list of names"):
             ss.simplify_collection("shapes/*.off", 150)
+
+    def test_results_of_other_meshes_are_not_taken(self):
+        def call(meshes, **more):
+            return ss.simplify_collection(meshes, 150, out, k=40, progress=False, **more)
+
+        out, bent = self.path("out"), list(poses(4))
+        call([(V, F)])
+        rows = call([(bent[3], F), (bent[2], F)])
+        self.assertRegex(rows[0].error, "0000.npz is the result of another mesh: choose another")
+        self.assertIsNone(rows[1].error)
+        np.testing.assert_allclose(ss.load(self.path("out/0000.npz")).V, RUN.V, atol=1e-9)
+        with open(self.path("out/0000.npz"), "w") as file:
+            file.write("no archive")
+        self.assertRegex(call([(V, F)])[0].error, "0000.npz holds no result .* or remove it.$")
+        self.assertEqual(self.text("out/0000.npz"), "no archive")
+        # A file that is written again is another mesh, too.
+        out, name = self.path("files"), self.path("a.off")
+        for pose, said in (V, None), (V, None), (bent[3], "a.npz is the result of another mesh"):
+            ss.write_mesh(name, pose, F)
+            (row,) = call([name])
+            self.assertEqual(row.error and said in row.error, said and True)
+
+    def test_another_pose_needs_another_folder(self):
+        def call(poses):
+            meshes = [(pose, F) for pose in poses]
+            more = dict(shared_connectivity=True, k=20, progress=False)
+            return ss.simplify_collection(meshes, 150, self.path("out"), **more)
+
+        bent = list(poses(3))
+        first = call(bent[:2])
+        os.unlink(first[1].path)
+        again = call(bent[:2])
+        np.testing.assert_array_equal(again[0].result.F, again[1].result.F)
+        with self.assertRaisesRegex(ValueError, "has results of other meshes, such as 0000.npz"):
+            call(bent)
+
+    def test_settings_of_no_results(self):
+        out = self.path("out")
+        for preset in "bset", "best":
+            rows = ss.simplify_collection([(V, F)], 150, out, k=40, preset=preset, progress=False)
+            self.assertEqual(rows[0].error is None, preset == "best")
+        for text in '{"n": 6', '{"font": 12}':
+            with open(self.path("settings.json"), "w") as file:
+                file.write(text)
+            with self.assertRaisesRegex(ValueError, "settings.json was written by something else"):
+                ss.simplify_collection([(V, F)], 150, self.folder, progress=False)
+            self.assertEqual(self.text("settings.json"), text)
 
     def test_arrays_on_processes(self):
         meshes = ((p, F if i < 3 else F[:, :2]) for i, p in enumerate(poses(4)))

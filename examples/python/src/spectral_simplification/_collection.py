@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import concurrent.futures.process
+import hashlib
 import json
 import os
 import pathlib
@@ -22,7 +23,7 @@ import numpy
 from ._core import Wrong_type as _Wrong_type
 from ._interface import eigenpairs, simplify
 from ._meshes import _OWN, clean, read_mesh
-from ._results import Level, Simplification, _integer, _Result, load
+from ._results import Level, Simplification, _integer, _noted, _Result, _write_text, load
 
 _DIED = "the process that computed it died each time: it may need more memory."
 _ATTEMPTS = 3  # of a mesh whose process dies
@@ -256,9 +257,42 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (str, int, float, bool, type(None))):
         return value
     array = numpy.ascontiguousarray(value)
-    import hashlib
-
     return f"{array.dtype}{array.shape}{hashlib.sha256(array.tobytes()).hexdigest()}"
+
+
+def _source(mesh: Any) -> str:
+    """What tells a mesh from another: a hash of its file, or of V and F."""
+    if isinstance(mesh, (str, os.PathLike)):
+        try:
+            return hashlib.sha256(pathlib.Path(mesh).read_bytes()).hexdigest()
+        except OSError:  # workers of a cluster may see files that this process does not
+            return os.path.abspath(mesh)
+    try:
+        return " ".join(_plain(part) for part in mesh)
+    except (TypeError, ValueError):
+        return ""  # it is no mesh, and has no result
+
+
+def _check_settings(folder: pathlib.Path, settings: dict[str, Any]) -> None:
+    """Refuses a folder with results of other arguments; notes the arguments in a new one."""
+    kept = folder / "settings.json"
+    if kept.exists():
+        try:
+            said = json.loads(kept.read_text())
+        except ValueError:
+            said = None
+        if not isinstance(said, dict) or not {"n", "shared_connectivity"} <= set(said):
+            raise ValueError(
+                f"{kept} was written by something else: choose another folder, or remove it."
+            )
+        if said == settings:
+            return
+        if any(folder.glob("*.npz")):
+            raise ValueError(
+                f"{folder} has results of other arguments, {kept.name} says which: choose "
+                "another folder, or empty it."
+            )
+    _write_text(str(kept), json.dumps(settings))
 
 
 def simplify_collection(
@@ -285,8 +319,8 @@ def simplify_collection(
         Vertices of each result.
     output : folder, optional
         Where results are written as they come, NAME.npz each, which load() reads. A second call
-        with the same arguments goes on where the first one ended. None: the rows hold the
-        results.
+        with the same arguments goes on where the first one ended. A file of the same name but of
+        another mesh is not touched: the row has an error. None: the rows hold the results.
     workers : int, 'all', address or client
         1: this process; more, or 'all': processes of this machine; an address such as
         'tcp://host:8786', or a distributed.Client: a cluster of Dask, whose workers see the files
@@ -313,7 +347,8 @@ def simplify_collection(
     Raises
     ------
     ValueError
-        If output has results of other arguments, or an option cannot be meant.
+        If output has results of other arguments, or, with a shared connectivity, of other meshes;
+        or if an option cannot be meant.
     """
     n = _integer("n", n, 1)
     if not isinstance(meshes, Iterable):
@@ -367,15 +402,7 @@ def simplify_collection(
             **({"repair": True} if repair else {}),
             **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"},
         }
-        kept = folder / "settings.json"
-        if kept.exists():
-            if json.loads(kept.read_text()) != settings:
-                raise ValueError(
-                    f"{folder} has results of other arguments, {kept.name} says which: choose "
-                    "another folder, or empty it."
-                )
-        else:
-            kept.write_text(json.dumps(settings))
+        _check_settings(folder, settings)
     total = len(meshes) if hasattr(meshes, "__len__") else None
     if progress is None:
         progress = sys.stderr.isatty()
@@ -383,6 +410,7 @@ def simplify_collection(
 
     rows: dict[int, Collection_row] = {}
     names: dict[int, str] = {}
+    sources: dict[int, str] = {}
     known: set[str] = set()
 
     def named(i: int, mesh: Any) -> str:
@@ -395,13 +423,30 @@ def simplify_collection(
             name += "+"
         known.add(name)
         names[i] = name
+        if folder is not None:
+            sources[i] = _source(mesh)
         return name
 
+    def foreign(i: int) -> str | None:
+        """Why the file of this name is not the result of this mesh, if it is another."""
+        path = folder / (names[i] + ".npz")
+        try:
+            source = _noted(path, "_source")
+        except ValueError as error:
+            return f"{str(error).partition(': give')[0]}: choose another folder, or remove it."
+        if source in (None, sources[i]):
+            return None
+        return f"{path} is the result of another mesh: choose another folder, or remove it."
+
     def there(i: int) -> bool:
-        """Whether a former call has written this one."""
+        """Whether a former call has written this one, or something else is in its place."""
         path = folder / (names[i] + ".npz") if folder else None
         if path is None or not path.exists():
             return False
+        error = foreign(i)
+        if error is not None:
+            ended(i, None, error, 0.0)
+            return True
         rows[i] = Collection_row._from_state(
             dict(name=names[i], error=None, path=str(path), seconds=0.0, _result=None)
         )
@@ -418,6 +463,7 @@ def simplify_collection(
         path = None
         if error is None and folder is not None:
             path = str(folder / (names[i] + ".npz"))
+            result._source = sources[i]
             result.save(path)
             result = None
         rows[i] = Collection_row._from_state(
@@ -426,7 +472,19 @@ def simplify_collection(
         said(i)
 
     if shared_connectivity:
-        _shared(list(meshes), n, options, workers, named, there, ended)
+        meshes = list(meshes)
+        for i, mesh in enumerate(meshes):
+            named(i, mesh)
+        # All decide the connectivity: results of other poses have another one.
+        whole = hashlib.sha256(" ".join(sources.values()).encode()).hexdigest()
+        for i in sources:
+            sources[i] += " of " + whole
+            if (folder / (names[i] + ".npz")).exists() and foreign(i) is not None:
+                raise ValueError(
+                    f"{folder} has results of other meshes, such as {names[i]}.npz, and all decide "
+                    "the connectivity: choose another folder, or empty it."
+                )
+        _shared(meshes, n, options, workers, there, ended)
     else:
 
         def tasks():
@@ -447,7 +505,6 @@ def _shared(
     n: int,
     options: dict,
     workers: Any,
-    named: Callable,
     there: Callable,
     ended: Callable,
 ) -> None:
@@ -457,8 +514,6 @@ def _shared(
     for name in "signals", "keep", "coefficients", "fit_operators", "mask", "pre_simplify":
         if options.get(name) is not None:
             raise ValueError(f"{name} is not for meshes of one connectivity: leave it out.")
-    for i, mesh in enumerate(meshes):
-        named(i, mesh)
     first = None  # faces, and whose
     going: dict[int, Any] = {}
     for i, mesh in enumerate(meshes):

@@ -11,7 +11,6 @@ import contextlib
 import json
 import operator
 import os
-import zipfile
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
@@ -141,6 +140,13 @@ def _packed(value: Any, name: str, arrays: dict[str, numpy.ndarray]) -> Any:
     return value
 
 
+def _write_text(path: str, text: str) -> None:
+    """Writes a file, which is there wholly or not at all."""
+    with open(path + ".part", "w") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
 def _unpacked(value: Any, arrays: Any) -> Any:
     if not isinstance(value, dict):
         return value
@@ -149,7 +155,9 @@ def _unpacked(value: Any, arrays: Any) -> Any:
         data, indices, indptr = (
             arrays[f"{value['in']}.{part}"] for part in ("data", "indices", "indptr")
         )
-        return scipy.sparse.csr_matrix((data, indices, indptr), tuple(of))
+        matrix = scipy.sparse.csr_matrix((data, indices, indptr), tuple(of))
+        matrix.check_format()  # an index beyond its shape would end the process
+        return matrix
     if kind == "array":
         return arrays[value["in"]]
     if kind == "dict":
@@ -184,15 +192,28 @@ def load(path: Any) -> Any:
     FileNotFoundError
         If there is no such file.
     """
+    return _read(path, _unpacked)
+
+
+def _noted(path: Any, name: str) -> Any:
+    """What a result that was saved has by this name, without its arrays; None if nothing."""
+    return _read(path, lambda state, _: state["of"]["of"].get(name))
+
+
+def _read(path: Any, function: Callable[[Any, Any], Any]) -> Any:
+    """What a function makes of a file that save() has written."""
     path = _path(path)
     if not os.path.exists(path):
         raise FileNotFoundError(f"{path} does not exist.")
     try:
         with numpy.load(path, allow_pickle=False) as arrays:
-            if "spectral_simplification" not in arrays:
+            state = json.loads(str(arrays["spectral_simplification"]))
+            if not isinstance(state, dict) or state["is"] not in _KINDS:
                 raise ValueError
-            return _unpacked(json.loads(str(arrays["spectral_simplification"])), arrays)
-    except (ValueError, KeyError, zipfile.BadZipFile, EOFError, AttributeError, TypeError):
+            return function(state, arrays)
+    except (PermissionError, MemoryError):
+        raise
+    except Exception:  # a damaged archive raises what zipfile, zlib and NumPy raise
         raise ValueError(
             f"{path} holds no result of spectral_simplification: give a file that save() has "
             "written."
