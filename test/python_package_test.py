@@ -27,6 +27,7 @@ import unittest.mock
 import warnings
 
 import numpy as np
+import scipy.io
 import scipy.sparse
 import scipy.sparse.linalg
 
@@ -1022,17 +1023,39 @@ class Command_line(Case):
 
     def test_what_cannot_be_meant(self):
         ss.write_mesh(self.path("in.off"), V, F)
+        np.savetxt(self.path("halves"), [1.5, 2.5])
+        np.savetxt(self.path("empty"), [])
+        os.mkdir(self.path("folder.off"))
+        there = {"in.off", "halves", "empty", "folder.off"}
         for words, said in (
             (("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
             (("in.off", "out.off", "--vertices", "many"), "--vertices is many"),
             (("in.off", "out.off", "--vertices", "9999"), "n is 9999, it must be"),
-            (("in.off", "out.xyz", "--vertices", "150", "--map", "map.txt"), "ends in '.xyz'"),
+            (("in.off", "out.off", "--vertices", "inf%"), "--vertices is inf%, it must be"),
+            (("in.off", "out.xyz", "--vertices", "150", "--map", "map.txt"), "out.xyz ends in '.xyz'"),
+            (("in.off", "none/out.off", "--vertices", "150"), "none is no folder: make it"),
+            (("in.off", "out.off", "--vertices", "150", "--json", "none/a"), "none is no folder"),
+            (("in.off", "folder.off", "--vertices", "150", "--map", "m"), "folder.off is a folder"),
             (("in.off", "out.off", "--vertices", "150", "--preset", "worst"), "invalid choice"),
+            (("in.off", "out.off", "--vertices", "150", "--keep", "halves"), "halves cannot be read"),
+            (("in.off", "out.off", "--vertices", "150", "--mask", "empty"), "empty cannot be read"),
         ):
             done = self.command(*words, "--eigenvectors", "40", "--no-evaluation", "--quiet")
-            self.assertNotEqual(done.returncode, 0)
-            self.assertIn(said, done.stderr)
-            self.assertEqual(os.listdir(self.folder), ["in.off"])
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"(?m)^error: .*%s" % re.escape(said))
+            self.assertEqual(set(os.listdir(self.folder)), there)
+
+    def test_names_without_the_usual_ending(self):
+        ss.write_mesh(self.path("in.off"), V, F)
+        words = "in.off out.off --vertices 150 --eigenvectors 1 --quiet"
+        done = self.command(*words.split(), "--restriction", "P.txt", "--json", "figures")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(set(os.listdir(self.folder)), {"in.off", "out.off", "P.txt", "figures"})
+        with open(self.path("P.txt"), "rb") as file:
+            self.assertEqual(scipy.io.mmread(file).shape, (150, 642))
+        # JSON has no NaN: the error of no eigenvalue is null.
+        report = json.loads(self.text("figures"), parse_constant=self.fail)
+        self.assertIsNone(report["eigenvalue_error_mean"])
 
 
 class Package(Case):

@@ -9,20 +9,30 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import pathlib
 import sys
 import tempfile
 import warnings
+from typing import Any
 
 import numpy
 import scipy.io
 
 from . import __version__, clean, evaluate, read_mesh, simplify, write_mesh
+from ._meshes import _check_ending
+from ._results import _check_folder
+
+
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str):  # 1, as of every other error and of the program
+        self.print_usage(sys.stderr)
+        self.exit(1, f"error: {message}\n")
 
 
 def _arguments() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="python3 -m spectral_simplification",
         allow_abbrev=False,
         description="Simplifies a triangle mesh and keeps the eigenvalues and eigenvectors of "
@@ -107,7 +117,7 @@ def _arguments() -> argparse.ArgumentParser:
 def _number(word: str, n: int) -> int:
     try:
         return max(1, round(float(word[:-1]) * n / 100)) if word.endswith("%") else int(word)
-    except ValueError:
+    except (ValueError, OverflowError):
         raise ValueError(
             f"--vertices is {word}, it must be a number such as 600 or a percentage such as 3%."
         ) from None
@@ -138,16 +148,41 @@ def _kept(words: str | None) -> list | None:
 
 def _numbers(path: str, kind: type) -> numpy.ndarray:
     try:
-        return (
-            numpy.load(path, allow_pickle=False)
-            if path.endswith(".npy")
-            else numpy.loadtxt(path, kind, ndmin=1)
-        )
-    except ValueError as error:
-        raise ValueError(f"{path} cannot be read: {error}") from None
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # of no numbers, and of integers with a fraction
+            return (
+                numpy.load(path, allow_pickle=False)
+                if path.endswith(".npy")
+                else numpy.loadtxt(path, kind, ndmin=1)
+            )
+    except (ValueError, Warning) as error:
+        said = str(error).partition("\n")[0].rstrip(".")
+        raise ValueError(f"{path} cannot be read: {said}.") from None
+
+
+def _finite(value: Any) -> Any:
+    """For JSON, which has no NaN: null."""
+    if isinstance(value, dict):
+        return {key: _finite(part) for key, part in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _write_matrix(path: str, matrix: Any) -> None:
+    with open(path, "wb") as file:  # to the name of a file SciPy adds .mtx
+        scipy.io.mmwrite(file, matrix)
+
+
+def _check_places(paths: list[str | None]) -> None:
+    for path in paths:
+        if path is not None:
+            _check_folder(path)
+            if os.path.isdir(path):
+                raise ValueError(f"{path} is a folder: give the name of a file.")
 
 
 def _run(a: argparse.Namespace) -> None:
+    _check_ending(pathlib.Path(a.OUT))
+    _check_places([a.OUT, a.restriction, a.prolongation, a.map, a.json, a.save])
     own = a.IN.lower().endswith((".off", ".obj", ".ply", ".stl"))
     if a.repair and own and (a.restriction or a.prolongation or a.map):
         raise ValueError(
@@ -214,6 +249,7 @@ def _run(a: argparse.Namespace) -> None:
             report["mass"],
             boundary=a.boundary,
             intrinsic_delaunay=a.intrinsic_delaunay,
+            threads=a.threads,
         )
         report.update(
             norm_L=e.C_L,
@@ -234,10 +270,13 @@ def _run(a: argparse.Namespace) -> None:
     parts = []
     try:
         for path, write in (
-            (a.restriction, lambda f: scipy.io.mmwrite(f, run.P)),
-            (a.prolongation, lambda f: scipy.io.mmwrite(f, run.Q)),
+            (a.restriction, lambda f: _write_matrix(f, run.P)),
+            (a.prolongation, lambda f: _write_matrix(f, run.Q)),
             (a.map, lambda f: numpy.savetxt(f, run.vertex_map, "%d")),
-            (a.json, lambda f: pathlib.Path(f).write_text(json.dumps(report, indent=2) + "\n")),
+            (
+                a.json,
+                lambda f: pathlib.Path(f).write_text(json.dumps(_finite(report), indent=2) + "\n"),
+            ),
             (a.save, run.save),
             (a.OUT, lambda f: write_mesh(f, run.V, run.F)),
         ):

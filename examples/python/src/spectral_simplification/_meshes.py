@@ -337,6 +337,14 @@ def _unknown(path: pathlib.Path) -> str:
     )
 
 
+def _check_ending(path: pathlib.Path) -> str:
+    """The ending of a file that write_mesh() can write."""
+    ending = path.suffix.lower()
+    if ending not in _OWN + _FREESURFER + _MESHIO + (".gii", ".vtp"):
+        raise ValueError(_unknown(path))
+    return ending
+
+
 def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
     """Writes a mesh; the file is there wholly or not at all.
 
@@ -368,9 +376,7 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
     if not numpy.isfinite(V).all():
         vertex = int((~numpy.isfinite(V)).any(axis=1).argmax())
         raise ValueError(f"V[{vertex}] is not finite: correct the position.")
-    ending = path.suffix.lower()
-    if ending not in _OWN + _FREESURFER + _MESHIO + (".gii", ".vtp"):
-        raise ValueError(_unknown(path))
+    ending = _check_ending(path)
     if ending == ".gii" or ending in _FREESURFER:
         _needed("nibabel", path)
     elif ending in _MESHIO and ending != ".vtk":
