@@ -644,6 +644,35 @@ class Carried(Case):
             with self.assertRaisesRegex(ValueError, r"labels\[4\] is missing"):
                 RUN.transfer_labels(labels)
 
+    @unittest.skipUnless(HAVE["pandas"], "pandas is not installed")
+    def test_labels_that_are_missing_where_none_is_read(self):
+        import pandas
+
+        run = ss.simplify(V, F, 120, 30, mask=V[:, 0] < 0.8)
+        parcels = np.arange(len(V)) % 5
+        outside = np.setdiff1d(np.arange(len(V)), run.used)
+        for kind in "Int64", "boolean", "category", "string", "object", "masked":
+            whole = pandas.Series(parcels > 2 if kind == "boolean" else parcels)
+            if kind in ("string", "object"):
+                whole = whole.astype(str)
+            if kind == "masked":
+                given = np.ma.array(parcels, mask=np.isin(np.arange(len(V)), outside))
+            else:
+                given = whole.astype(kind)
+                given[outside] = None
+            for by in "restriction", "area":
+                carried = np.asarray(run.transfer_labels(given, by))
+                np.testing.assert_array_equal(carried, run.transfer_labels(whole.to_numpy(), by))
+            given[run.used[3]] = np.ma.masked if kind == "masked" else None
+            with self.assertRaisesRegex(ValueError, rf"labels\[{run.used[3]}\] is missing"):
+                run.transfer_labels(given)
+
+    def test_values_of_a_masked_array(self):
+        hidden = np.ma.array(V[:, 0], mask=V[:, 1] > 0)
+        holes = np.where(V[:, 1] > 0, np.nan, V[:, 0])
+        for nan in "propagate", "omit":
+            np.testing.assert_array_equal(RUN.average(hidden, nan=nan), RUN.average(holes, nan=nan))
+
     def test_eigenpairs_of_both(self):
         self.assertIs(RUN.fine_eigenpairs, RUN.eigenpairs)
         own = ss.simplify(V, F, 150, signals=V)
@@ -835,6 +864,11 @@ class Collections(Case):
         self.assertEqual([row.error for row in rows], [None, None])
         self.assertEqual([row.result.P.shape for row in rows], [(150, 642), (150, 645)])
         self.assertEqual(rows[1].result.report["output_vertices"], 150)
+        # A vertex without faces comes before what is left out by its number.
+        crumb = 0.01 * V + [5, 5, 5]
+        crumbs = np.vstack([[[9, 9, 9]], V, crumb]), np.vstack([F, F + len(V)]) + 1
+        (row,) = ss.simplify_collection([crumbs], 150, k=40, drop_debris=0.01, progress=False)
+        self.assertEqual(row.result.report["left_out"], [1 + len(V)])
         for more in dict(keep=[1]), dict(shared_connectivity=True):
             with self.assertRaisesRegex(ValueError, f"repair renumbers.*{[*more][0]}"):
                 ss.simplify_collection(meshes, 150, repair=True, progress=False, **more)

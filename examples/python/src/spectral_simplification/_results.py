@@ -40,12 +40,48 @@ def _array(name: str, value: Any, kinds: str = "fiu") -> numpy.ndarray:
     return array.astype(float) if "f" in kinds else array
 
 
+def _check_entries(name: str, matrix: Any) -> None:
+    """Refuses a sparse matrix that has other entries than finite real numbers."""
+    if matrix.dtype.kind not in "fiu":
+        raise _core.Wrong_type(
+            f"{name} has the dtype {matrix.dtype}, it must hold real numbers: pass float64."
+        )
+    entries = matrix.tocoo()
+    bad = ~numpy.isfinite(entries.data)
+    if bad.any():
+        i = int(bad.argmax())
+        raise ValueError(f"{name}[{entries.row[i]}, {entries.col[i]}] is not a finite number.")
+
+
+def _shown(value: Any) -> str:
+    """A value in a sentence of one line."""
+    text = repr(value)
+    is_short = len(text) <= 80 and "\n" not in text
+    return text if is_short else f"of the type {type(value).__name__}"
+
+
+def _word(name: str, value: Any, words: Sequence[str]) -> str:
+    """One of the words, or the sentence that says which they are."""
+    if isinstance(value, str) and value in words:
+        return value
+    kind = ValueError if isinstance(value, str) else _core.Wrong_type
+    listed = ", ".join(map(repr, words[:-1]))
+    raise kind(f"{name} is {_shown(value)}, it must be {listed} or {words[-1]!r}.")
+
+
+def _flag(name: str, value: Any) -> bool:
+    """True or False, of Python or of NumPy."""
+    if not isinstance(value, (bool, numpy.bool_)):
+        raise _core.Wrong_type(f"{name} is {_shown(value)}, it must be True or False.")
+    return bool(value)
+
+
 def _integer(name: str, value: Any, least: int, most: int | None = None, why: str = "") -> int:
     """An integer in the range, or the sentence that says why it is none."""
     try:
-        number = operator.index(value)
+        number = operator.index(None if isinstance(value, bool) else value)
     except TypeError:
-        raise _core.Wrong_type(f"{name} is {value!r}, it must be an integer.") from None
+        raise _core.Wrong_type(f"{name} is {_shown(value)}, it must be an integer.") from None
     if number < least or most is not None and number > most:
         to = "" if most is None else f" to {most}"
         raise ValueError(f"{name} is {number}, it must be from {least}{to}{why}.")
@@ -582,6 +618,9 @@ class Level(_Result):
             _used=origin[self.used],
             _Q=None,
         )
+        if "report" in state:
+            left_out = origin[numpy.asarray(state["report"]["left_out"], numpy.int64)]
+            state["report"] = {**state["report"], "left_out": left_out.tolist()}
         return self._from_state(state)
 
     def part(self) -> tuple[numpy.ndarray, numpy.ndarray]:
@@ -642,7 +681,12 @@ class Level(_Result):
     def _carried(
         self, W: scipy.sparse.csr_matrix, values: numpy.ndarray, unit: bool, nan: str
     ) -> numpy.ndarray:
-        values = numpy.asarray(values)
+        if numpy.ma.isMaskedArray(values) and values.dtype.kind in "fiu":
+            values = values.astype(float).filled(numpy.nan)
+        try:
+            values = numpy.asarray(values)
+        except ValueError:  # rows of different lengths
+            values = _array("values", values)
         v = W.shape[1]
         if values.ndim == 0 or len(values) != v:
             raise ValueError(
@@ -654,8 +698,7 @@ class Level(_Result):
                 f"values has the dtype {values.dtype}, it must hold real numbers; "
                 "transfer_labels() carries others."
             )
-        if nan not in ("propagate", "omit"):
-            raise ValueError(f"nan is {nan!r}, it must be 'propagate' or 'omit'.")
+        nan, unit = _word("nan", nan, ("propagate", "omit")), _flag("unit", unit)
         if unit and values.ndim != 2:
             raise ValueError(
                 f"values has the shape {values.shape}, for unit=True it must be ({v}, c)."
@@ -694,7 +737,8 @@ class Level(_Result):
         Parameters
         ----------
         values : (v, ...) array
-            Real numbers. Integers, as those of colours, are rounded and keep their dtype.
+            Real numbers; NaN where a masked array has none. Integers, as those of colours, are
+            rounded and keep their dtype.
         unit : bool
             Gives rows, of normals for instance, the length 1.
         nan : str
@@ -743,6 +787,7 @@ class Level(_Result):
         ----------
         labels : (v,) array
             Integers, booleans or strings, of NumPy or pandas; a pandas categorical gives one.
+            Those of vertices that were left out are not read, and may be missing.
         by : str
             'restriction': of those in a row of P the one of most weight, the smallest of several;
             'area': the one with most area around the vertex, as average() weights it.
@@ -755,10 +800,10 @@ class Level(_Result):
         Raises
         ------
         ValueError, TypeError
-            In one sentence that names the first thing that is wrong, a label that is missing too.
+            In one sentence that names the first thing that is wrong, a label that is missing too,
+            of a vertex that was used.
         """
-        if by not in ("restriction", "area"):
-            raise ValueError(f"by is {by!r}, it must be 'restriction' or 'area'.")
+        by = _word("by", by, ("restriction", "area"))
         v = self.P.shape[1]
         kind = getattr(labels, "dtype", None)
         if hasattr(kind, "categories"):  # pandas
@@ -768,15 +813,20 @@ class Level(_Result):
             import pandas
 
             return pandas.Categorical.from_codes(carried, dtype=kind)
+        missing = numpy.zeros(numpy.size(labels), bool)
+        if numpy.ma.isMaskedArray(labels):
+            missing = numpy.ma.getmaskarray(labels).ravel()
+        if hasattr(kind, "numpy_dtype"):  # integers and booleans of pandas that may be missing
+            missing = numpy.asarray(labels.isna())
+            labels = labels.to_numpy(kind.numpy_dtype, na_value=0)
         labels = numpy.asarray(labels)
-        missing = numpy.zeros(labels.size, bool)
         # None, NaN and pandas' NA are not equal to themselves, or not strings
         if labels.dtype.kind == "O":
             missing = numpy.array(
                 [x is None or type(x).__name__ in ("NAType", "float") for x in labels.ravel()], bool
             )
         self._check_labels(labels, v, missing)
-        if labels.dtype.kind == "O" and not all(isinstance(x, str) for x in labels):
+        if labels.dtype.kind == "O" and not all(isinstance(x, str) for x in labels[self.used]):
             raise _core.Wrong_type(
                 "labels holds objects that are not strings: pass integers, strings or categories."
             )
@@ -788,18 +838,18 @@ class Level(_Result):
             )
         return self._voted(labels, by)
 
-    @staticmethod
-    def _check_labels(labels: numpy.ndarray, v: int, missing: numpy.ndarray) -> None:
+    def _check_labels(self, labels: numpy.ndarray, v: int, missing: numpy.ndarray) -> None:
         if labels.shape != (v,):
             raise ValueError(
                 f"labels has the shape {labels.shape}, it must be ({v},), one for each vertex of V."
             )
-        if missing.any():
-            raise ValueError(f"labels[{int(missing.argmax())}] is missing: give each vertex one.")
+        bad = self.used[missing[self.used]]  # no label of the others is read
+        if bad.size:
+            raise ValueError(f"labels[{bad[0]}] is missing: give each vertex one.")
 
     def _voted(self, labels: numpy.ndarray, by: str) -> numpy.ndarray:
-        names, of = numpy.unique(labels, return_inverse=True)
-        W = self.P if by == "restriction" else self.A
+        names, of = numpy.unique(labels[self.used], return_inverse=True)
+        W = (self.P if by == "restriction" else self.A)[:, self.used]
         weights = W @ scipy.sparse.csr_matrix((numpy.ones(len(of)), (numpy.arange(len(of)), of)))
         return names[numpy.asarray(weights.argmax(axis=1)).ravel()]
 
