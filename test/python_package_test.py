@@ -173,6 +173,8 @@ class Results_live(Case):
         for mass in "lumped", "consistent":
             p = ss.eigenpairs(V, F, 5, mass)
             self.assertEqual(ss.Eigenpairs.from_arrays(p.values, p.vectors, p.L, p.M).mass, mass)
+        hole = np.zeros(U.shape)
+        hole[7, 2] = np.inf
         for words, arguments in (
             ("are not orthonormal in M", (w, 2 * U, own.L, own.M)),
             ("are no eigenpair", (w + 5, U, own.L, own.M)),
@@ -180,6 +182,12 @@ class Results_live(Case):
             ("values are not ascending", (w[::-1], U[:, ::-1], own.L, own.M)),
             ("it must be a sparse matrix", (w, U, own.L.toarray(), own.M)),
             ("mass is 'lumped', but M is another one", (w, U, own.L, own.M, "lumped")),
+            ("mass is 'cotan', it must be", (w, U, own.L, own.M, "cotan")),
+            ("L has the eigenvalue zero 1 times: give", (w[1:], U[:, 1:], own.L, own.M)),
+            (r"values\[3\] is not a finite", (np.where(w == w[3], np.nan, w), U, own.L, own.M)),
+            (r"vectors\[7, 2\] is not a finite", (w, U + hole, own.L, own.M)),
+            (r"M\[0, 0\] is not a finite", (w, U, own.L, own.M * np.nan)),
+            ("L has the dtype complex128", (w, U, own.L * 1j, own.M)),
         ):
             with self.assertRaisesRegex(ValueError, words):
                 ss.Eigenpairs.from_arrays(*arguments)
@@ -805,11 +813,29 @@ class Poses(Case):
         self.assertLess(abs(paper._merge_restriction() - paper.P).max(), 1e-12)
         np.testing.assert_allclose(paper.apply(V, "merges").V, paper.V, atol=1e-12)
 
+    def test_a_pose_is_solved_as_a_run_is(self):
+        # At 1e-10 poses of TOSCA warned of a tolerance that nobody can pass to apply().
+        core = importlib.import_module("spectral_simplification._core")
+        with unittest.mock.patch.object(core, "eigenpairs", wraps=core.eigenpairs) as solver:
+            RUN.apply(V, relocate=True)
+            ss.simplify(V, F, 150, signals=V).fine_eigenpairs
+        self.assertEqual([call[0][0]["tolerance"] for call in solver.call_args_list], [1e-8, 1e-8])
+
+    def relocated(self, V_other, count, mass="averaged", k=None):
+        pairs = ss.eigenpairs(V, F, count, mass)
+        return RUN.apply(V_other, relocate=True, k=k, eigenpairs=pairs)
+
     def test_refusals(self):
+        coarse = RUN.coarse_eigenpairs(40)
         for words, call in (
             (r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
             ("by is 'magic'", lambda: RUN.apply(V, "magic")),
             ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
+            ("are both given: leave out k", lambda: self.relocated(V, 40, k=40)),
+            ("are of a mesh with the area .* those of this pose", lambda: self.relocated(2 * V, 40)),
+            ("of the consistent mass, but the run", lambda: self.relocated(V, 40, "consistent")),
+            ("eigenpairs are of 150 vertices", lambda: RUN.apply(V, eigenpairs=coarse, relocate=True)),
+            ("eigenpairs is of the type ndarray", lambda: RUN.apply(V, eigenpairs=V, relocate=True)),
             (
                 r"V_other\[2\] is not finite",
                 lambda: RUN.apply(np.where(np.arange(642)[:, None] == 2, np.nan, V)),

@@ -481,8 +481,8 @@ def simplify_collection(
             sources[i] += " of " + whole
             if (folder / (names[i] + ".npz")).exists() and foreign(i) is not None:
                 raise ValueError(
-                    f"{folder} has results of other meshes, such as {names[i]}.npz, and all decide "
-                    "the connectivity: choose another folder, or empty it."
+                    f"{folder} has results of other meshes, such as {names[i]}.npz, and all "
+                    "decide the connectivity: choose another folder, or empty it."
                 )
         _shared(meshes, n, options, workers, there, ended)
     else:

@@ -360,12 +360,14 @@ class Eigenpairs(_Result):
         ValueError
             If these are not the first eigenpairs of L and M, as far as that can be seen.
         """
-        if mass not in (None, "lumped", "averaged", "consistent", "voronoi", "given"):
-            raise ValueError(
-                f"mass is {mass!r}, it must be None, 'lumped', 'averaged', 'consistent' or "
-                "'voronoi'."
-            )
+        if mass is not None:
+            mass = _word("mass", mass, ("lumped", "averaged", "consistent", "voronoi", "given"))
         w, U = _array("values", values), _array("vectors", vectors)
+        for name, array in ("values", w), ("vectors", U):
+            bad = numpy.argwhere(~numpy.isfinite(array))
+            if len(bad):
+                place = ", ".join(map(str, bad[0]))
+                raise ValueError(f"{name}[{place}] is not a finite number.")
         for name, matrix in ("L", L), ("M", M):
             if not scipy.sparse.issparse(matrix):
                 raise _core.Wrong_type(
@@ -384,13 +386,12 @@ class Eigenpairs(_Result):
                     f"{name} has the shape {matrix.shape}, it must be ({len(U)}, {len(U)}), as "
                     "vectors has rows."
                 )
-        if not (numpy.isfinite(w).all() and numpy.isfinite(U).all()):
-            raise ValueError("values or vectors hold a number that is not finite.")
-        if (numpy.diff(w) < -1e-8 * abs(w).max()).any():
+            _check_entries(name, matrix)
+        falls = numpy.diff(w) < -1e-8 * abs(w).max()
+        if falls.any():
             raise ValueError(
-                f"values are not ascending at {int(numpy.argmax(numpy.diff(w) < 0)) + 1}: sort "
-                "them, and the columns "
-                "of vectors alike."
+                f"values are not ascending at {int(falls.argmax()) + 1}: sort them, and the "
+                "columns of vectors alike."
             )
         MU = M @ U
         off = abs(U.T @ MU - numpy.eye(len(w))).max()
@@ -402,7 +403,7 @@ class Eigenpairs(_Result):
         row_masses = numpy.asarray(M.sum(axis=1)).ravel()
         if not (row_masses > 0).all():
             raise ValueError(
-                f"the sum of row {int(numpy.argmin(row_masses))} of M is not positive: pass a "
+                f"the sum of row {int(numpy.argmin(row_masses > 0))} of M is not positive: pass a "
                 "mass matrix."
             )
         difference = L @ U - MU * w
@@ -439,7 +440,7 @@ class Eigenpairs(_Result):
             and theta != {"lumped": 0.0, "voronoi": 0.0, "averaged": 0.5, "consistent": 1.0}[mass]
         ):
             raise ValueError(f"mass is {mass!r}, but M is another one: leave it out.")
-        return cls._from_state(
+        result = cls._from_state(
             dict(
                 values=numpy.maximum(w, 0),
                 vectors=U,
@@ -458,6 +459,14 @@ class Eigenpairs(_Result):
                 solver="given",
             )
         )
+        # Zeros of other solvers are rounded.
+        missing = result.values[: result.zeros] > 1e-6 * max(unit, w.max())
+        if missing.any():
+            raise ValueError(
+                f"values[{int(missing.argmax())}] is {w[missing.argmax()]:.6g}, but L has the "
+                f"eigenvalue zero {result.zeros} times: give the eigenpairs from the first on."
+            )
+        return result
 
     def _state(self) -> dict[str, Any]:
         names = (
@@ -920,7 +929,12 @@ class Simplification(Level):
         if self._asked.get("pairs") is None:
             V, F = self.part()
             self._asked["pairs"] = self._pairs(
-                V, F, self.report["eigenvectors"], self.report["mass"], self._asked["coefficients"]
+                V,
+                F,
+                self.report["eigenvectors"],
+                self.report["mass"],
+                self._asked["coefficients"],
+                tolerance=1e-8,  # as a run has it
             )
         return self._asked["pairs"]
 
@@ -952,10 +966,11 @@ class Simplification(Level):
             Where progress returns False.
         """
         k = min(self.report["eigenvectors"], len(self.V)) if k is None else k
+        k = _integer("k", k, 1, len(self.V), ", the vertices of the simplified mesh")
+        mass = self.report["mass"] if mass is None else mass
+        mass = _word("mass", mass, ("lumped", "averaged", "consistent", "voronoi", "fitted"))
         if mass != "fitted":
-            return self._pairs(
-                self.V, self.F, k, mass or self.report["mass"], self.coefficients, progress
-            )
+            return self._pairs(self.V, self.F, k, mass, self.coefficients, progress)
         if self.fitted is not None and len(self.fitted) == k:
             return self.fitted
         values = dict(
@@ -974,7 +989,9 @@ class Simplification(Level):
         )
         return Fitted_operators(_core.fit_operators(values))
 
-    def _pairs(self, V, F, k, mass, coefficients, progress=None) -> Eigenpairs:
+    def _pairs(
+        self, V, F, k, mass, coefficients, progress=None, tolerance: float = 1e-10
+    ) -> Eigenpairs:
         return Eigenpairs(
             _core.eigenpairs(
                 dict(
@@ -982,7 +999,7 @@ class Simplification(Level):
                     F=F,
                     k=k,
                     mass=mass,
-                    tolerance=1e-10,
+                    tolerance=tolerance,
                     coefficients=coefficients,
                     boundary=self._asked["boundary"],
                     intrinsic_delaunay=self._asked["intrinsic_delaunay"],
@@ -1034,12 +1051,11 @@ class Simplification(Level):
         Cancelled
             Where progress returns False.
         """
-        if by not in ("restriction", "merges"):
-            raise ValueError(f"by is {by!r}, it must be 'restriction' or 'merges'.")
-        if not isinstance(relocate, (bool, numpy.bool_)):
-            raise _core.Wrong_type(f"relocate is {relocate!r}, it must be True or False.")
+        by, relocate = _word("by", by, ("restriction", "merges")), _flag("relocate", relocate)
         if not relocate and (k is not None or eigenpairs is not None):
             raise ValueError("k and eigenpairs belong to relocate=True: leave them out.")
+        if k is not None and eigenpairs is not None:
+            raise ValueError("k and eigenpairs are both given: leave out k.")
         V_other = _array("V_other", V_other)
         if V_other.shape != self.fine_V.shape:
             raise ValueError(
@@ -1059,7 +1075,11 @@ class Simplification(Level):
         if relocate:
             k = self.report["eigenvectors"] if k is None else k
             if eigenpairs is None:
-                eigenpairs = self._pairs(V, F, k, self.report["mass"], None, progress)
+                eigenpairs = self._pairs(
+                    V, F, k, self.report["mass"], None, progress, tolerance=1e-8
+                )
+            else:
+                self._check_pairs(eigenpairs, V, F)
             core.update(
                 _core.relocate(
                     dict(
@@ -1079,6 +1099,31 @@ class Simplification(Level):
             part_P = core["P"]
         core["P"], core["vertex_map"] = part_P, self.vertex_map[self.used]
         return Level._of(core, V_other, self.fine_F, self._used)
+
+    def _check_pairs(self, eigenpairs: Eigenpairs, V, F) -> None:
+        """Refuses eigenpairs that are not those of the mesh V, F in the mass of the run."""
+        if not isinstance(eigenpairs, Eigenpairs):
+            raise _core.Wrong_type(
+                f"eigenpairs is of the type {type(eigenpairs).__name__}, it must be Eigenpairs: "
+                "pass what eigenpairs() or Eigenpairs.from_arrays() returns."
+            )
+        if len(eigenpairs.vectors) != len(V):
+            raise ValueError(
+                f"eigenpairs are of {len(eigenpairs.vectors)} vertices, but V_other has {len(V)} "
+                "that are used: pass those of this mesh."
+            )
+        if eigenpairs.mass != self.report["mass"]:
+            raise ValueError(
+                f"eigenpairs are of the {eigenpairs.mass} mass, but the run is of the "
+                f"{self.report['mass']} one: compute them in that mass."
+            )
+        # Every mass has the area of its mesh, and no two poses have quite the same.
+        area, mass = _vertex_areas(V, F).sum(), eigenpairs._core.row_masses.sum()
+        if not abs(mass - area) <= 1e-5 * area:
+            raise ValueError(
+                f"eigenpairs are of a mesh with the area {mass:.6g}, but that of V_other is "
+                f"{area:.6g}: pass those of this pose."
+            )
 
     def _merge_restriction(self) -> scipy.sparse.csr_matrix:
         """P of the merges alone, rows in the order of this mesh."""
