@@ -6,6 +6,7 @@
 # are made here. Without the program what compares with it is left out, as in an environment that
 # has the wheel alone.
 
+import concurrent.futures
 import contextlib
 import copy
 import doctest
@@ -41,7 +42,7 @@ warnings.simplefilter("ignore")
 RUN = ss.simplify(V, F, 150, 40, fit_operators=True)
 HAVE = {
     name: importlib.util.find_spec(name) is not None
-    for name in ("nibabel", "meshio", "pandas", "distributed")
+    for name in ("nibabel", "meshio", "h5py", "pandas", "distributed")
 }
 
 
@@ -279,7 +280,7 @@ class Careless_calls(Case):
     def test_each_is_refused(self):
         pairs, P, n = RUN.eigenpairs, RUN.P, len(V)
         coarse = RUN.coarse_eigenpairs(40)
-        hole = V.copy()
+        hole, loose = V.copy(), np.vstack([V, [[9, 9, 9]]])
         hole[3, 1] = np.nan
         flags = np.ones(n, bool)
         sparse = scipy.sparse
@@ -297,6 +298,11 @@ class Careless_calls(Case):
             ("preset is 'bset', it must be", lambda: ss.simplify(V, F, 100, 10, "bset")),
             ("mass is 'cotan'", lambda: ss.simplify(V, F, 100, mass="cotan")),
             ("argument 'masks'", lambda: ss.simplify(V, F, 100, masks=flags)),
+            ("signals has the shape \(\)", lambda: ss.simplify(loose, F, 100, signals=5)),
+            ("signals is not an array", lambda: ss.simplify(loose, F, 100, signals=[[1], [1, 2]])),
+            ("coefficients has the dtype", lambda: ss.simplify(loose, F, 100, coefficients="x")),
+            ("vertex 3 .* not a finite", lambda: ss.simplify(hole, F, 100, drop_debris=0.1)),
+            ("drop_debris is of the type ndarray", lambda: ss.simplify(V, F, 100, drop_debris=V)),
             ("mask has the shape .641,.", lambda: ss.simplify(V, F, 100, mask=flags[1:])),
             ("mask has the dtype", lambda: ss.simplify(V, F, 100, mask="cortex")),
             ("eigenpairs is of the type tuple", lambda: ss.simplify(V, F, 100, eigenpairs=(1, 2))),
@@ -313,11 +319,15 @@ class Careless_calls(Case):
             ("eigenpairs is of the type Simplification", lambda: ss.distances(RUN, 0)),
             ("kind is 'geodesic'", lambda: ss.distances(pairs, 0, "geodesic")),
             ("squared is array", lambda: ss.distances(pairs, 0, squared=np.ones(2))),
+            ("squared is of the type ndarray", lambda: ss.distances(pairs, 0, squared=V)),
             ("times has the shape", lambda: ss.heat_kernel_signature(pairs, 100)),
             ("T has the shape .5,.", lambda: ss.align(pairs, pairs, np.arange(5))),
             ("T has the dtype float64", lambda: ss.align(coarse, pairs, P.toarray())),
             (r"T has the shape \(642, 150\)", lambda: ss.align(coarse, pairs, P.T)),
             ("mixing has the dtype", lambda: ss.align(pairs, pairs, mixing="little")),
+            ("mixing is of the type ndarray", lambda: ss.align(pairs, pairs, mixing=V)),
+            (r"T\[0, 0\] is not a finite", lambda: ss.align(pairs, pairs, np.nan * sparse.eye(n))),
+            ("T has the dtype complex", lambda: ss.align(pairs, pairs, 1j * sparse.eye(n))),
             ("T has the dtype <U7", lambda: ss.functional_map_of_point_map("map.txt", pairs, pairs)),
             ("T is not an array", lambda: ss.functional_map_of_point_map([[1], [1, 2]], pairs, pairs)),
             ("C has the dtype <U5", lambda: ss.point_map("C.npy", pairs, pairs)),
@@ -325,6 +335,8 @@ class Careless_calls(Case):
             (r"C\[0, 2\] is not a finite", lambda: ss.point_map([[1, 2, np.inf]], pairs, pairs)),
             (r"C has the shape \(0, 0\)", lambda: ss.point_map(np.ones((0, 0)), pairs, pairs)),
             ("k is 'all'", lambda: ss.zoom_out(np.eye(4), pairs, pairs, "all")),
+            ("k is of the type ndarray", lambda: ss.zoom_out(np.eye(4), pairs, pairs, V)),
+            ("step is True", lambda: ss.zoom_out(np.eye(4), pairs, pairs, 9, True)),
             ("k is 99, it must be from 4 to 40", lambda: ss.zoom_out(np.eye(4), pairs, pairs, 99)),
             ("step is 1.5", lambda: ss.zoom_out(np.eye(4), pairs, pairs, 10, 1.5)),
             ("step is 0, it must be from 1", lambda: ss.zoom_out(np.eye(4), pairs, pairs, 9, 0)),
@@ -336,14 +348,29 @@ class Careless_calls(Case):
             ("values has the shape .150, 3.", lambda: RUN.average(RUN.V)),
             ("labels has the dtype float64", lambda: RUN.transfer_labels(V[:, 0])),
             ("n is 5, it must be", lambda: RUN.levels(5)),
+            ("k is of the type ndarray", lambda: RUN.coarse_eigenpairs(V, "fitted")),
+            ("mass is '', it must be 'lumped'", lambda: RUN.coarse_eigenpairs(5, "")),
+            ("mass is of the type ndarray", lambda: RUN.coarse_eigenpairs(5, V)),
+            ("by is of the type ndarray", lambda: RUN.apply(V, V)),
+            ("by is array", lambda: RUN.transfer_labels(V[:, 0] > 0, V[:1])),
+            ("nan is None", lambda: RUN.interpolate(V, nan=None)),
+            ("unit is 'yes', it must be True", lambda: RUN.average(V, unit="yes")),
+            ("values is not an array", lambda: RUN.average([[1], [1, 2]])),
             ("path is of the type int", lambda: ss.read_mesh(5)),
             ("path is of the type ndarray", lambda: ss.write_mesh(V, F, self.path("out.off"))),
             (r"F\[\d+, \d\] is 642", lambda: ss.write_mesh(self.path("a.off"), V, F + 1)),
+            ("F has the dtype float64", lambda: ss.write_mesh(self.path("a.off"), V, F + 0.4)),
+            ("V has the dtype complex", lambda: ss.write_mesh(self.path("a.off"), 1j * V, F)),
+            ("V has the dtype <U1", lambda: ss.write_mesh(self.path("a.off"), "V", F)),
+            (r"V has the shape \(642, 2\)", lambda: ss.write_mesh(self.path("a.off"), V[:, 1:], F)),
+            (r"F has the shape \(0, 3\)", lambda: ss.write_mesh(self.path("a.off"), V, F[:0])),
             (r"V\[3\] is not finite", lambda: ss.write_mesh(self.path("a.off"), hole, F)),
             ("path is of the type NoneType", lambda: ss.load(None)),
             ("repair is 'yes'", lambda: ss.clean(V, F, "yes")),
             ("n is 'x', it must be an integer", lambda: ss.simplify_collection([(V, F)], "x")),
+            ("n is True, it must be an integer", lambda: ss.simplify_collection([(V, F)], True)),
             ("meshes is of the type NoneType", lambda: ss.simplify_collection(None, 100)),
+            ("meshes is of the type csr_matrix", lambda: ss.simplify_collection(P, 100)),
         ):
             with self.subTest(words), self.assertRaisesRegex((ValueError, TypeError), words) as said:
                 call()
@@ -560,6 +587,37 @@ class Meshes(Case):
             ss.read_mesh(self.path("cube.off"))
         v, f = ss.read_mesh(self.path("cube.off"), repair=True)
         self.assertEqual((v.shape, f.shape, ss.diagnose(v, f).usable), ((8, 3), (12, 3), True))
+
+    def test_files_of_vtk_9(self):
+        offsets = 3 * np.arange(len(F) + 1)
+        head = "# vtk DataFile Version 5.1\nmesh\n%s\nDATASET POLYDATA\n"
+        words = (
+            f"POINTS {len(V)} double\n",
+            f"\nPOLYGONS {len(offsets)} {F.size}\nOFFSETS vtktypeint64\n",
+            "\nCONNECTIVITY vtktypeint64\n",
+            "\n",
+        )
+        for form in "ASCII", "BINARY":
+            with open(self.path("new.vtk"), "wb") as file:
+                file.write((head % form).encode())
+                for word, array in zip(words, (V, offsets, F, V[:0])):
+                    file.write(word.encode())
+                    array, kind = array.ravel(), ">f8" if array is V else ">i8"
+                    text = " ".join(map(repr, array.tolist())).encode()
+                    file.write(text if form == "ASCII" else array.astype(kind).tobytes())
+            positions, faces = ss.read_mesh(self.path("new.vtk"))
+            np.testing.assert_array_equal(positions, V)
+            np.testing.assert_array_equal(faces, F)
+
+    @unittest.skipUnless(HAVE["meshio"], "meshio is not installed")
+    def test_one_file_for_each_mesh(self):
+        if not HAVE["h5py"]:
+            with self.assertRaisesRegex(ValueError, "mesh.xdmf needs the package h5py"):
+                ss.write_mesh(self.path("mesh.xdmf"), V, F)
+            return
+        ss.write_mesh(self.path("mesh.xdmf"), V, F)
+        self.assertEqual(os.listdir(self.folder), ["mesh.xdmf"])
+        np.testing.assert_allclose(ss.read_mesh(self.path("mesh.xdmf"))[0], V, atol=1e-9)
 
     def test_files_that_are_none(self):
         for name, text, words in (
@@ -1021,8 +1079,22 @@ class Collections(Case):
         self.assertLess(max(ratios), 1.3)  # 0.64 to 1.13
 
     def test_refusals(self):
+        with open(self.path("file"), "w"):
+            pass
+        poses_of_one = dict(shared_connectivity=True)
         for words, more in (
             ("workers is 0", dict(workers=0)),
+            ("workers is True", dict(workers=True)),
+            ("workers is 10000000000", dict(workers=10**24)),
+            ("workers is <.*Executor", dict(workers=concurrent.futures.ThreadPoolExecutor(1))),
+            ("shared_connectivity is 'no'", dict(shared_connectivity="no")),
+            ("progress is 5, it must be None", dict(progress=5)),
+            ("output is of the type int", dict(output=5)),
+            ("output is .*file, which is a file", dict(output=self.path("file"))),
+            ("relocate is 'carried', for meshes", dict(poses_of_one, relocate="carried")),
+            ("binary asks for a P", dict(poses_of_one, binary=True)),
+            ("drop_debris is not for", dict(poses_of_one, drop_debris=0.1)),
+            ("intrinsic_delaunay is not for", dict(poses_of_one, intrinsic_delaunay=True)),
             ("has no option 'colour'", dict(colour=1)),
             (
                 "keep is not for meshes of one connectivity",
@@ -1031,7 +1103,26 @@ class Collections(Case):
             ("belong to one mesh", dict(eigenpairs=RUN.eigenpairs)),
         ):
             with self.assertRaisesRegex(ValueError, words):
-                ss.simplify_collection([(V, F)], 150, progress=False, **more)
+                ss.simplify_collection([(V, F)], 150, **dict(dict(progress=False), **more))
+
+    def test_options_of_numpy_and_lists(self):
+        words = dict(keep=["border", [1, 2]], k=np.int64(40), workers=np.int64(1), progress=np.False_)
+        for _ in range(2):
+            (row,) = ss.simplify_collection([(V, F)], 150, self.path("out"), **words)
+            self.assertIsNone(row.error)
+        self.assertEqual(row.seconds, 0)
+
+    def test_options_of_one_connectivity(self):
+        flat, faces = sheet(13)
+        hills = [(flat * [1, 1, s], faces) for s in (1, 0.5)]
+        (row, _) = ss.simplify_collection(
+            hills, 60, shared_connectivity=True, boundary="dirichlet", k=10, progress=False
+        )
+        self.assertIsNone(row.error)
+        (row,) = ss.simplify_collection(
+            [(V, F)], 150, shared_connectivity=True, k=0, fit_operators=False, progress=False
+        )
+        self.assertIn("k is 0, it must be", row.error)
 
 
 class Command_line(Case):

@@ -21,9 +21,20 @@ from typing import Any
 import numpy
 
 from ._core import Wrong_type as _Wrong_type
+from ._core import arrays as _arrays
 from ._interface import eigenpairs, simplify
 from ._meshes import _OWN, clean, read_mesh
-from ._results import Level, Simplification, _integer, _noted, _Result, _write_text, load
+from ._results import (
+    Level,
+    Simplification,
+    _flag,
+    _integer,
+    _noted,
+    _Result,
+    _shown,
+    _write_text,
+    load,
+)
 
 _DIED = "the process that computed it died each time: it may need more memory."
 _ATTEMPTS = 3  # of a mesh whose process dies
@@ -98,9 +109,9 @@ def _one(mesh: Any, n: int, repair: bool, options: dict[str, Any]) -> Simplifica
     )
 
 
-def _pairs(mesh: Any, k: int, mass: str, threads: int | None):
+def _pairs(mesh: Any, k: int, mass: str, boundary: str, threads: int | None):
     V, F = _taken(mesh)
-    return eigenpairs(V, F, k, mass, tolerance=1e-8, threads=threads)
+    return eigenpairs(V, F, k, mass, tolerance=1e-8, boundary=boundary, threads=threads)
 
 
 def _posed(mesh: Any, run: Simplification, pairs: Any, relocate: bool) -> Level:
@@ -254,8 +265,12 @@ def _bar(done: int, total: int | None, name: str) -> None:
 
 
 def _plain(value: Any) -> Any:
+    if isinstance(value, numpy.generic):
+        value = value.item()
     if isinstance(value, (str, int, float, bool, type(None))):
         return value
+    if isinstance(value, (list, tuple)) and any(isinstance(part, str) for part in value):
+        return [_plain(part) for part in value]  # of keep, words and indices
     array = numpy.ascontiguousarray(value)
     return f"{array.dtype}{array.shape}{hashlib.sha256(array.tobytes()).hexdigest()}"
 
@@ -351,11 +366,14 @@ def simplify_collection(
         or if an option cannot be meant.
     """
     n = _integer("n", n, 1)
-    if not isinstance(meshes, Iterable):
+    try:
+        iter(meshes)
+        total = len(meshes) if hasattr(meshes, "__len__") else None
+    except TypeError:
         raise _Wrong_type(
             f"meshes is of the type {type(meshes).__name__}, it must be a list of names or of "
             "pairs (V, F)."
-        )
+        ) from None
     if isinstance(meshes, (str, os.PathLike)):
         raise ValueError(
             f"meshes is the one name {os.fspath(meshes)!r}: pass a list of names, such as "
@@ -363,18 +381,23 @@ def simplify_collection(
         )
     if "progress" in options or "eigenpairs" in options:
         raise ValueError("eigenpairs belong to one mesh: leave them out.")
-    if (
-        isinstance(workers, bool)
-        or not (isinstance(workers, (int, str)) or hasattr(workers, "submit"))
-        or isinstance(workers, int)
-        and workers < 1
-    ):
-        raise ValueError(
-            f"workers is {workers!r}, it must be 1 or more, 'all', an address or a "
-            "distributed.Client."
-        )
-    if not isinstance(repair, bool):
-        raise _Wrong_type(f"repair is {repair!r}, it must be True or False.")
+    if not (isinstance(workers, str) or hasattr(workers, "nthreads")):
+        try:
+            workers = _integer("workers", workers, 1, 10000)
+        except ValueError:
+            raise ValueError(
+                f"workers is {_shown(workers)}, it must be from 1 to 10000, 'all', an address or "
+                "a distributed.Client."
+            ) from None
+    repair = _flag("repair", repair)
+    shared_connectivity = _flag("shared_connectivity", shared_connectivity)
+    if not (progress is None or callable(progress)):
+        try:
+            progress = _flag("progress", progress)
+        except ValueError:
+            raise _Wrong_type(
+                f"progress is {_shown(progress)}, it must be None, True, False or a function."
+            ) from None
     numbering = [
         name
         for name in ("mask", "keep", "signals", "coefficients")
@@ -394,7 +417,13 @@ def simplify_collection(
         options.setdefault("threads", 1)
     folder = None
     if output is not None:
+        if not isinstance(output, (str, os.PathLike)):
+            raise _Wrong_type(
+                f"output is of the type {type(output).__name__}, it must be the name of a folder."
+            )
         folder = pathlib.Path(output)
+        if folder.exists() and not folder.is_dir():
+            raise ValueError(f"output is {folder}, which is a file: give the name of a folder.")
         folder.mkdir(parents=True, exist_ok=True)
         settings = {
             "n": n,
@@ -403,7 +432,6 @@ def simplify_collection(
             **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"},
         }
         _check_settings(folder, settings)
-    total = len(meshes) if hasattr(meshes, "__len__") else None
     if progress is None:
         progress = sys.stderr.isatty()
     tell = _bar if progress is True else progress or None
@@ -511,14 +539,36 @@ def _shared(
     """Merges that all poses decide: random mixtures of the eigenvectors of all are the signals,
     since a sketch of all side by side has the metric of all. Then each pose gets the coarse mesh,
     and is relocated by its own eigenvectors."""
-    for name in "signals", "keep", "coefficients", "fit_operators", "mask", "pre_simplify":
-        if options.get(name) is not None:
+    for name in (
+        "signals",
+        "keep",
+        "coefficients",
+        "fit_operators",
+        "mask",
+        "pre_simplify",
+        "drop_debris",
+        "intrinsic_delaunay",
+    ):
+        if options.get(name) is not None and options[name] is not False:
             raise ValueError(f"{name} is not for meshes of one connectivity: leave it out.")
+    preset = options.get("preset", "best")
+    relocate = options.get("relocate") or ("none" if preset == "paper" else "sampled")
+    if relocate not in ("none", "sampled"):
+        raise ValueError(
+            f"relocate is {_shown(relocate)}, for meshes of one connectivity it must be 'none' or "
+            "'sampled'."
+        )
+    if options.get("binary") and relocate == "sampled":
+        raise ValueError(
+            "binary asks for a P of ones and zeros, and relocation of each pose makes another one: "
+            "pass relocate='none'."
+        )
     first = None  # faces, and whose
     going: dict[int, Any] = {}
     for i, mesh in enumerate(meshes):
         try:
             V, F = _taken(mesh)
+            V, F = _arrays(dict(V=V, F=F))
             if first is None:
                 cleaned = clean(V, F)
                 if cleaned.changes:
@@ -533,19 +583,20 @@ def _shared(
                     "without shared_connectivity."
                 )
             elif not numpy.isfinite(V).all():
-                raise ValueError("V holds a number that is not finite.")
+                bad = int((~numpy.isfinite(V)).any(axis=1).argmax())
+                raise ValueError(f"V[{bad}] is not finite: correct the position.")
             going[i] = (V, F)
         except Exception as error:
             ended(i, None, str(error), 0.0)
     if not going:
         return
-    preset = options.get("preset", "best")
     mass = options.get("mass") or ("lumped" if preset == "paper" else "averaged")
-    k = options.get("k") or 100
-    relocate = (options.get("relocate") or ("none" if preset == "paper" else "sampled")) != "none"
+    k = 100 if options.get("k") is None else options["k"]
+    boundary = options.get("boundary", "neumann")
     pairs = {}
     for i, result, error, seconds in _scheduled(
-        [(i, _pairs, (m, k, mass, options.get("threads"))) for i, m in going.items()], workers
+        [(i, _pairs, (m, k, mass, boundary, options.get("threads"))) for i, m in going.items()],
+        workers,
     ):
         if error is None:
             pairs[i] = result
@@ -570,6 +621,7 @@ def _shared(
         decided = {**options, "relocate": "none", "k": None}
         run = simplify(*going[one], n, signals=signals, **decided)
     run.report["eigenvectors"] = k
-    tasks = [(i, _posed, (m, run, pairs[i], relocate)) for i, m in going.items() if not there(i)]
+    sampled = relocate == "sampled"
+    tasks = [(i, _posed, (m, run, pairs[i], sampled)) for i, m in going.items() if not there(i)]
     for i, result, error, seconds in _scheduled(tasks, workers):
         ended(i, result, error, seconds)

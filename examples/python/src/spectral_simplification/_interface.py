@@ -15,7 +15,16 @@ import scipy.sparse
 
 from . import _core
 from ._meshes import used_part, without_debris
-from ._results import Eigenpairs, Evaluation, Fitted_operators, Match, Progress, Simplification
+from ._results import (
+    Eigenpairs,
+    Evaluation,
+    Fitted_operators,
+    Match,
+    Progress,
+    Simplification,
+    _array,
+    _flag,
+)
 
 
 def _features(keep) -> tuple[list[str], list | None]:
@@ -194,8 +203,10 @@ def simplify(
         used, fine_F, values["F"] = part
         values["V"] = fine_V[used]
         for name in "signals", "coefficients":
-            if values[name] is not None and len(numpy.asarray(values[name])) == len(fine_V):
-                values[name] = numpy.asarray(values[name])[used]
+            if values[name] is not None:
+                given = _array(name, values[name])
+                of_all = given.shape[:1] == (len(fine_V),)
+                values[name] = given[used] if of_all else given
         if keep is not None:
             out = ~numpy.isin(keep, used)
             if out.any():
@@ -624,8 +635,7 @@ def distances(
     -----
     To compare two meshes pass the time or the energies of one of them for both.
     """
-    if squared is not None and not isinstance(squared, (bool, numpy.bool_)):
-        raise _core.Wrong_type(f"squared is {squared!r}, it must be None, True or False.")
+    squared = None if squared is None else _flag("squared", squared)
     if squared and kind == "wave_kernel":
         raise ValueError(
             "squared is True, but the distance 'wave_kernel' is no root: leave it out."

@@ -14,7 +14,15 @@ import numpy
 import scipy.sparse
 
 from . import _core
-from ._results import Alignment, Eigenpairs, Simplification, _array, _integer
+from ._results import (
+    Alignment,
+    Eigenpairs,
+    Simplification,
+    _array,
+    _check_entries,
+    _integer,
+    _shown,
+)
 
 
 def _pairs(name: str, value) -> Eigenpairs:
@@ -324,7 +332,7 @@ def align(
     """
     first, second = _pairs("first", first), _pairs("second", second)
     if _array("mixing", mixing).ndim != 0 or not 0 <= mixing <= 1:
-        raise ValueError(f"mixing is {mixing}, it must be a number from 0 to 1.")
+        raise ValueError(f"mixing is {_shown(mixing)}, it must be a number from 0 to 1.")
     n, m = len(first.vectors), len(second.vectors)
     k = min(len(first), len(second))
     phi = second.vectors[:, :k]
@@ -339,6 +347,7 @@ def align(
             raise ValueError(
                 f"T has the shape {T.shape}, it must be ({n}, {m}), vertices of first x second."
             )
+        _check_entries("T", T)
         moved = T @ phi
     else:
         moved = phi[_point_map("T", T, n, m)]

@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import base64
+import numbers
 import os
 import pathlib
 import tempfile
@@ -19,7 +20,7 @@ import scipy.sparse
 import scipy.sparse.csgraph
 
 from . import _core
-from ._results import _check_folder, _path, _Result
+from ._results import _array, _check_folder, _flag, _path, _Result, _shown
 
 
 class Cleaned(_Result):
@@ -192,11 +193,15 @@ def without_debris(
 ) -> tuple[tuple[numpy.ndarray, numpy.ndarray, numpy.ndarray] | None, numpy.ndarray]:
     """What used_part() returned, without components of less than a share of the area, and the
     first vertices of these."""
-    if not isinstance(share, (int, float)) or isinstance(share, bool) or not 0 < share < 1:
-        raise ValueError(f"drop_debris is {share!r}, it must be a share of the area in (0, 1).")
+    if not isinstance(share, numbers.Real) or isinstance(share, bool) or not 0 < share < 1:
+        raise ValueError(
+            f"drop_debris is {_shown(share)}, it must be a share of the area in (0, 1)."
+        )
     if not _is_mesh(V, F):
         return part, numpy.empty(0, numpy.int64)
     faces = F if part is None else part[1]
+    if not numpy.isfinite(V[faces]).all():
+        return part, numpy.empty(0, numpy.int64)  # which is for others to say, too
     a, b, c = (V[faces[:, i]] for i in range(3))
     areas = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1) / 2
     sides = scipy.sparse.coo_matrix(
@@ -290,8 +295,7 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist.")
     ending = path.suffix.lower()
-    if not isinstance(repair, bool):
-        raise _core.Wrong_type(f"repair is {repair!r}, it must be True or False.")
+    repair = _flag("repair", repair)
     if repair and ending not in _OWN:
         raise ValueError(
             f"repair is for {', '.join(_OWN)}: read {path} without, and pass the arrays to clean()."
@@ -322,8 +326,10 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
         raise ValueError(
             said if str(path) in said else f"{path} cannot be read: {said.rstrip('.')}."
         ) from None
-    except (SystemExit, Exception) as error:
-        if isinstance(error, (KeyboardInterrupt, MemoryError)):
+    except SystemExit:
+        raise ValueError(f"{path} cannot be read: meshio does not know what is in it.") from None
+    except Exception as error:
+        if isinstance(error, MemoryError):
             raise
         raise ValueError(f"{path} cannot be read: {type(error).__name__}, {error}.") from None
     raise ValueError(_unknown(path))
@@ -366,7 +372,13 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
     """
     path = pathlib.Path(_path(path))
     _check_folder(str(path))
-    V, F = _mesh(V, F, "what is to be written")
+    V, F = _array("V", V), _array("F", F, "iu")
+    for name, array, rows in ("V", V, "vertex"), ("F", F, "triangle"):
+        if array.ndim != 2 or array.shape[1] != 3 or len(array) == 0:
+            raise ValueError(
+                f"{name} has the shape {array.shape}, it must be (n, 3), one row for each {rows}."
+            )
+    V, F = _mesh(V, F, path)
     if F.min() < 0 or F.max() >= len(V):
         face, corner = numpy.argwhere((F < 0) | (F >= len(V)))[0]
         raise ValueError(
@@ -381,6 +393,8 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         _needed("nibabel", path)
     elif ending in _MESHIO and ending != ".vtk":
         _needed("meshio", path)
+        if ending == ".xdmf":
+            _needed("h5py", path)  # which meshio imports whether it writes HDF or not
     handle, temporary = tempfile.mkstemp(suffix=path.suffix, prefix=".", dir=path.parent)
     os.close(handle)
     try:
@@ -404,7 +418,9 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         elif ending in _MESHIO and ending != ".vtk":
             import meshio
 
-            meshio.Mesh(V, [("triangle", F)]).write(temporary)
+            # The format's own default are further files, named as the temporary one.
+            inline = {"data_format": "XML"} if ending == ".xdmf" else {}
+            meshio.Mesh(V, [("triangle", F)]).write(temporary, **inline)
         else:
             with open(temporary, "w") as file:
                 {
@@ -497,35 +513,45 @@ def _triangles(counts: numpy.ndarray, corners: numpy.ndarray) -> numpy.ndarray:
 
 
 def _read_vtk(path: pathlib.Path):
-    """Polygons of the legacy format, in text or in binary, of its versions before 5."""
+    """Polygons of the legacy format, in text or in binary."""
     data = path.read_bytes()
     lines = data.split(b"\n", 3)
     binary = lines[2].strip().upper() == b"BINARY"
-    kinds = {b"float": ">f4", b"double": ">f8", b"int": ">i4"}
-    found: dict[bytes, numpy.ndarray] = {}
-    for word, width in (b"POINTS", 3), (b"POLYGONS", 0):
-        place = data.find(b"\n" + word + b" ")
+    kinds = {b"float": ">f4", b"double": ">f8", b"int": ">i4", b"vtktypeint64": ">i8"}
+
+    def head(word: bytes, start: int = 0) -> tuple[list[bytes], int]:
+        """The words of the line that begins so, and where it ends."""
+        place = data.find(b"\n" + word + b" ", start)
         if place < 0:
             raise ValueError(f"it has no {word.decode()}")
         end = data.index(b"\n", place + 1)
-        head = data[place:end].split()
-        count = 3 * int(head[1]) if width else int(head[2])
-        kind = kinds.get(head[2]) if width else ">i4"
-        if kind is None:
-            raise ValueError(f"its points are of the type {head[2].decode()}")
+        return data[place:end].split(), end
+
+    def values(count: int, kind: bytes, end: int) -> numpy.ndarray:
+        if kind not in kinds:
+            raise ValueError(f"it has numbers of the type {kind.decode()}")
+        real = "f" in kinds[kind]
         if binary:
-            values = numpy.frombuffer(data, kind, count, end + 1)
+            result = numpy.frombuffer(data, kinds[kind], count, end + 1)
         else:
-            values = numpy.array(
-                data[end:].split(None, count)[:count], float if width else numpy.int64
-            )
-        if len(values) != count:
+            words = data[end:].split(None, count)[:count]
+            result = numpy.array(words, float if real else numpy.int64)
+        if len(result) != count:
             raise ValueError("it ends too early")
-        found[word] = values.astype(float if width else numpy.int64)
-    faces = found[b"POLYGONS"]
+        return result.astype(float if real else numpy.int64)
+
+    (_, count, kind), end = head(b"POINTS")
+    V = values(3 * int(count), kind, end).reshape(-1, 3)
+    (_, first, second), end = head(b"POLYGONS")
+    if data[end:].lstrip().startswith(b"OFFSETS"):  # from version 5 on
+        (_, kind), start = head(b"OFFSETS", end)
+        counts = numpy.diff(values(int(first), kind, start))
+        (_, kind), start = head(b"CONNECTIVITY", end)
+        return V, _triangles(counts, values(int(second), kind, start))
+    faces = values(int(second), b"int", end)
     if len(faces) % 4 or (faces[::4] != 3).any():
         raise ValueError("its polygons are not all triangles: triangulate them first")
-    return found[b"POINTS"].reshape(-1, 3), faces.reshape(-1, 4)[:, 1:]
+    return V, faces.reshape(-1, 4)[:, 1:]
 
 
 def _read_vtp(path: pathlib.Path):
