@@ -135,6 +135,21 @@ class Adapters(unittest.TestCase):
         coarse, _ = pyfm_mesh.simplified(fine, 150, signals=V)
         self.assertEqual((fine.eigenvectors.shape, coarse.eigenvectors.shape), ((642, 3), (150, 3)))
 
+    def test_the_operator_is_that_of_the_run(self):
+        from pyFM.mesh import TriMesh
+        from spectral_simplification import pyfm_mesh, geomfum_hierarchy
+        from geomfum.shape.hierarchical import HierarchicalMesh
+        from geomfum.shape.mesh import TriangleMesh
+        options = dict(coefficients=ss.weighted_coefficients(1 + V[:, 0]**2), k=200)
+        coarse, run = pyfm_mesh.simplified(TriMesh(V, F), 150, **options)
+        self.assertEqual(coarse.eigenvectors.shape, (150, 150))  # fewer vertices than modes
+        self.assertEqual(abs(coarse.A - run.coarse_eigenpairs().M).nnz, 0)
+        both = HierarchicalMesh.from_registry(TriangleMesh(V, F), which="spectral_simplification", min_n_samples=150,
+                                              spectrum_size=200, coefficients=options["coefficients"])
+        self.assertEqual(both.low.basis.full_vecs.shape, (150, 150))
+        with self.assertRaisesRegex(ValueError, r"of 642 vertices take part.* pass TriMesh\(\*run.part"):
+            pyfm_mesh.simplified(TriMesh(V, F), 150, 30, mask=V[:, 0] < 1)
+
     def test_geomfum_with_signals(self):
         from spectral_simplification import geomfum_hierarchy  # registers
         from geomfum.shape.hierarchical import HierarchicalMesh

@@ -23,6 +23,7 @@ import sys
 import tempfile
 import threading
 import time
+import typing
 import unittest
 import unittest.mock
 import warnings
@@ -1222,6 +1223,9 @@ class Package(Case):
         self.assertTrue(os.path.exists(os.path.join(folder, "py.typed")))
         with open(os.path.join(folder, "_core.pyi")) as file:
             stubs = file.read()
+        for name in ss.__all__:
+            if isinstance(getattr(ss, name), type):
+                typing.get_type_hints(getattr(ss, name))
         core = importlib.import_module("spectral_simplification._core")
         for name in dir(core):
             if not name.startswith("__"):

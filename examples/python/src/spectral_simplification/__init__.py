@@ -12,6 +12,8 @@ Options have the names, defaults and words of the program spectral_simplify. Com
 other threads of Python run.
 """
 
+import typing as _typing
+
 from ._collection import Collection_row, simplify_collection
 from ._core import Cancelled, __version__
 from ._interface import (
@@ -92,8 +94,12 @@ __all__ = [
 
 for _thing in list(globals().values()):  # whoever prints or pickles them finds them here
     if getattr(_thing, "__module__", "").startswith(__name__ + "._"):
+        if isinstance(_thing, type):  # whose annotations have names of the module that it leaves
+            _hints = _typing.get_type_hints(_thing)
+            for _name in vars(_thing).get("__annotations__", ()):
+                _thing.__annotations__[_name] = _hints[_name]
         _thing.__module__ = __name__
-del _thing
+del _thing, _hints, _name
 
 
 def __dir__() -> list:

@@ -36,7 +36,7 @@ class SpectralHierarchicalMesh(HierarchicalShape):
     def __init__(self, mesh, min_n_samples, spectrum_size=None, **options):
         V, F = gs.to_numpy(mesh.vertices), gs.to_numpy(mesh.faces)
         self.run = run = ss.simplify(V, F, min_n_samples, spectrum_size, **options)
-        pairs = ss.eigenpairs(run.V, run.F, run.report["eigenvectors"], run.report["mass"])
+        pairs = run.coarse_eigenpairs()
         low = TriangleMesh(gs.array(run.V), gs.array(run.F))
         low.laplacian = Laplacian(
             low, *(xgs.sparse.from_scipy_csc(m.tocsc()) for m in (pairs.L, pairs.M))

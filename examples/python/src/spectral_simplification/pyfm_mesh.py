@@ -31,11 +31,15 @@ def trimesh(V, F, pairs):
 def simplified(mesh, n, k=None, **options):
     """The TriMesh of n vertices with k eigenpairs in the mass of the run, and the run: run.P
     carries functions of `mesh` to it, run.Q back, run.vertex_map says which vertex became which.
-    `mesh` gets W, A and the k eigenpairs of the run as well. Options as of
-    spectral_simplification.simplify()."""
+    `mesh` gets W, A and the k eigenpairs of the run as well; the coarse one has n where n is below
+    k. Options as of spectral_simplification.simplify()."""
     run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
-    k, mass = run.report["eigenvectors"], run.report["mass"]
-    pairs = run.eigenpairs or ss.eigenpairs(mesh.vertlist, mesh.facelist, k, mass)
+    if len(run.used) != len(mesh.vertlist):
+        raise ValueError(
+            f"{len(run.used)} of {len(mesh.vertlist)} vertices take part, and a spectrum of pyFM has "
+            "a row for each: pass TriMesh(*run.part()), of run = simplify() with these options."
+        )
+    k, pairs = run.report["eigenvectors"], run.fine_eigenpairs
     mesh.W, mesh.A = pairs.L.tocsc(), pairs.M.tocsc()
     mesh.eigenvalues, mesh.eigenvectors = pairs.values[:k].copy(), pairs.vectors[:, :k].copy()
-    return trimesh(run.V, run.F, ss.eigenpairs(run.V, run.F, k, mass)), run
+    return trimesh(run.V, run.F, run.coarse_eigenpairs()), run
