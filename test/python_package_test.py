@@ -949,6 +949,21 @@ class Collections(Case):
         self.assertEqual([row.error for row in rows], [None, None])
         self.assertEqual([row.result.P.shape for row in rows], [(150, 642), (150, 645)])
         self.assertEqual(rows[1].result.report["output_vertices"], 150)
+        run, faces = rows[1].result, np.vstack([len(V) + np.arange(3), F[1:]])
+        for level in run, run.levels(300), run.apply(seam[0]):
+            np.testing.assert_allclose(np.asarray(level.Q.sum(axis=1)), 1)  # of merged ones, too
+            np.testing.assert_array_equal(level.Q[faces[0]].toarray(), level.Q[F[0]].toarray())
+        # Two spheres on one vertex: with files it is two, in arrays it cannot be.
+        touching = np.vstack([V, 2 * V[5] - np.delete(V, 5, 0)])
+        number = np.insert(np.arange(len(V), 2 * len(V) - 1), 5, 5)
+        touching = touching, np.vstack([F, number[F]])
+        ss.write_mesh(self.path("two.off"), *touching)
+        rows = ss.simplify_collection(
+            [self.path("two.off"), touching], 150, k=40, repair=True, progress=False
+        )
+        np.testing.assert_allclose(np.asarray(rows[0].result.Q.sum(axis=1)), 1)
+        self.assertEqual(len(np.unique(rows[0].result.used)), 2 * len(V))
+        self.assertRegex(rows[1].error, "repair separates sheets at vertex 5, .* pass V and F of")
         # A vertex without faces comes before what is left out by its number.
         crumb = 0.01 * V + [5, 5, 5]
         crumbs = np.vstack([[[9, 9, 9]], V, crumb]), np.vstack([F, F + len(V)]) + 1
@@ -1178,7 +1193,9 @@ class Command_line(Case):
         np.savetxt(self.path("halves"), [1.5, 2.5])
         np.savetxt(self.path("empty"), [])
         os.mkdir(self.path("folder.off"))
-        there = {"in.off", "halves", "empty", "folder.off"}
+        with open(self.path("quad.obj"), "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        there = {"in.off", "halves", "empty", "folder.off", "quad.obj"}
         for words, said in (
             (("none.off", "out.off", "--vertices", "150"), "none.off does not exist"),
             (("in.off", "out.off", "--vertices", "many"), "--vertices is many"),
@@ -1189,6 +1206,7 @@ class Command_line(Case):
             (("in.off", "out.off", "--vertices", "150", "--json", "none/a"), "none is no folder"),
             (("in.off", "folder.off", "--vertices", "150", "--map", "m"), "folder.off is a folder"),
             (("in.off", "out.off", "--vertices", "150", "--preset", "worst"), "invalid choice"),
+            (("quad.obj", "out.off", "--vertices", "4"), "must be a triangle: pass --repair"),
             (("in.off", "out.off", "--vertices", "150", "--keep", "halves"), "halves cannot be read"),
             (("in.off", "out.off", "--vertices", "150", "--mask", "empty"), "empty cannot be read"),
         ):

@@ -192,7 +192,7 @@ def _run(a: argparse.Namespace) -> None:
     V, F = read_mesh(a.IN, a.repair and own)
     cleaned = None
     if a.mask is None and a.keep is None and a.signals is None:
-        cleaned = clean(V, F, a.repair)
+        cleaned = clean(V, F, a.repair and not own)
     elif a.repair:
         raise ValueError(
             "--repair renumbers vertices, and --mask, --keep and --signals number those of IN: "
@@ -236,7 +236,9 @@ def _run(a: argparse.Namespace) -> None:
     if cleaned is not None and cleaned.changes:
         if not a.quiet:
             print(f"{a.IN}: {', '.join(cleaned.changes)}.", file=sys.stderr)
-        run = run._renumbered(V, cleaned.place, cleaned.origin)
+        is_one_to_one = len(numpy.unique(cleaned.origin)) == len(cleaned.origin)
+        if is_one_to_one or a.restriction or a.prolongation or a.map or a.save:
+            run = run._renumbered(V, cleaned.place, cleaned.origin)
     report = dict(run.report)
     if not a.no_evaluation:
         k = min(report["eigenvectors"], len(run.V))
@@ -304,7 +306,8 @@ def main() -> int:
     try:
         _run(_arguments().parse_args())
     except (ValueError, OSError, RuntimeError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        said = str(error).replace("repair=True", "--repair")  # as this command has it
+        print(f"error: {said}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130

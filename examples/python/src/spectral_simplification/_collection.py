@@ -79,11 +79,15 @@ class Collection_row(_Result):
         return f"<Collection_row: {self.name}, {self.error or f'{self.seconds:.1f} s'}>"
 
 
+def _of_own_format(mesh: Any) -> bool:
+    """Whether the file may hold polygons: then a repair is of the file, otherwise of its arrays."""
+    return isinstance(mesh, (str, os.PathLike)) and pathlib.Path(mesh).suffix.lower() in _OWN
+
+
 def _taken(mesh: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """V and F of an item, which may be a file's name. A repair is of the file where it may hold
-    polygons, otherwise left to clean()."""
+    """V and F of an item, which may be a file's name."""
     if isinstance(mesh, (str, os.PathLike)):
-        return read_mesh(mesh, repair and pathlib.Path(mesh).suffix.lower() in _OWN)
+        return read_mesh(mesh, repair and _of_own_format(mesh))
     if not isinstance(mesh, (tuple, list)) or len(mesh) != 2:
         raise _Wrong_type(
             f"a mesh is of the type {type(mesh).__name__}, it must be the name of a file or a "
@@ -100,7 +104,7 @@ def _one(mesh: Any, n: int, repair: bool, options: dict[str, Any]) -> Simplifica
         options.get(name) is not None for name in ("keep", "signals", "coefficients")
     ):
         return simplify(V, F, n, **options)  # these number the vertices as they come
-    cleaned = clean(V, F, repair)
+    cleaned = clean(V, F, repair and not _of_own_format(mesh))
     run = simplify(cleaned.V, cleaned.F, n, **options)
     return (
         run._renumbered(numpy.array(V, float), cleaned.place, cleaned.origin)
@@ -343,7 +347,8 @@ def simplify_collection(
     shared_connectivity : bool
         All meshes have the same faces, as poses of one figure: the results have one connectivity,
         too, and vertex i of them is in the same place. The merges are decided by the eigenvectors
-        of all, and each result is relocated for its own.
+        of all, and each result is relocated for its own, unless relocate is 'none'. Options that
+        are about one mesh, or leave out a part of it, are refused.
     repair : bool
         Does what --repair does to each mesh. Results of files are numbered as
         read_mesh(name, repair=True) numbers these.

@@ -218,7 +218,7 @@ def load(path: Any) -> Any:
 
     Returns
     -------
-    Simplification, Level, Eigenpairs, Fitted_operators, Evaluation, Match or Alignment
+    Simplification, Level, Eigenpairs, Fitted_operators or another result
         As it was saved.
 
     Raises
@@ -579,6 +579,7 @@ class Level(_Result):
     fine_F: numpy.ndarray
     _Q: scipy.sparse.csr_matrix | None
     _used: numpy.ndarray | None  # vertices of the input that have faces; None: all
+    _stays: numpy.ndarray | None = None  # for merged vertices of the input the one that stays
 
     @classmethod
     def _of(
@@ -616,8 +617,16 @@ class Level(_Result):
 
     def _renumbered(self, V: numpy.ndarray, place: numpy.ndarray, origin: numpy.ndarray):
         """The result numbered as the mesh that was cleaned: `place` and `origin` of clean()."""
+        numbers, times = numpy.unique(origin, return_counts=True)
+        if (times > 1).any():
+            raise ValueError(
+                f"repair separates sheets at vertex {numbers[times > 1][0]}, which becomes several: "
+                "pass V and F of clean(V, F, repair=True), which number the result."
+            )
         P = self.P.tocoo()
         vertex_map = numpy.where(place >= 0, self.vertex_map[place], -1)
+        everyone = numpy.arange(len(V))
+        stays = numpy.where(place >= 0, origin[place], everyone)
         state = dict(
             self._state(),
             P=scipy.sparse.csr_matrix((P.data, (P.row, origin[P.col])), (P.shape[0], len(V))),
@@ -625,6 +634,7 @@ class Level(_Result):
             fine_F=origin[self.fine_F],
             vertex_map=vertex_map,
             _used=origin[self.used],
+            _stays=stays if (stays != everyone).any() else None,
             _Q=None,
         )
         if "report" in state:
@@ -660,8 +670,8 @@ class Level(_Result):
     @property
     def Q(self) -> scipy.sparse.csr_matrix:
         """(v, n) csr_matrix, carries functions back: barycentric coordinates of the closest
-        points; rows of vertices that were left out are empty. Computed when it is first asked
-        for."""
+        points; rows of vertices that were left out are empty, those of merged ones are alike.
+        Computed when it is first asked for."""
         if self._Q is None:
             V, F = self.part()
             Q = _core.prolongation(dict(V=V, F=F, Vc=self.V, Fc=self.F, P=self._part_P()))
@@ -670,7 +680,7 @@ class Level(_Result):
                 Q = scipy.sparse.csr_matrix(
                     (Q.data, (self._used[Q.row], Q.col)), (len(self.fine_V), len(self.V))
                 )
-            self._Q = Q
+            self._Q = Q if self._stays is None else Q.tocsr()[self._stays]
         return self._Q
 
     @property
@@ -918,6 +928,7 @@ class Simplification(Level):
             self.fine_V,
             self.fine_F,
             self._used,
+            _stays=self._stays,
         )
 
     @property
@@ -1033,9 +1044,11 @@ class Simplification(Level):
             Afterwards moves the vertices so that the spectrum of this pose is kept, as
             relocate='sampled' of simplify() does. Eigenvalues need it.
         k : int, optional
-            How many eigenpairs of this pose relocation sees; as many as the run kept.
+            How many eigenpairs of this pose relocation sees; as many as the run kept. Not with
+            eigenpairs.
         eigenpairs : Eigenpairs, optional
-            Of the other pose in the mass of the run, rows as in `used`, to save the solve.
+            Of the other pose in the mass of the run, rows as in `used`, to save the solve: all of
+            them are seen.
         progress : function, optional
             As of simplify().
 
@@ -1098,7 +1111,7 @@ class Simplification(Level):
             )
             part_P = core["P"]
         core["P"], core["vertex_map"] = part_P, self.vertex_map[self.used]
-        return Level._of(core, V_other, self.fine_F, self._used)
+        return Level._of(core, V_other, self.fine_F, self._used, _stays=self._stays)
 
     def _check_pairs(self, eigenpairs: Eigenpairs, V, F) -> None:
         """Refuses eigenpairs that are not those of the mesh V, F in the mass of the run."""
