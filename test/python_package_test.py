@@ -886,10 +886,13 @@ class Poses(Case):
 
     def test_refusals(self):
         coarse = RUN.coarse_eigenpairs(40)
+        density = ss.weighted_coefficients(1 + V[:, 0] ** 2)
+        weighted = ss.simplify(V, F, 150, 40, coefficients=density)
         for words, call in (
             (r"V_other has the shape \(5, 3\)", lambda: RUN.apply(V[:5])),
             ("by is 'magic'", lambda: RUN.apply(V, "magic")),
             ("belong to relocate=True", lambda: RUN.apply(V, k=3)),
+            ("and the run has coefficients", lambda: weighted.apply(V, relocate=True)),
             ("are both given: leave out k", lambda: self.relocated(V, 40, k=40)),
             ("are of a mesh with the area .* those of this pose", lambda: self.relocated(2 * V, 40)),
             ("of the consistent mass, but the run", lambda: self.relocated(V, 40, "consistent")),

@@ -1069,6 +1069,11 @@ class Simplification(Level):
             raise ValueError("k and eigenpairs belong to relocate=True: leave them out.")
         if k is not None and eigenpairs is not None:
             raise ValueError("k and eigenpairs are both given: leave out k.")
+        if relocate and self._asked["coefficients"] is not None:
+            raise ValueError(
+                "relocate=True keeps the spectrum of the Laplacian, and the run has coefficients of "
+                "another operator: leave it out, or simplify V_other."
+            )
         V_other = _array("V_other", V_other)
         if V_other.shape != self.fine_V.shape:
             raise ValueError(
