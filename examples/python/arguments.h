@@ -136,9 +136,10 @@ public:
 
   bool flag(const char* name) const
   {
-    if(!py::isinstance<py::bool_>((*this)[name]))
+    py::detail::make_caster<bool> caster; // without conversions: True and False, NumPy's as well
+    if(!caster.load((*this)[name], false))
       must_be(name, "True or False", true);
-    return (*this)[name].cast<bool>();
+    return py::detail::cast_op<bool>(caster);
   }
 
   // One of the words, or nothing where the argument is None and may be.
@@ -238,9 +239,10 @@ public:
     }
     const auto values = array<std::int64_t>(name, 0, "vertex");
     // Zeros and ones, as many as vertices, are no indices.
-    if(values.size() == py::ssize_t(n) && n > 2 &&
-       std::all_of(values.data(), values.data() + values.size(),
-                   [](const std::int64_t v) { return v == 0 || v == 1; }))
+    py::ssize_t flags = 0; // counted by at(), as the array may have strides
+    while(flags < values.size() && (values.at(flags) == 0 || values.at(flags) == 1))
+      ++flags;
+    if(values.size() == py::ssize_t(n) && n > 2 && flags == values.size())
       refuse(std::string(name) + " has a 0 or a 1 for each vertex of " + of +
              ", but integers are indices: pass booleans, or " + name + ".nonzero()[0].");
     for(py::ssize_t i = 0; i < values.size(); ++i) {
