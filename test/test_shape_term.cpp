@@ -531,8 +531,8 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
   CHECK(Spectral_edge_collapse_options::fast(600).source ==
         SMS::Spectral_signal_source::filtered_noise);
   CHECK(Spectral_edge_collapse_options::fast(600).quadrics_above == 7);
-  CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 18000);
-  CHECK(Spectral_edge_collapse_options::fast(100).pre_simplify == 10000);
+  CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 10000);
+  CHECK(Spectral_edge_collapse_options::fast(1000).pre_simplify == 15000);
   CHECK(Spectral_options().shape == Spectral_options::best().shape);
   CHECK(paper.mass == SG::Mass::lumped);
   CHECK(paper.placement == Spectral_placement_strategy::on_edge);

@@ -133,7 +133,7 @@ struct Quadric_edge_collapse_result
  * works on arrays, takes three to nine microseconds for each vertex, and computes no eigenvectors.
  * No face turns by more than 78 degrees in a collapse, no needle appears where there was none, and
  * in the end no face goes through another, unless it did before; where that has to be looked after
- * it takes five times as long.
+ * it takes twice as long.
  *
  * @param mesh a triangle mesh without isolated vertices; changed in place, garbage is not collected
  * @param number_of_vertices the target, from 1 to the number of vertices. Where no edge is left

@@ -35,6 +35,7 @@ public:
     m_leaf.resize(n);
     std::iota(m_item.begin(), m_item.end(), 0u);
     std::vector<Eigen::Vector3d> centres;
+    centres.reserve(n);
     for(const Box& box : boxes)
       centres.push_back(box.isEmpty() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : box.center());
     halve(0, m_first_leaf, centres);

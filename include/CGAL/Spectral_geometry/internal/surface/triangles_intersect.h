@@ -81,39 +81,26 @@ inline bool triangles_intersect(Corners s, Corners t)
 /// Pairs of faces, the smaller index first, in ascending order.
 using Face_pairs = std::vector<std::pair<Eigen::Index, Eigen::Index>>;
 
-/// Whether `found(f, g)` is true for two faces f < g of the mesh (V, T) that meet in more than a
-/// common vertex or edge; looks no further then.
-template <class Positions, class Found>
-bool any_self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T, const Found& found)
-{
-  std::vector<Corners> faces;
-  std::vector<Box_tree::Box> boxes;
-  faces.reserve(std::size_t(T.rows()));
-  boxes.reserve(std::size_t(T.rows()));
-  for(Eigen::Index f = 0; f < T.rows(); ++f) {
-    faces.push_back(corners_of_face(V, T.row(f)));
-    boxes.push_back(box_of(faces.back()));
-  }
-  Box_tree tree;
-  tree.build(boxes);
-  for(std::size_t f = 0; f < faces.size(); ++f)
-    if(tree.any(boxes[f], [&](const std::size_t g) {
-         return f < g && triangles_intersect(faces[f], faces[g]) &&
-                found(Eigen::Index(f), Eigen::Index(g));
-       }))
-      return true;
-  return false;
-}
-
-/// All such pairs, in ascending order.
+/// All pairs of faces of the mesh (V, T) that meet in more than a common vertex or edge.
 template <class Positions>
 Face_pairs self_intersecting_faces(const Positions& V, const Eigen::MatrixXi& T)
 {
+  std::vector<Box_tree::Box> boxes;
+  boxes.reserve(std::size_t(T.rows()));
+  for(Eigen::Index f = 0; f < T.rows(); ++f)
+    boxes.push_back(box_of(corners_of_face(V, T.row(f))));
+  Box_tree tree;
+  tree.build(boxes);
   Face_pairs pairs;
-  any_self_intersecting_faces(V, T, [&](const Eigen::Index f, const Eigen::Index g) {
-    pairs.emplace_back(f, g);
-    return false;
-  });
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    const Corners face = corners_of_face(V, T.row(f));
+    tree.any(boxes[std::size_t(f)], [&](const std::size_t item) {
+      const Eigen::Index g = Eigen::Index(item);
+      if(f < g && triangles_intersect(face, corners_of_face(V, T.row(g))))
+        pairs.emplace_back(f, g);
+      return false;
+    });
+  }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
