@@ -231,6 +231,15 @@ TEST_CASE("Constants pass a filter, one for each component, and have no Laplacia
   }
 }
 
+TEST_CASE("The cut-off lies above the zeros, however many components there are")
+{
+  const int copies = GENERATE(3, 19, 30, 60);
+  const Laplace_operator op =
+      laplace(shapes::components_matrices(shapes::tetrahedron_matrices(), copies));
+  const Filtered_signals signals = filtered(op, copies / 3);
+  CHECK(signals.below > copies);
+}
+
 TEST_CASE("Filtered signals vanish where the Dirichlet condition holds")
 {
   const shapes::Matrices grid = shapes::irregular_grid_matrices(15, 12);

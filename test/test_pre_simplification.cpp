@@ -521,7 +521,15 @@ TEST_CASE("A run that is cancelled while quadrics come first leaves the mesh as 
 
 TEST_CASE("Quadrics put no face through another, and would without the guard")
 {
-  const shapes::Matrices input = shapes::thin_bowl_matrices(4);
+  shapes::Matrices input = shapes::thin_bowl_matrices(4);
+  if(GENERATE(false, true)) { // a part that nothing comes near
+    const shapes::Matrices other = shapes::bumpy_icosphere_matrices(4);
+    const Eigen::Index n = input.V.rows(), m = input.T.rows();
+    input.V.conservativeResize(n + other.V.rows(), 3);
+    input.T.conservativeResize(m + other.T.rows(), 3);
+    input.V.bottomRows(other.V.rows()) = other.V.rowwise() + Eigen::RowVector3d(10, 0, 0);
+    input.T.bottomRows(other.T.rows()) = other.T.array() + int(n);
+  }
   REQUIRE(SG::internal::self_intersecting_faces(input.V, input.T).empty());
   const std::size_t N = GENERATE(60, 150);
   const auto crossings = [&](const bool guarded) {

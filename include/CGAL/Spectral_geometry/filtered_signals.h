@@ -391,9 +391,10 @@ Filtered_signals filtered_signals(const Laplace_operator& op, Eigen::Index K,
   problem.check(K);
   internal::check_dominance(op.B);
   problem.report(0.);
-  // With constants alone there is no scale.
+  // With constants alone there is no scale; of many the tolerance of the count is more than one.
   const Eigen::Index zeros = number_of_zero_eigenvalues(op);
-  const Eigen::Index counted = (std::min)((std::max)(K, zeros + 1), problem.size() - op.vanishing);
+  const Eigen::Index counted =
+      (std::min)((std::max)(K, zeros + 1 + zeros / 19), problem.size() - op.vanishing);
   Filtered_signals result = internal::Noise_filter(op, problem, counted, options).compute(counted);
   problem.report(1.);
   return result;
