@@ -44,7 +44,7 @@ inline Command_line described(Arguments& a)
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep, the constant one included; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "fast", "paper"},
-              "best keeps the spectrum best; fast is for N below a two-hundredth of INPUT; paper: "
+              "best keeps the spectrum best; fast takes less than half of the time; paper: "
               "P follows the "
               "collapses, and the mass is diagonal");
 
