@@ -98,15 +98,14 @@ void keep_rows(Eigen::SparseMatrix<double>& own, const Eigen::SparseMatrix<doubl
 /// Eigenpairs that judge a relocation by filtered noise, which goes up to fewer modes than |C|_L is
 /// made of and is off by its variance where there are few. In 386 runs of *fast*, 4 to 350 vertices
 /// for 5 to 100 eigenvectors, |C|_L rose in 94 without them, to 1.5 times at most. Null: many
-/// vertices and many eigenvectors, where it did not rise, or where they would take longer than the
-/// run.
+/// vertices and many eigenvectors, where it did not rise.
 template <class State>
 std::shared_ptr<const Spectral_geometry::Eigenpairs>
 judging_eigenpairs(const State& state, const Spectral_options& options, const Eigen::Index vertices,
                    const Spectral_geometry::Relocation_options& relocation)
 {
   const Eigen::Index K = options.number_of_eigenvectors;
-  if((std::min)(K, vertices) > 100 || (K > 32 && vertices >= 2 * K))
+  if(K > 32 && vertices >= 2 * K)
     return nullptr;
   const Spectral_geometry::Laplace_operator op =
       operator_of_basis(state.fine().V, state.fine().T, options);
