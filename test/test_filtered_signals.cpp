@@ -235,7 +235,7 @@ TEST_CASE("The cut-off comes to the first eigenvalue above the zeros, of however
 {
   const int copies = GENERATE(3, 19, 30, 60);
   const Laplace_operator op =
-      laplace(shapes::components_matrices(shapes::tetrahedron_matrices(), copies));
+      laplace(shapes::components_matrices(shapes::bumpy_icosphere_matrices(1), copies));
   const Filtered_signals signals = filtered(op, copies / 3);
   // known to 5 %, from above or below
   CHECK(signals.cutoff > 0.95 * SG::eigenpairs(op, copies + 1).values[copies]);

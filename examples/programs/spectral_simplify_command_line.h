@@ -44,7 +44,7 @@ inline Command_line described(Arguments& a)
   line.option("eigenvectors", a.eigenvectors, "K",
               "how many to keep, the constant one included; best N >= 3 K");
   line.choice("preset", a.preset, {"best", "fast", "paper"},
-              "best keeps the spectrum best; fast takes less than half of the time; paper: "
+              "best keeps the spectrum best; fast takes half of the time on large meshes; paper: "
               "P follows the "
               "collapses, and the mass is diagonal");
 

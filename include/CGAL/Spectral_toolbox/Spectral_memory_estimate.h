@@ -52,7 +52,8 @@ inline double memory_of_eigenpairs(const double n, const double K,
  *
  * With `Spectral_edge_collapse_options::pre_simplify` both phases see the reduced mesh, and the
  * first stage takes a number of bytes per vertex of the input that does not depend on K. What
- * `quadrics_above` saves in the loop is not subtracted.
+ * `quadrics_above` saves in the loop is not subtracted, and eigenpairs that judge the relocation of
+ * `fast()` below 2 K vertices are not added.
  *
  * The shape term keeps a quadric for each vertex,
  * `Spectral_options::keep_free_of_self_intersections` a tree of boxes.

@@ -31,7 +31,7 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// target, but not below 10,000 vertices, and signals of filtered noise are made there; quadrics
   /// go on to 7 times the target. Relocation sees 64 of the signals and takes 28 steps at most.
   /// With 30 times and 40 steps a run from 50,000 vertices took 1.5 times as long and |C|_L was
-  /// 0.93 times as large in the mean, on human figures 0.85 times. Where K is at most 32, or N
+  /// 0.93 times as large in the mean, on human figures 0.8 times. Where K is at most 32, or N
   /// below 2 K, eigenpairs judge the relocation: noise alone would let |C|_L rise there. E and the
   /// relative error are estimates; signals or eigenpairs cannot be given, and it takes neither
   /// filter nor visitor.

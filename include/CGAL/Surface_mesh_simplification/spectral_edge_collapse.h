@@ -142,16 +142,18 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
   const std::size_t n = state.number_of_vertices();
   if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
      !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value ||
-     !quadrics_come_first(options) || !(double(n) > options.quadrics_above * double(target)))
+     !quadrics_come_first(options))
+    return;
+  // One collapse at least is left to the loop: a run that is cancelled before it ends above the
+  // target.
+  const double end = (std::max)(std::floor(options.quadrics_above * double(target)), target + 1.);
+  if(!(double(n) > end))
     return;
   Real_timer timer;
   timer.start();
-  // One collapse at least is left to the loop: a run that is cancelled before it ends above the
-  // target.
-  const std::size_t end =
-      (std::max)(std::size_t(options.quadrics_above * double(target)), target + 1);
-  state.collapse_by_others(
-      [&] { return collapse_by_quadrics(mesh, n, end, state.core().fields().kept, options, np); });
+  state.collapse_by_others([&] {
+    return collapse_by_quadrics(mesh, n, std::size_t(end), state.core().fields().kept, options, np);
+  });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();
 }

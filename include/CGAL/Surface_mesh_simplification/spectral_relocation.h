@@ -133,6 +133,8 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
   const Run_signals signals(state, options);
   relocation.modes = signals.modes();
   relocation.threads = (std::max)(relocation.threads, options.threads);
+  if(relocation.cancel == nullptr)
+    relocation.cancel = options.cancel;
   const std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs =
       state.filtered_signals() != nullptr && relocation.eigenpairs == nullptr
           ? judging_eigenpairs(state, options, P.rows(), relocation)
@@ -296,8 +298,6 @@ spectral_relocation(TriangleMesh& mesh,
                     "spectral_relocation: the restriction that it takes anew is not binary; set "
                     "signals to carried.");
   Spectral_geometry::Relocation_options relocation = options;
-  if(relocation.cancel == nullptr)
-    relocation.cancel = state.options().cancel;
   if(!relocation.progress)
     relocation.progress = [&state](const double fraction) {
       return state.report(Spectral_geometry::Phase::relocation, fraction);

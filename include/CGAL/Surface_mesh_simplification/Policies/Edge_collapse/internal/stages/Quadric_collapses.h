@@ -178,7 +178,8 @@ private:
 class Quadric_collapser
 {
 public:
-  /// `watched`: a flag for each vertex around which no triangle may go through another.
+  /// `watched`: a flag for each vertex around which no triangle may go through another; empty:
+  /// none.
   Quadric_collapser(Triangle_arrays mesh, std::vector<char> watched)
     : m_origin(offset_of(mesh.V))
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
@@ -200,7 +201,7 @@ public:
     m_mark.assign(n, 0);
     for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
       add_corner(c);
-    if(std::count(m_watched.begin(), m_watched.end(), true) != 0)
+    if(!m_watched.empty())
       m_crossing.set_geometry(m_points, Watched_fans{*this});
   }
 
@@ -241,7 +242,7 @@ public:
   Collapse_log take_log() { return std::move(m_log); }
 
   /// Flags the vertices of the input that have become those of faces that intersect, or neighbours
-  /// of these. Returns whether one that is now of such a face had no flag.
+  /// of these. Returns whether one that is now of such a face was not watched by this run.
   bool watch_intersections(std::vector<char>& watched) const
   {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
@@ -253,7 +254,7 @@ public:
         T.row(faces++) << m_mesh.vertex[c], m_mesh.vertex[c + 1], m_mesh.vertex[c + 2];
     T.conservativeResize(faces, 3);
     enum : char { apart, beside, of_face };
-    std::vector<char> place(watched.size(), apart);
+    std::vector<char> place(m_points.size(), apart);
     for(const auto& [f, g] : Spectral_geometry::internal::self_intersecting_faces(V, T))
       for(const Eigen::Index face : {f, g})
         for(const int v : T.row(face)) {
@@ -263,8 +264,9 @@ public:
     const auto& merges = m_log.forest().merges();
     for(auto m = merges.rbegin(); m != merges.rend(); ++m)
       place[m->removed] = place[m->kept];
+    watched.resize(place.size(), false);
     bool result = false;
-    for(std::size_t v = 0; v < watched.size(); ++v) {
+    for(std::size_t v = 0; v < place.size(); ++v) {
       result = result || (place[v] == of_face && !watched[v]);
       watched[v] = watched[v] || place[v] != apart;
     }
@@ -405,7 +407,7 @@ private:
     }
     if(m_degree[u] + m_degree[v] > m_largest_degree || !keeps_manifold(c) ||
        !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
-       ((m_watched[u] || m_watched[v]) &&
+       (!m_watched.empty() && (m_watched[u] || m_watched[v]) &&
         m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x))) {
       m_state[c] = refused;
       m_refused.push_back(c);
@@ -543,6 +545,12 @@ private:
       reconsider(h);
       reconsider(previous(h));
     }
+    if(!m_watched.empty())
+      follow_crossings(gone, kept);
+  }
+
+  void follow_crossings(const int gone, const int kept)
+  {
     m_watched[kept] = m_watched[kept] || m_watched[gone];
     bool near = m_watched[kept];
     for_neighbours(kept, [&](const int w) { near = near || m_watched[w]; });
@@ -593,7 +601,7 @@ private:
   int m_marks = 0;
   std::vector<int> m_state; // of each halfedge
   std::vector<int> m_refused, m_ring;
-  std::vector<char> m_watched; // of each vertex
+  std::vector<char> m_watched; // of each vertex, or nothing
   // Hubs come last: to look at one takes as long as it has neighbours.
   int m_largest_degree = 200;
   Spectral_crossing_guard m_crossing;
@@ -612,7 +620,7 @@ Collapse_log quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_sel
     least = (std::min)(least, left);
     progress(least);
   };
-  std::vector<char> watched(n, false);
+  std::vector<char> watched;
   for(int round = 0;; ++round) {
     if(round == 4)
       watched.assign(n, true);

@@ -35,7 +35,7 @@ struct Pre_simplification
 
 /// Throws for what would otherwise be found out after the mesh has changed.
 inline void check_pre_simplification(const Spectral_edge_collapse_options& options,
-                                     const std::size_t n, const std::size_t target)
+                                     const std::size_t target)
 {
   require(options.pre_simplify >= target, "Spectral_edge_collapse_options: pre_simplify is ",
           options.pre_simplify, ", less than the target of ", target,
@@ -48,7 +48,6 @@ inline void check_pre_simplification(const Spectral_edge_collapse_options& optio
           "Spectral_edge_collapse_options: pre_simplify is ", options.pre_simplify, ", but ",
           options.number_of_eigenvectors,
           " eigenvectors are asked for; use a number of vertices above that.");
-  check_spectral_options(options, Eigen::Index(n));
   spectral_weights(options, options.number_of_eigenvectors);
   Spectral_geometry::internal::check_eigenpairs_options(options.eigenpairs_options,
                                                         options.number_of_eigenvectors);
@@ -63,7 +62,7 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t 
                      const NamedParameters& np)
 {
   const auto report = [&](const std::size_t left) {
-    const double fraction = double(n - left) / double((std::max)(n - target, std::size_t(1)));
+    const double fraction = double(n - left) / double(n - target);
     Spectral_geometry::internal::report_to(
         options, {Spectral_geometry::Phase::pre_simplification, fraction, left});
   };
@@ -89,7 +88,7 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
           "given; "
           "leave one of the two out, or simplify by edge_collapse() with a cheap cost and a "
           "Restriction_visitor first.");
-  check_pre_simplification(options, n, target);
+  check_pre_simplification(options, target);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
   std::tie(result.log, result.slots) =
       collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
@@ -202,8 +201,6 @@ private:
                    " one it bends the shape to cancel the error of the elements."));
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
     relocation.progress = reporting(Spectral_geometry::Phase::relocation);
-    if(relocation.cancel == nullptr)
-      relocation.cancel = m_options.cancel;
     const auto points = m_state.vertex_point_map();
     std::vector<typename Policies::State::Point> before;
     for(const auto v : vertices(m_mesh))
