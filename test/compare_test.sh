@@ -70,6 +70,8 @@ done
 grep -q '"span_loss": null' operator.json || fail "an operator has a span loss, without a way back to the mesh"
 runs "anybody's mesh without P" shape.off --rival x=coarse.off --eigenvectors 20 --judge averaged
 refuses "P of another mesh" "coarse x fine" coarse.off --rival x=coarse.off,P.mtx --eigenvectors 5
+awk '/^%/ || sized++ == 0 { print; next } { print $1, $2, $3 / 2 }' P.mtx >half.mtx
+refuses "P that halves constants" "half.mtx: row 0 .* sums to 0.5" shape.off --rival x=coarse.off,half.mtx --eigenvectors 5
 
 # No input is replaced, whatever it is read for.
 set -- shape.off --rival x=coarse.off,P.mtx --eigenvectors 20 --judge lumped

@@ -219,6 +219,8 @@ TEST_CASE("meshes without a row that strays keep their closest points")
             .norm() < 1e-12);
   CHECK_THROWS_WITH(SG::closest_point_prolongation(coarse, fine, plain),
                     ContainsSubstring("coarse x fine"));
+  CHECK_THROWS_WITH(SG::rows_off_their_part(coarse, fine, Sparse(plain.rows(), plain.cols())),
+                    ContainsSubstring("row 0 (counted from 0) of P sums to 0"));
 }
 
 TEST_CASE("a fine surface in unwelded patches tears no edge of the coarse mesh")

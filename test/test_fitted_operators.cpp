@@ -511,7 +511,7 @@ TEST_CASE("What cannot be fitted is refused in one sentence", "[fitted_operators
   p.coarse.L.coeffRef(2, 2) = nan;
   refused("entry 2, 2 (counted from 0) of the coarse L");
   p.P.coeffRef(7, 7) = nan;
-  refused("entry 7, 7 (counted from 0) of P");
+  refused("row 7 (counted from 0) of P sums to nan");
   p.fine.mass *= -1.;
   refused("area of the fine mesh");
   Operator_fit_options options;

@@ -582,7 +582,17 @@ TEST_CASE("relocation refuses indices, numbers and eigenpairs that cannot be use
   Eigen::MatrixXd F = s.F();
   F(2, 1) = std::nan("");
   refused("not a finite number", s.coarse, s.fine, F, s.P);
-  refused("not a finite number", s.coarse, s.fine, s.F(), std::nan("") * s.P);
+  refused("row 0 (counted from 0) of P sums to nan", s.coarse, s.fine, s.F(), std::nan("") * s.P);
+  refused("sums to 0.500000 and not to 1", s.coarse, s.fine, s.F(), 0.5 * s.P);
+
+  {
+    Eigen::MatrixXd V = s.coarse.V;
+    SG::Relocation_options options;
+    options.modes = (std::numeric_limits<Eigen::Index>::max)();
+    CHECK_THROWS_WITH(
+        SG::relocate_positions(V, s.coarse.T, s.P, s.fine, s.F(), s.Z(), 0.5, {}, options),
+        ContainsSubstring("where the fine mesh has"));
+  }
 
   Mesh mesh = make_mesh(s.coarse);
   SG::Eigenpairs pairs = s.pairs;

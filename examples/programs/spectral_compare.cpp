@@ -396,9 +396,12 @@ private:
       Input_mesh input = read(rival.mesh);
       result.coarse.mesh = std::move(input.mesh);
       result.row.vertices = result.coarse.mesh.number_of_vertices();
-      if(!rival.restriction.empty())
+      if(!rival.restriction.empty()) {
         result.coarse.carried = input.numbering.rows_of_mesh(
             given_restriction(rival.restriction, input.numbering.number_of_file_vertices()));
+        SG::internal::check_rows_of_restriction((rival.restriction + ": ").c_str(),
+                                                *result.coarse.carried);
+      }
     } else {
       result.candidate.op = given_operator(rival);
       result.row.vertices = static_cast<std::size_t>(result.candidate.op.L.rows());

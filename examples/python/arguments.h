@@ -198,8 +198,11 @@ public:
     constexpr bool real = std::is_floating_point<Number>::value;
     const std::string kinds = real ? "fiu" : "iu", label = name;
     py::array array;
+    const py::module_ numpy = py::module_::import("numpy");
     try {
-      array = py::module_::import("numpy").attr("asarray")((*this)[name]);
+      if(numpy.attr("ma").attr("is_masked")((*this)[name]).template cast<bool>())
+        refuse(label + " has masked entries: fill them, or leave them out.");
+      array = numpy.attr("asarray")((*this)[name]);
     } catch(const py::error_already_set& error) {
       if(!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError))
         throw;
@@ -215,9 +218,12 @@ public:
               : columns < 0 ? "(n, k)"
                             : "(n, " + to_string(columns) + ")") +
              ", one row for each " + rows_of + ".");
-    if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real)
-      return py::array_t<Number>(
-          py::array(array.attr("astype")("int64", py::arg("casting") = "unsafe")));
+    if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real) {
+      const py::object signed_values = array.attr("astype")("int64", py::arg("casting") = "unsafe");
+      if((signed_values < py::int_(0)).attr("any")().template cast<bool>())
+        refuse(label + " has a number above 9223372036854775807, which is no index.");
+      return py::array_t<Number>(py::array(signed_values));
+    }
     return py::array_t<Number>(array);
   }
 

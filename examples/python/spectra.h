@@ -361,8 +361,12 @@ inline Eigen::MatrixXd weighted_coefficients(const Arguments& a)
   if(!a.has("density") && !a.has("conductivity"))
     refuse("density and conductivity are None: give one of them.");
   const auto values = [&](const char* name) {
-    return a.has(name) ? a.array<double>(name, 0, "vertex").template cast<Eigen::VectorXd>()
-                       : Eigen::VectorXd();
+    if(!a.has(name))
+      return Eigen::VectorXd();
+    const auto given = a.array<double>(name, 0, "vertex").template cast<Eigen::VectorXd>();
+    if(given.size() == 0)
+      refuse(std::string(name) + " is empty: give one number for each vertex, or None.");
+    return given;
   };
   return SG::weighted_coefficients(values("density"), values("conductivity"));
 }

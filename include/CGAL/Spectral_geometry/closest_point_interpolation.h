@@ -65,7 +65,7 @@ vertex whose row of P is nearest on the fine surface.
 vertices in a component where it has no entry are looked for everywhere.
 
 Throws `std::invalid_argument` for what `closest_point_interpolation()` refuses, and a P of another
-size.
+size or with a row that does not sum to 1.
 */
 CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::SparseMatrix<double>
 closest_point_prolongation(const Mesh_matrices& fine, const Mesh_matrices& coarse,
@@ -124,6 +124,7 @@ inline void check_pair(const Mesh_matrices& coarse, const Mesh_matrices& fine,
   require(P.rows() == coarse.V.rows() && P.cols() == fine.V.rows(), who, "P is ", size_name(P),
           " where ", coarse.V.rows(), " x ", fine.V.rows(),
           " is needed, coarse x fine; pass matrices that belong together.");
+  check_rows_of_restriction(who, P);
 }
 
 } // namespace internal

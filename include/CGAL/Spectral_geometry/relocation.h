@@ -560,20 +560,15 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Relocation_result relocate_positions(
     const Local_operator& op, const std::vector<bool>& fixed, const Relocation_options& options)
 {
   using internal::require;
-  require(P.rows() == V.rows() && P.cols() == fine.V.rows(), "relocation: P is ",
-          internal::size_name(P), " where ", V.rows(), " x ", fine.V.rows(),
-          " is needed, coarse x fine; pass matrices that belong together.");
+  internal::check_pair({V, T}, fine, P, "relocation: ");
   require(F.rows() == P.cols() && Z.rows() == P.cols() && Z.cols() == F.cols() && F.cols() > 0,
           "relocation: F is ", internal::size_name(F), " and Z ", internal::size_name(Z),
           "; pass two matrices with one row for each of the ", P.cols(),
           " fine vertices and one column for each signal.");
-  for(Eigen::Index v = 0; v < V.rows(); ++v)
-    require(V.row(v).allFinite(), "relocation: ", internal::vertex_name(v),
-            " has a coordinate that is not a finite number; repair it.");
-  internal::check_surface({V, T}, "relocation: ", "coarse mesh");
-  internal::check_surface(fine, "relocation: ", "fine mesh");
-  require((P * Eigen::VectorXd::Ones(P.cols())).allFinite() && F.allFinite() && Z.allFinite(),
-          "relocation: P, F or Z has an entry that is not a finite number; correct it.");
+  require(F.allFinite() && Z.allFinite(),
+          "relocation: F or Z has an entry that is not a finite number; correct it.");
+  require(options.modes <= P.cols(), "relocation: modes is ", options.modes,
+          " where the fine mesh has ", P.cols(), " vertices; pass K, or 0.");
   require(options.eigenpairs == nullptr || options.eigenpairs->vectors.rows() == P.cols(),
           "relocation: the eigenpairs are not of the fine mesh, which has ", P.cols(),
           " vertices.");

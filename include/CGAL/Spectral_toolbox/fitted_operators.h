@@ -693,7 +693,7 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
         require(std::isfinite(it.value()), "operator fit: entry ", it.row(), ", ", it.col(),
                 " (counted from 0) of ", name, " is not a finite number.");
   };
-  check_entries(P, "P");
+  check_rows_of_restriction("operator fit: ", P);
   check_entries(coarse.L, "the coarse L");
   check_entries(coarse.B, "the coarse B");
 }

@@ -7,10 +7,12 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -63,6 +65,19 @@ template <class Matrix>
 auto size_name(const Matrix& M)
 {
   return [&M] { return std::to_string(M.rows()) + " x " + std::to_string(M.cols()); };
+}
+
+/// Refuses a restriction that does not keep constants, up to what is lost in a file of text.
+template <class Restriction>
+void check_rows_of_restriction(const char* const who, const Restriction& P)
+{
+  std::vector<double> sums(std::size_t(P.rows()), 0.);
+  for(std::ptrdiff_t v = 0; v < P.outerSize(); ++v)
+    for(typename Restriction::InnerIterator it(P, v); it; ++it)
+      sums[std::size_t(it.row())] += it.value();
+  for(std::size_t i = 0; i < sums.size(); ++i)
+    require(std::abs(sums[i] - 1.) <= 1e-3, who, "row ", i, " (counted from 0) of P sums to ",
+            sums[i], " and not to 1; pass the P of a run, or of closest_point_restriction().");
 }
 
 /// One size of matrices from which functional maps are made, or of such a map.
