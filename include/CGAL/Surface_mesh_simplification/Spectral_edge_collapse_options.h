@@ -72,9 +72,9 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
   /// quadrics of `shape` alone, as with `pre_simplify`, but F, Z and P follow: eigenpairs,
-  /// relocation and the error are about the input. Few collapses decide what the
-  /// result is like, the last; on a dozen meshes the norms were the same in the mean, and a mesh of
-  /// 80 N took half the time. From 1; infinite: never. It is passed over, for every collapse to be
+  /// relocation and the error are about the input. The last few collapses decide
+  /// the quality: on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took
+  /// half the time. From 1; infinite: never. It is passed over, for every collapse to be
   /// that of the metric, where it could not be what was asked for: without `shape`, with another
   /// `placement` than `free`, with `coefficients`, `binary`, `preserve_border`, the Dirichlet
   /// condition or `maximum_error`, with a filter or a visitor. Levels of

@@ -76,7 +76,7 @@ struct Spectral_edge_collapse_result
   /// without
   std::size_t pre_simplified_vertices = 0;
   /// of the input (of the pre-simplified mesh, if it was) at its own scale, to simplify it again;
-  /// null with signals of the user's
+  /// null with signals of the user's or of filtered noise
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 
   /// the reason in words

@@ -23,7 +23,7 @@ What the descent is told of coarse eigenvalues \f$ \widetilde\lambda_k \f$, all 
 With eigenvalues of the fine mesh, the weighted mean square of their relative errors \f$ e_k =
 \widetilde\lambda_k / \lambda_k - 1 \f$
 \f[ \frac{1}{\epsilon^2} \sum_{k \le K} w_k e_k^2 \Big/ \sum_{k \le K} w_k, \qquad
-   w_k = 1 + 50 \lambda_1 / \lambda_k. \f]
+   w_k = 1 + 50 \lambda_2 / \lambda_k. \f]
 E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as many modes take part
 as a sixth of the vertices: linear elements hardly have the others.
 

@@ -91,9 +91,9 @@ struct Spectral_options : Spectral_geometry::Run_control
   /// signals themselves. E is a squared norm of something linear in the signals, so mixtures
   /// estimate it without bias, with a relative standard deviation of at most sqrt(2 / r). The order
   /// of the collapses needs no more, and costs do not depend on K. No more than r signals are never
-  /// mixed. Multiples of 16 are free of padding. With 16, 32 and all 100 eigenvectors |C|_L after
-  /// relocation was 1.08, 1.02 and 1.01 times that of all 100 in version 0.2 (geometric means of
-  /// twelve meshes). Not negative.
+  /// mixed. Multiples of 16 are free of padding. |C|_L after relocation was 1.08 times that of
+  /// version 0.2 with 16, 1.02 with 32, and 1.01 with all 100 eigenvectors, which version 0.2 saw
+  /// (geometric means of twelve meshes). Not negative.
   Eigen::Index number_of_mixtures = 32;
 
   /// Which mixtures, or which noise. The same seed gives the same result everywhere.
@@ -130,7 +130,7 @@ struct Spectral_options : Spectral_geometry::Run_control
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's;
   /// `averaged`, the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within
-  /// 1-2 %; `voronoi` is that of Meyer et al. 2003; `consistent` is that of finite elements.
+  /// half a per cent; `voronoi` is that of Meyer et al. 2003, `consistent` that of finite elements.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
   /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of
@@ -192,10 +192,10 @@ struct Spectral_options : Spectral_geometry::Run_control
 };
 
 /// `Spectral_options::weights` for a target of N vertices. From 3 K vertices on all K eigenvectors
-/// have the weight 1 (section
-/// 4.3 of the paper), below only N / 4 after the `zeros` first: one of eigenvalue 0 for each
-/// component. There the upper modes cannot be had, and those who ask for them lose the lower ones
-/// with them: whole limbs, which carry few modes, are given up.
+/// have the weight 1 (section 4.3 of the paper). Below, the `zeros` first have it, one of
+/// eigenvalue 0 for each component, and N / 4 after them. There the upper modes cannot be kept.
+/// A metric that sees them loses the lower ones, too: it gives up whole limbs, which carry few
+/// modes.
 inline Eigen::VectorXd weights_for_target(const std::size_t number_of_vertices,
                                           const Eigen::Index K, const Eigen::Index zeros = 1)
 {

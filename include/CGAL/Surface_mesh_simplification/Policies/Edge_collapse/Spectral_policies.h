@@ -175,8 +175,8 @@ public:
                                                          restriction());
   }
 
-  /// The eigenpairs of the input, at its own scale; null when signals were given. Put them into
-  /// `Spectral_options::eigenpairs` to simplify the same input again.
+  /// The eigenpairs of the input, at its own scale; null with signals of the user's or of filtered
+  /// noise. Put them into `Spectral_options::eigenpairs` to simplify the same input again.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const
   {
     return state().eigenpairs();
