@@ -143,6 +143,21 @@ class Results_live(Case):
                 RUN.save(self.path("run.npz"))
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_who_writes_at_the_same_time(self):
+        os.symlink("real.npz", self.path("run.npz"))
+
+        def save(_):
+            for _ in range(5):
+                RUN.save(self.path("run.npz"))
+                ss.load(self.path("run.npz"))
+
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            list(pool.map(save, range(3)))
+        self.assertEqual(set(os.listdir(self.folder)), {"run.npz", "real.npz"})
+        mask = os.umask(0)
+        os.umask(mask)
+        self.assertEqual(os.stat(self.path("run.npz")).st_mode & 0o777, 0o666 & ~mask)
+
     def test_other_files_are_refused(self):
         np.savez(self.path("other.npz"), a=np.ones(3))
         np.savez(self.path("list.npz"), spectral_simplification=np.array("[1, 2]"))
@@ -306,6 +321,11 @@ class Careless_calls(Case):
             ("drop_debris is of the type ndarray", lambda: ss.simplify(V, F, 100, drop_debris=V)),
             ("mask has the shape .641,.", lambda: ss.simplify(V, F, 100, mask=flags[1:])),
             ("mask has the dtype", lambda: ss.simplify(V, F, 100, mask="cortex")),
+            ("mask is not an array", lambda: ss.simplify(V, F, 100, mask=[[True], [True, False]])),
+            ("keep is not an array", lambda: ss.simplify(V, F, 100, keep=[[1], [2, 3]])),
+            ("keep is not an", lambda: ss.simplify(V, F, 100, keep=["border", [[1], [2, 3]]])),
+            ("mask has masked", lambda: ss.simplify(V, F, 100, mask=np.ma.masked_equal(flags, 1))),
+            ("V_other has masked entries: fill", lambda: RUN.apply(np.ma.masked_less(V, 0))),
             ("eigenpairs is of the type tuple", lambda: ss.simplify(V, F, 100, eigenpairs=(1, 2))),
             ("keep has 'boundary'", lambda: ss.simplify(V, F, 100, keep="boundary")),
             ("coefficients has the shape", lambda: ss.simplify(V, F, 100, coefficients=V[:, 0])),
@@ -346,8 +366,11 @@ class Careless_calls(Case):
             ("k is 'x'", lambda: ss.lift_point_map(np.arange(150), RUN, RUN, "x")),
             ("V_other has the dtype", lambda: RUN.apply("pial.gii")),
             ("V_other is not an array", lambda: RUN.apply((V, F))),
+            ("threads is 0, it must be", lambda: RUN.apply(V, relocate=True, threads=0)),
             ("values has the shape .150, 3.", lambda: RUN.average(RUN.V)),
             ("labels has the dtype float64", lambda: RUN.transfer_labels(V[:, 0])),
+            ("labels is not an array", lambda: RUN.transfer_labels([[1], [1, 2]])),
+            (".* is a folder: give the name of a file", lambda: RUN.save(self.folder)),
             ("n is 5, it must be", lambda: RUN.levels(5)),
             ("k is of the type ndarray", lambda: RUN.coarse_eigenpairs(V, "fitted")),
             ("mass is '', it must be 'lumped'", lambda: RUN.coarse_eigenpairs(5, "")),
@@ -367,6 +390,7 @@ class Careless_calls(Case):
             (r"F has the shape \(0, 3\)", lambda: ss.write_mesh(self.path("a.off"), V, F[:0])),
             (r"V\[3\] is not finite", lambda: ss.write_mesh(self.path("a.off"), hole, F)),
             ("path is of the type NoneType", lambda: ss.load(None)),
+            ("path is empty, it must be", lambda: RUN.save("")),
             ("repair is 'yes'", lambda: ss.clean(V, F, "yes")),
             ("n is 'x', it must be an integer", lambda: ss.simplify_collection([(V, F)], "x")),
             ("n is True, it must be an integer", lambda: ss.simplify_collection([(V, F)], True)),
@@ -380,9 +404,11 @@ class Careless_calls(Case):
             if "unexpected keyword" not in sentence:  # Python's own
                 self.assertIsInstance(said.exception, ValueError)
                 self.assertRegex(sentence, r"\.$")
-        rows = ss.simplify_collection([V, (V, F)], 150, k=40, progress=False)
+        masked = np.ma.masked_less(V, 0), F
+        rows = ss.simplify_collection([V, (V, F), masked], 150, k=40, progress=False)
         self.assertRegex(rows[0].error, "a mesh is of the type ndarray, it must be the name")
         self.assertIsNone(rows[1].error)
+        self.assertRegex(rows[2].error, "V has masked entries")
 
     def test_files_that_are_missing(self):
         for call in (
@@ -589,6 +615,27 @@ class Meshes(Case):
         v, f = ss.read_mesh(self.path("cube.off"), repair=True)
         self.assertEqual((v.shape, f.shape, ss.diagnose(v, f).usable), ((8, 3), (12, 3), True))
 
+    def test_faces_that_would_be_left_out(self):
+        ss.write_mesh(self.path("one.vtp"), V, F)
+        text = self.text("one.vtp")
+        begin, end = text.index("<Piece"), text.index("</PolyData>")
+        with open(self.path("two.vtp"), "w") as file:
+            file.write(text[:end] + text[begin:end] + text[end:])
+        with self.assertRaisesRegex(ValueError, "two.vtp cannot be read: it has 2 pieces"):
+            ss.read_mesh(self.path("two.vtp"))
+        os.mkdir(self.path("folder.off"))
+        with self.assertRaisesRegex(ValueError, "folder.off is a folder: give the name of a file"):
+            ss.write_mesh(self.path("folder.off"), V, F)
+        if not HAVE["meshio"]:
+            return
+        import meshio
+
+        corners = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0]]
+        cells = [("quad", [[0, 1, 2, 3]]), ("triangle", [[1, 4, 2]])]
+        meshio.Mesh(np.array(corners, float), cells).write(self.path("both.vtu"))
+        with self.assertRaisesRegex(ValueError, "both.vtu cannot be read: it has faces of"):
+            ss.read_mesh(self.path("both.vtu"))
+
     def test_files_of_vtk_9(self):
         offsets = 3 * np.arange(len(F) + 1)
         head = "# vtk DataFile Version 5.1\nmesh\n%s\nDATASET POLYDATA\n"
@@ -739,6 +786,11 @@ class Carried(Case):
         holes = np.where(V[:, 1] > 0, np.nan, V[:, 0])
         for nan in "propagate", "omit":
             np.testing.assert_array_equal(RUN.average(hidden, nan=nan), RUN.average(holes, nan=nan))
+
+        names = np.ma.array(np.where(V[:, 0] > 0, "east", "west").astype(object))
+        names[4] = np.ma.masked
+        with self.assertRaisesRegex(ValueError, r"labels\[4\] is missing"):
+            RUN.transfer_labels(names)
 
     def test_eigenpairs_of_both(self):
         self.assertIs(RUN.fine_eigenpairs, RUN.eigenpairs)
@@ -956,6 +1008,8 @@ class Collections(Case):
         for level in run, run.levels(300), run.apply(seam[0]):
             np.testing.assert_allclose(np.asarray(level.Q.sum(axis=1)), 1)  # of merged ones, too
             np.testing.assert_array_equal(level.Q[faces[0]].toarray(), level.Q[F[0]].toarray())
+            np.testing.assert_array_equal(level.vertex_map[faces[0]], level.vertex_map[F[0]])
+            self.assertTrue((level.vertex_map >= 0).all())
         # Two spheres on one vertex: with files it is two, in arrays it cannot be.
         touching = np.vstack([V, 2 * V[5] - np.delete(V, 5, 0)])
         number = np.insert(np.arange(len(V), 2 * len(V) - 1), 5, 5)
@@ -1008,6 +1062,9 @@ class Collections(Case):
             file.write("no archive")
         self.assertRegex(call([(V, F)])[0].error, "0000.npz holds no result .* or remove it.$")
         self.assertEqual(self.text("out/0000.npz"), "no archive")
+        for result in RUN, RUN.eigenpairs:  # of whoever wrote it
+            result.save(self.path("out/0000.npz"))
+            self.assertRegex(call([(V, F)])[0].error, "0000.npz is no result of simplify_coll")
         # A file that is written again is another mesh, too.
         out, name = self.path("files"), self.path("a.off")
         for pose, said in (V, None), (V, None), (bent[3], "a.npz is the result of another mesh"):
@@ -1115,6 +1172,9 @@ class Collections(Case):
             ("drop_debris is not for", dict(poses_of_one, drop_debris=0.1)),
             ("intrinsic_delaunay is not for", dict(poses_of_one, intrinsic_delaunay=True)),
             ("has no option 'colour'", dict(colour=1)),
+            ("relocate is array.*, for meshes", dict(poses_of_one, relocate=np.ones(2))),
+            ("binary is array", dict(poses_of_one, binary=np.ones(2))),
+            ("keep is not an array", dict(keep=[[1], [2, 3]], output=self.path("out"))),
             (
                 "keep is not for meshes of one connectivity",
                 dict(keep=[1], shared_connectivity=True),
@@ -1129,7 +1189,16 @@ class Collections(Case):
         for _ in range(2):
             (row,) = ss.simplify_collection([(V, F)], 150, self.path("out"), **words)
             self.assertIsNone(row.error)
+            words["mass"] = None  # as where it is left out
         self.assertEqual(row.seconds, 0)
+        with self.assertRaises(ss.Cancelled):
+            ss.simplify_collection([(V, F)], 150, k=40, progress=lambda *_: np.False_)
+
+    def test_words_of_keep_number_nothing(self):
+        turned = np.vstack([F[:4, ::-1], F[4:]])
+        for keep, said in ("sharp:170", None), ([7], "run along their common edge"):
+            (row,) = ss.simplify_collection([(V, turned)], 150, k=40, keep=keep, progress=False)
+            self.assertRegex(row.error or "", said or "^$")
 
     def test_options_of_one_connectivity(self):
         flat, faces = sheet(13)
@@ -1217,6 +1286,55 @@ class Command_line(Case):
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"(?m)^error: .*%s" % re.escape(said))
             self.assertEqual(set(os.listdir(self.folder)), there)
+
+    def test_files_of_vertices_to_keep(self):
+        ss.write_mesh(self.path("in.off"), V, np.vstack([F[:4, ::-1], F[4:]]))
+        ss.write_mesh(self.path("good.off"), V, F)
+        np.savetxt(self.path("few"), [7, 400], "%d")
+        np.save(self.path("flags.npy"), np.arange(len(V)) == 7)
+        words = ("out.off", "--vertices", "150", "--eigenvectors", "40", "--quiet", "--keep")
+        for name, keep, kept in (
+            ("in.off", "sharp:170", []),  # faces are turned round, as the program does
+            ("good.off", "few", [7, 400]),
+            ("good.off", "flags.npy", [7]),
+            ("good.off", "sharp:170,few", [7, 400]),
+        ):
+            done = self.command(name, *words, keep)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            written = ss.read_mesh(self.path("out.off"))[0]
+            for vertex in kept:
+                self.assertLess(abs(written - V[vertex]).max(axis=1).min(), 1e-12)
+
+    def test_no_file_is_lost(self):
+        ss.write_mesh(self.path("in.off"), V, F)
+        with open(self.path("few"), "w") as file:
+            file.write("7\n")
+        np.save(self.path("words.npy"), ["a", "b"])
+        os.mkfifo(self.path("pipe"))
+        os.symlink("real.off", self.path("link.off"))
+        there = set(os.listdir(self.folder))
+        again = "is read or written already: give another name"
+        words = ("--vertices", "150", "--eigenvectors", "40", "--quiet")
+        for more, said in (
+            (("out.off", "--json", "a", "--map", "a"), f"a {again}"),
+            (("out.off", "--map", "./out.off"), f"out.off {again}"),
+            (("out.off", "--json", "in.off"), f"in.off {again}"),
+            (("out.off", "--keep", "few", "--map", "few"), f"few {again}"),
+            (("out.off", "--json", "pipe"), "pipe is no ordinary file"),
+            (("out.off", "--save", ""), "'' names no file"),
+            (("out.off", "--mask", "words.npy"), "words.npy cannot be read: it holds no array of"),
+        ):
+            done = self.command("in.off", *more, *words)
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"^error: [^\n]*%s[^\n]*\n$" % re.escape(said))
+            self.assertEqual(set(os.listdir(self.folder)), there)
+        # The other way round the mesh may take the place of the one that it was made from.
+        done = self.command("in.off", "link.off", *words, "--threads", "100000")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue(os.path.islink(self.path("link.off")))
+        done = self.command("in.off", "in.off", *words)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.text("in.off"), self.text("real.off"))
 
     def test_names_without_the_usual_ending(self):
         ss.write_mesh(self.path("in.off"), V, F)
@@ -1339,6 +1457,32 @@ class Recipes(Case):
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(float(re.search(r"SuperLU .* agree within (\S+)", done.stdout)[1]), 1e-7)
+
+    def test_the_cortex_example_of_files(self):
+        def cortex(*words):
+            return subprocess.run(
+                [sys.executable, os.path.join(PAGE, "cortex.py"), *words],
+                cwd=self.folder,
+                env=environment(),
+                capture_output=True,
+                text=True,
+            )
+
+        ss.write_mesh(self.path("in.off"), V, F)
+        others = [self.path("lh.off"), self.path("lh.ply")]
+        for i, name in enumerate(others):
+            ss.write_mesh(name, (1 + i) * V, F)
+        words = ("--vertices", "150", "--modes", "40", "--other", *others)
+        done = cortex("--surface", "in.off", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        sizes = [
+            abs(ss.read_mesh(self.path(f"cortex_{name}.off"))[0]).max()
+            for name in ("lh.off", "lh.ply")
+        ]
+        self.assertAlmostEqual(sizes[1], 2 * sizes[0])
+        done = cortex("--mask", "mask.txt")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--mask is that of a surface", done.stderr)
 
     def test_the_cortex_example(self):
         done = subprocess.run(

@@ -65,7 +65,7 @@ def compared(V, F, k, threads):
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Eigenpairs beside SciPy's.")
     parser.add_argument("files", nargs="*")
-    parser.add_argument("--vertices", type=int, nargs="*", default=[32000, 100000])
+    parser.add_argument("--vertices", type=int, nargs="+", default=[32000, 100000])
     parser.add_argument("--modes", type=int, default=50)
     parser.add_argument("--threads", type=int)
     a = parser.parse_args(arguments)

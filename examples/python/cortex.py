@@ -161,11 +161,13 @@ def main(arguments=None):
     )
     parser.add_argument("--vertices", type=int, default=2000)
     parser.add_argument(
-        "--modes", type=int, nargs="*", default=[100], help="K; several for one curve each"
+        "--modes", type=int, nargs="+", default=[100], help="K; several for one curve each"
     )
     parser.add_argument("--mass", default="averaged", help="of the run: averaged or consistent")
     parser.add_argument("--output", default=".")
     a = parser.parse_args(arguments)
+    if a.surface is None and a.mask is not None:
+        parser.error("--mask is that of a surface: give --surface as well.")
     out = pathlib.Path(a.output)
 
     others = {}
@@ -180,7 +182,7 @@ def main(arguments=None):
             raise ValueError(
                 f"{name} has other faces than the surface: take one of the same subject and mesh."
             )
-        others[pathlib.Path(name).stem] = positions
+        others[pathlib.Path(name).name] = positions  # lh.pial and lh.white have one stem
 
     curves = {}
     for k in a.modes:

@@ -8,12 +8,12 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import os
 import pathlib
 import sys
-import tempfile
 import warnings
 from typing import Any
 
@@ -21,8 +21,9 @@ import numpy
 import scipy.io
 
 from . import __version__, clean, evaluate, read_mesh, simplify, write_mesh
+from ._interface import _features
 from ._meshes import _check_ending
-from ._results import _check_folder
+from ._results import _check_folder, _written
 
 
 class _Parser(argparse.ArgumentParser):
@@ -141,7 +142,9 @@ def _kept(words: str | None) -> list | None:
     if words is None:
         return None
     return [
-        word if word in ("border", "sharp") or word.startswith("sharp:") else _numbers(word, int)
+        word
+        if word in ("", "border", "sharp") or word.startswith("sharp:")
+        else _numbers(word, int)
         for word in words.split(",")
     ]
 
@@ -150,11 +153,14 @@ def _numbers(path: str, kind: type) -> numpy.ndarray:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # of no numbers, and of integers with a fraction
-            return (
+            numbers = (
                 numpy.load(path, allow_pickle=False)
                 if path.endswith(".npy")
                 else numpy.loadtxt(path, kind, ndmin=1)
             )
+        if not isinstance(numbers, numpy.ndarray) or numbers.dtype.kind not in "biuf":
+            raise ValueError("it holds no array of numbers")
+        return numbers
     except (ValueError, Warning) as error:
         said = str(error).partition("\n")[0].rstrip(".")
         raise ValueError(f"{path} cannot be read: {said}.") from None
@@ -172,17 +178,26 @@ def _write_matrix(path: str, matrix: Any) -> None:
         scipy.io.mmwrite(file, matrix)
 
 
-def _check_places(paths: list[str | None]) -> None:
-    for path in paths:
-        if path is not None:
-            _check_folder(path)
-            if os.path.isdir(path):
-                raise ValueError(f"{path} is a folder: give the name of a file.")
+def _check_places(read: list[str | None], written: list[str | None]) -> None:
+    """Before the work, as the program does: no file is lost by another name for it."""
+    taken = {os.path.realpath(path) for path in read if path}
+    for path in written:
+        if path is None:
+            continue
+        _check_folder(path)
+        if not os.path.basename(path):
+            raise ValueError(f"{path!r} names no file: give a name.")
+        if os.path.realpath(path) in taken:
+            raise ValueError(f"{path} is read or written already: give another name.")
+        taken.add(os.path.realpath(path))
 
 
 def _run(a: argparse.Namespace) -> None:
     _check_ending(pathlib.Path(a.OUT))
-    _check_places([a.OUT, a.restriction, a.prolongation, a.map, a.json, a.save])
+    read = [a.mask, a.signals, *(a.keep or "").split(",")]
+    _check_places(read, [a.OUT])  # which may be IN
+    _check_places(read + [a.IN, a.OUT], [a.restriction, a.prolongation, a.map, a.json, a.save])
+    keep = _kept(a.keep)
     own = a.IN.lower().endswith((".off", ".obj", ".ply", ".stl"))
     if a.repair and own and (a.restriction or a.prolongation or a.map):
         raise ValueError(
@@ -191,7 +206,7 @@ def _run(a: argparse.Namespace) -> None:
         )
     V, F = read_mesh(a.IN, a.repair and own)
     cleaned = None
-    if a.mask is None and a.keep is None and a.signals is None:
+    if a.mask is None and _features(keep)[1] is None and a.signals is None:
         cleaned = clean(V, F, a.repair and not own)
     elif a.repair:
         raise ValueError(
@@ -219,7 +234,7 @@ def _run(a: argparse.Namespace) -> None:
     }
     options.update(
         k=a.eigenvectors,
-        keep=_kept(a.keep),
+        keep=keep,
         drop_debris=_share(a.drop_debris),
         signals=None if a.signals is None else _numbers(a.signals, float),
     )
@@ -229,10 +244,7 @@ def _run(a: argparse.Namespace) -> None:
             raise ValueError(f"{a.mask} must hold 0 or 1 for each vertex.")
         options["mask"] = mask.astype(bool)
     given = (V, F) if cleaned is None else (cleaned.V, cleaned.F)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore" if a.quiet else "always")
-        warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
-        run = simplify(*given, _number(a.vertices, len(given[0])), **options)
+    run = simplify(*given, _number(a.vertices, len(given[0])), **options)
     if cleaned is not None and cleaned.changes:
         if not a.quiet:
             print(f"{a.IN}: {', '.join(cleaned.changes)}.", file=sys.stderr)
@@ -268,43 +280,30 @@ def _run(a: argparse.Namespace) -> None:
                 "eigenvalue error "
                 f"{100 * e.eigenvalue_error:.2f} %"
             )
-    # All are written beside their places first, and the mesh goes last.
-    parts = []
-    try:
+    # All are written beside their places first, and those that enter last get theirs first.
+    with contextlib.ExitStack() as places:
         for path, write in (
-            (a.restriction, lambda f: _write_matrix(f, run.P)),
-            (a.prolongation, lambda f: _write_matrix(f, run.Q)),
-            (a.map, lambda f: numpy.savetxt(f, run.vertex_map, "%d")),
+            (a.OUT, lambda f: write_mesh(f, run.V, run.F)),
+            (a.save, run.save),
             (
                 a.json,
                 lambda f: pathlib.Path(f).write_text(json.dumps(_finite(report), indent=2) + "\n"),
             ),
-            (a.save, run.save),
-            (a.OUT, lambda f: write_mesh(f, run.V, run.F)),
+            (a.map, lambda f: numpy.savetxt(f, run.vertex_map, "%d")),
+            (a.prolongation, lambda f: _write_matrix(f, run.Q)),
+            (a.restriction, lambda f: _write_matrix(f, run.P)),
         ):
-            if path is None:
-                continue
-            folder, name = os.path.split(path)
-            handle, temporary = tempfile.mkstemp(
-                prefix=".", suffix=pathlib.Path(name).suffix, dir=folder or "."
-            )
-            os.close(handle)
-            parts.append((temporary, path))
-            write(temporary)
-        mask = os.umask(0)
-        os.umask(mask)
-        for temporary, path in parts:
-            os.chmod(temporary, 0o666 & ~mask)
-            os.replace(temporary, path)
-    finally:
-        for temporary, _ in parts:
-            if os.path.exists(temporary):
-                os.unlink(temporary)
+            if path is not None:
+                write(places.enter_context(_written(path)))
 
 
 def main() -> int:
+    a = _arguments().parse_args()
     try:
-        _run(_arguments().parse_args())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore" if a.quiet else "once", UserWarning)
+            warnings.showwarning = lambda message, *_: print(f"warning: {message}", file=sys.stderr)
+            _run(a)
     except (ValueError, OSError, RuntimeError) as error:
         said = str(error).replace("repair=True", "--repair")  # as this command has it
         print(f"error: {said}", file=sys.stderr)

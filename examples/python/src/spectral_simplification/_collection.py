@@ -22,7 +22,7 @@ import numpy
 
 from ._core import Wrong_type as _Wrong_type
 from ._core import arrays as _arrays
-from ._interface import eigenpairs, simplify
+from ._interface import _features, eigenpairs, simplify
 from ._meshes import _OWN, clean, read_mesh
 from ._results import (
     Level,
@@ -30,9 +30,10 @@ from ._results import (
     _flag,
     _integer,
     _noted,
+    _rectangular,
     _Result,
     _shown,
-    _write_text,
+    _written,
     load,
 )
 
@@ -94,16 +95,22 @@ def _taken(mesh: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.ndarra
             "pair (V, F)."
         )
     V, F = mesh
-    return numpy.asarray(V), numpy.asarray(F)
+    return _rectangular("V", V), _rectangular("F", F)
+
+
+def _numbering(options: dict[str, Any]) -> list[str]:
+    """Options that number the vertices as they come; words of keep do not."""
+    given = {**options, "keep": _features(options.get("keep"))[1]}
+    return [
+        name for name in ("mask", "keep", "signals", "coefficients") if given.get(name) is not None
+    ]
 
 
 def _one(mesh: Any, n: int, repair: bool, options: dict[str, Any]) -> Simplification:
     """A mesh as it comes: cleaned as the programs do, and numbered as it came."""
     V, F = _taken(mesh, repair)
-    if options.get("mask") is not None or any(
-        options.get(name) is not None for name in ("keep", "signals", "coefficients")
-    ):
-        return simplify(V, F, n, **options)  # these number the vertices as they come
+    if _numbering(options):
+        return simplify(V, F, n, **options)
     cleaned = clean(V, F, repair and not _of_own_format(mesh))
     run = simplify(cleaned.V, cleaned.F, n, **options)
     return (
@@ -118,9 +125,11 @@ def _pairs(mesh: Any, k: int, mass: str, boundary: str, threads: int | None):
     return eigenpairs(V, F, k, mass, tolerance=1e-8, boundary=boundary, threads=threads)
 
 
-def _posed(mesh: Any, run: Simplification, pairs: Any, relocate: bool) -> Level:
+def _posed(mesh: Any, run: Simplification, pairs: Any, relocate: bool, threads: int | None):
     V, _ = _taken(mesh)
-    return run.apply(V, relocate=relocate, eigenpairs=pairs if relocate else None)
+    return run.apply(
+        V, relocate=relocate, eigenpairs=pairs if relocate else None, threads=threads
+    )
 
 
 def _guarded(function: Callable, arguments: tuple) -> tuple[Any, str | None, float]:
@@ -311,7 +320,8 @@ def _check_settings(folder: pathlib.Path, settings: dict[str, Any]) -> None:
                 f"{folder} has results of other arguments, {kept.name} says which: choose "
                 "another folder, or empty it."
             )
-    _write_text(str(kept), json.dumps(settings))
+    with _written(str(kept)) as part:
+        pathlib.Path(part).write_text(json.dumps(settings))
 
 
 def simplify_collection(
@@ -332,8 +342,8 @@ def simplify_collection(
     ----------
     meshes : iterable
         File names, see read_mesh(), or pairs (V, F); for a folder the list of glob.glob(). Read as
-        they are wanted, but for a shared connectivity. Each is cleaned as clean() does, and results
-        are numbered as the mesh came.
+        they are wanted, but for a shared connectivity. Each is cleaned as clean() does, unless an
+        option has a number or a row for each vertex, and results are numbered as the mesh came.
     n : int
         Vertices of each result.
     output : folder, optional
@@ -403,11 +413,7 @@ def simplify_collection(
             raise _Wrong_type(
                 f"progress is {_shown(progress)}, it must be None, True, False or a function."
             ) from None
-    numbering = [
-        name
-        for name in ("mask", "keep", "signals", "coefficients")
-        if options.get(name) is not None
-    ]
+    numbering = _numbering(options)
     if repair and (shared_connectivity or numbering):
         raise ValueError(
             f"repair renumbers vertices, and {(numbering or ['shared_connectivity'])[0]} needs them "
@@ -434,7 +440,11 @@ def simplify_collection(
             "n": n,
             "shared_connectivity": shared_connectivity,
             **({"repair": True} if repair else {}),
-            **{name: _plain(value) for name, value in sorted(options.items()) if name != "threads"},
+            **{
+                name: _plain(value)
+                for name, value in sorted(options.items())
+                if name != "threads" and value is not None
+            },
         }
         _check_settings(folder, settings)
     if progress is None:
@@ -467,9 +477,10 @@ def simplify_collection(
             source = _noted(path, "_source")
         except ValueError as error:
             return f"{str(error).partition(': give')[0]}: choose another folder, or remove it."
-        if source in (None, sources[i]):
+        if source == sources[i]:
             return None
-        return f"{path} is the result of another mesh: choose another folder, or remove it."
+        what = "the result of another mesh" if source else "no result of simplify_collection()"
+        return f"{path} is {what}: choose another folder, or remove it."
 
     def there(i: int) -> bool:
         """Whether a former call has written this one, or something else is in its place."""
@@ -487,7 +498,8 @@ def simplify_collection(
         return True
 
     def said(i: int) -> None:
-        if tell is not None and tell(len(rows), total, names[i]) is False:
+        answer = None if tell is None else tell(len(rows), total, names[i])
+        if isinstance(answer, (bool, numpy.bool_)) and not answer:
             from ._core import Cancelled
 
             raise Cancelled("The progress function returned False.")
@@ -556,14 +568,18 @@ def _shared(
     ):
         if options.get(name) is not None and options[name] is not False:
             raise ValueError(f"{name} is not for meshes of one connectivity: leave it out.")
+
+    def chosen(name: str, otherwise: Any) -> Any:
+        return otherwise if options.get(name) is None else options[name]
+
     preset = options.get("preset", "best")
-    relocate = options.get("relocate") or ("none" if preset == "paper" else "sampled")
-    if relocate not in ("none", "sampled"):
+    relocate = chosen("relocate", "none" if preset == "paper" else "sampled")
+    if not isinstance(relocate, str) or relocate not in ("none", "sampled"):
         raise ValueError(
             f"relocate is {_shown(relocate)}, for meshes of one connectivity it must be 'none' or "
             "'sampled'."
         )
-    if options.get("binary") and relocate == "sampled":
+    if _flag("binary", options.get("binary", False)) and relocate == "sampled":
         raise ValueError(
             "binary asks for a P of ones and zeros, and relocation of each pose makes another one: "
             "pass relocate='none'."
@@ -595,12 +611,13 @@ def _shared(
             ended(i, None, str(error), 0.0)
     if not going:
         return
-    mass = options.get("mass") or ("lumped" if preset == "paper" else "averaged")
-    k = 100 if options.get("k") is None else options["k"]
+    mass = chosen("mass", "lumped" if preset == "paper" else "averaged")
+    k = chosen("k", 100)
     boundary = options.get("boundary", "neumann")
+    threads = options.get("threads")
     pairs = {}
     for i, result, error, seconds in _scheduled(
-        [(i, _pairs, (m, k, mass, boundary, options.get("threads"))) for i, m in going.items()],
+        [(i, _pairs, (m, k, mass, boundary, threads)) for i, m in going.items()],
         workers,
     ):
         if error is None:
@@ -627,6 +644,8 @@ def _shared(
         run = simplify(*going[one], n, signals=signals, **decided)
     run.report["eigenvectors"] = k
     sampled = relocate == "sampled"
-    tasks = [(i, _posed, (m, run, pairs[i], sampled)) for i, m in going.items() if not there(i)]
+    tasks = [
+        (i, _posed, (m, run, pairs[i], sampled, threads)) for i, m in going.items() if not there(i)
+    ]
     for i, result, error, seconds in _scheduled(tasks, workers):
         ended(i, result, error, seconds)

@@ -24,6 +24,7 @@ from ._results import (
     Simplification,
     _array,
     _flag,
+    _rectangular,
 )
 
 
@@ -31,11 +32,17 @@ def _features(keep) -> tuple[list[str], list | None]:
     """The words of keep, and what else it holds."""
     if isinstance(keep, str):
         return keep.split(","), None
-    if isinstance(keep, (list, tuple)) and any(isinstance(part, str) for part in keep):
+    if isinstance(keep, (list, tuple)) and any(
+        isinstance(part, (str, numpy.ndarray)) for part in keep
+    ):
         words = [word for part in keep if isinstance(part, str) for word in part.split(",")]
-        others = [numpy.atleast_1d(part) for part in keep if not isinstance(part, str)]
+        others = [
+            numpy.atleast_1d(_rectangular("keep", part))
+            for part in keep
+            if not isinstance(part, str)
+        ]
         return words, others or None
-    return [], None if keep is None else [keep]
+    return [], None if keep is None else [_rectangular("keep", keep)]
 
 
 def simplify(

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import base64
 import numbers
-import os
 import pathlib
-import tempfile
 import xml.etree.ElementTree
 import zlib
 from typing import Any
@@ -20,7 +18,16 @@ import scipy.sparse
 import scipy.sparse.csgraph
 
 from . import _core
-from ._results import _array, _check_folder, _flag, _path, _Result, _shown
+from ._results import (
+    _array,
+    _check_folder,
+    _flag,
+    _path,
+    _rectangular,
+    _Result,
+    _shown,
+    _written,
+)
 
 
 class Cleaned(_Result):
@@ -167,7 +174,7 @@ def used_part(
     if not _is_mesh(V, F):
         return None
     if mask is not None:
-        mask = numpy.asarray(mask)
+        mask = _rectangular("mask", mask)
         if mask.dtype.kind != "b":
             raise ValueError(
                 f"mask has the dtype {mask.dtype}, it must hold booleans, True for vertices "
@@ -320,6 +327,9 @@ def read_mesh(path: Any, repair: bool = False) -> tuple[numpy.ndarray, numpy.nda
             return _mesh(*_read_vtk(path), path)
         if ending in _MESHIO:
             mesh = _needed("meshio", path).read(str(path))
+            for kind in sorted({cells.type for cells in mesh.cells} - {"triangle"}):
+                if kind.startswith(("quad", "polygon", "triangle")):  # a hole if left out
+                    raise ValueError(f"it has faces of the kind {kind}: triangulate them first")
             return _mesh(mesh.points, mesh.cells_dict.get("triangle", ()), path)
     except ValueError as error:
         said = str(error)
@@ -395,9 +405,7 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
         _needed("meshio", path)
         if ending == ".xdmf":
             _needed("h5py", path)  # which meshio imports whether it writes HDF or not
-    handle, temporary = tempfile.mkstemp(suffix=path.suffix, prefix=".", dir=path.parent)
-    os.close(handle)
-    try:
+    with _written(str(path)) as temporary:
         if ending == ".gii":
             import nibabel
 
@@ -431,13 +439,6 @@ def write_mesh(path: Any, V: numpy.ndarray, F: numpy.ndarray) -> None:
                     ".vtk": _write_vtk,
                     ".vtp": _write_vtp,
                 }[ending](file, V, F)
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 def _rows(file: Any, array: numpy.ndarray, begin: str = "") -> None:
@@ -559,9 +560,10 @@ def _read_vtp(path: pathlib.Path):
     root = xml.etree.ElementTree.parse(path).getroot()
     order = "<" if root.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
     header = numpy.dtype(order + ("u8" if root.get("header_type") == "UInt64" else "u4"))
-    piece = root.find("./PolyData/Piece")
-    if piece is None:
-        raise ValueError("it has no PolyData")
+    pieces = root.findall("./PolyData/Piece")
+    if len(pieces) != 1:
+        raise ValueError(f"it has {len(pieces)} pieces of PolyData: write it as one")
+    (piece,) = pieces
 
     def values(where: str, name: str | None) -> numpy.ndarray:
         for element in piece.findall(f"./{where}/DataArray"):

@@ -11,7 +11,8 @@ import contextlib
 import json
 import operator
 import os
-from collections.abc import Callable, Iterable, Sequence
+import uuid
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy
@@ -24,14 +25,19 @@ Progress = Callable[[str, float], bool | None]
 _KINDS: dict[str, type] = {}  # of results, by name
 
 
+def _rectangular(name: str, value: Any) -> numpy.ndarray:
+    """An array of anything, or the sentence that says why it is none."""
+    if numpy.ma.is_masked(value):
+        raise ValueError(f"{name} has masked entries: fill them, or leave them out.")
+    try:
+        return numpy.asarray(value)
+    except ValueError:
+        raise _core.Wrong_type(f"{name} is not an array: give each row the same length.") from None
+
+
 def _array(name: str, value: Any, kinds: str = "fiu") -> numpy.ndarray:
     """An array of numbers of these kinds, or the sentence that says why it is none."""
-    try:
-        array = numpy.asarray(value)
-    except ValueError:
-        raise _core.Wrong_type(
-            f"{name} is not an array of numbers: give each row the same length."
-        ) from None
+    array = _rectangular(name, value)
     if array.dtype.kind not in kinds:
         raise _core.Wrong_type(
             f"{name} has the dtype {array.dtype}, it must hold "
@@ -94,13 +100,37 @@ def _path(value: Any) -> str:
         raise _core.Wrong_type(
             f"path is of the type {type(value).__name__}, it must be the name of a file."
         )
-    return os.fspath(value)
+    path = os.fspath(value)
+    if not path:
+        raise ValueError("path is empty, it must be the name of a file.")
+    return path
 
 
 def _check_folder(path: str) -> None:
     folder = os.path.dirname(path)
     if folder and not os.path.isdir(folder):
         raise FileNotFoundError(f"{folder} is no folder: make it, or write {path} elsewhere.")
+    if os.path.isdir(path):
+        raise ValueError(f"{path} is a folder: give the name of a file.")
+    if os.path.exists(path) and not os.path.isfile(path):  # a device would be replaced
+        raise ValueError(f"{path} is no ordinary file: give the name of one.")
+
+
+@contextlib.contextmanager
+def _written(path: str) -> Iterator[str]:
+    """A name to write to, so that the file is there wholly or not at all, whoever else writes it
+    at the same time. A link stays one."""
+    _check_folder(path)
+    suffix = os.path.splitext(path)[1]  # which says the format
+    path = os.path.realpath(path)
+    part = os.path.join(os.path.dirname(path), f".{uuid.uuid4().hex}{suffix}")
+    try:
+        yield part
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.unlink(part)
+        raise
 
 
 class _Result:
@@ -136,18 +166,11 @@ class _Result:
             If its folder does not exist.
         """
         path = _path(path)
-        _check_folder(path)
+        _check_folder(path)  # before the work
         arrays: dict[str, numpy.ndarray] = {}
         text = json.dumps(_packed(self, "r", arrays))
-        part = path + ".part"
-        try:
-            with open(part, "wb") as file:
-                numpy.savez_compressed(file, spectral_simplification=numpy.array(text), **arrays)
-            os.replace(part, path)
-        except BaseException:
-            with contextlib.suppress(OSError):
-                os.unlink(part)
-            raise
+        with _written(path) as part, open(part, "wb") as file:
+            numpy.savez_compressed(file, spectral_simplification=numpy.array(text), **arrays)
 
 
 def _packed(value: Any, name: str, arrays: dict[str, numpy.ndarray]) -> Any:
@@ -174,13 +197,6 @@ def _packed(value: Any, name: str, arrays: dict[str, numpy.ndarray]) -> Any:
     if isinstance(value, numpy.generic):
         return value.item()
     return value
-
-
-def _write_text(path: str, text: str) -> None:
-    """Writes a file, which is there wholly or not at all."""
-    with open(path + ".part", "w") as file:
-        file.write(text)
-    os.replace(path + ".part", path)
 
 
 def _unpacked(value: Any, arrays: Any) -> Any:
@@ -600,7 +616,8 @@ class Level(_Result):
             }
             vertex_map = numpy.full(n, -1, numpy.int64)
             vertex_map[used] = core["vertex_map"]
-            core["vertex_map"] = vertex_map
+            stays = more.get("_stays")
+            core["vertex_map"] = vertex_map if stays is None else vertex_map[stays]
         return cls._from_state(
             dict(
                 V=core["V"],
@@ -702,10 +719,7 @@ class Level(_Result):
     ) -> numpy.ndarray:
         if numpy.ma.isMaskedArray(values) and values.dtype.kind in "fiu":
             values = values.astype(float).filled(numpy.nan)
-        try:
-            values = numpy.asarray(values)
-        except ValueError:  # rows of different lengths
-            values = _array("values", values)
+        values = _rectangular("values", values)
         v = W.shape[1]
         if values.ndim == 0 or len(values) != v:
             raise ValueError(
@@ -832,16 +846,17 @@ class Level(_Result):
             import pandas
 
             return pandas.Categorical.from_codes(carried, dtype=kind)
-        missing = numpy.zeros(numpy.size(labels), bool)
+        missing = False
         if numpy.ma.isMaskedArray(labels):
-            missing = numpy.ma.getmaskarray(labels).ravel()
+            missing, labels = numpy.ma.getmaskarray(labels).ravel(), labels.data
         if hasattr(kind, "numpy_dtype"):  # integers and booleans of pandas that may be missing
             missing = numpy.asarray(labels.isna())
             labels = labels.to_numpy(kind.numpy_dtype, na_value=0)
-        labels = numpy.asarray(labels)
+        labels = _rectangular("labels", labels)
+        missing = numpy.broadcast_to(missing, labels.size)
         # None, NaN and pandas' NA are not equal to themselves, or not strings
         if labels.dtype.kind == "O":
-            missing = numpy.array(
+            missing = missing | numpy.array(
                 [x is None or type(x).__name__ in ("NAType", "float") for x in labels.ravel()], bool
             )
         self._check_labels(labels, v, missing)
@@ -934,7 +949,8 @@ class Simplification(Level):
     @property
     def fine_eigenpairs(self) -> Eigenpairs:
         """Eigenpairs of the input in the mass of the run, also where `eigenpairs` is None: then
-        computed when first asked for. As many as the run kept; rows are those of `used`."""
+        computed when first asked for. As many as the run kept, or all that eigenpairs= had; rows
+        are those of `used`."""
         if self.eigenpairs is not None:
             return self.eigenpairs
         if self._asked.get("pairs") is None:
@@ -1001,7 +1017,7 @@ class Simplification(Level):
         return Fitted_operators(_core.fit_operators(values))
 
     def _pairs(
-        self, V, F, k, mass, coefficients, progress=None, tolerance: float = 1e-10
+        self, V, F, k, mass, coefficients, progress=None, tolerance: float = 1e-10, threads=None
     ) -> Eigenpairs:
         return Eigenpairs(
             _core.eigenpairs(
@@ -1014,7 +1030,7 @@ class Simplification(Level):
                     coefficients=coefficients,
                     boundary=self._asked["boundary"],
                     intrinsic_delaunay=self._asked["intrinsic_delaunay"],
-                    threads=None,
+                    threads=threads,
                     progress=progress,
                 )
             )
@@ -1028,6 +1044,7 @@ class Simplification(Level):
         k: int | None = None,
         eigenpairs: Eigenpairs | None = None,
         *,
+        threads: int | None = None,
         progress: Progress | None = None,
     ) -> Level:
         """The simplified mesh of another pose with the connectivity of the input: the same faces,
@@ -1049,7 +1066,7 @@ class Simplification(Level):
         eigenpairs : Eigenpairs, optional
             Of the other pose in the mass of the run, rows as in `used`, to save the solve: all of
             them are seen.
-        progress : function, optional
+        threads, progress
             As of simplify().
 
         Returns
@@ -1094,7 +1111,7 @@ class Simplification(Level):
             k = self.report["eigenvectors"] if k is None else k
             if eigenpairs is None:
                 eigenpairs = self._pairs(
-                    V, F, k, self.report["mass"], None, progress, tolerance=1e-8
+                    V, F, k, self.report["mass"], None, progress, 1e-8, threads
                 )
             else:
                 self._check_pairs(eigenpairs, V, F)
@@ -1109,7 +1126,7 @@ class Simplification(Level):
                         eigenpairs=eigenpairs,
                         fixed=self._asked["kept"],
                         signals="sampled",
-                        threads=None,
+                        threads=threads,
                         progress=progress,
                     )
                 )
