@@ -416,8 +416,8 @@ def simplify_collection(
     numbering = _numbering(options)
     if repair and (shared_connectivity or numbering):
         raise ValueError(
-            f"repair renumbers vertices, and {(numbering or ['shared_connectivity'])[0]} needs them "
-            "as they come: repair first."
+            f"repair renumbers vertices, and {(numbering or ['shared_connectivity'])[0]} needs "
+            "them as they come: repair first."
         )
     import inspect
 

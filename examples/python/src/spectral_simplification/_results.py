@@ -637,8 +637,8 @@ class Level(_Result):
         numbers, times = numpy.unique(origin, return_counts=True)
         if (times > 1).any():
             raise ValueError(
-                f"repair separates sheets at vertex {numbers[times > 1][0]}, which becomes several: "
-                "pass V and F of clean(V, F, repair=True), which number the result."
+                f"repair separates sheets at vertex {numbers[times > 1][0]}, which becomes "
+                "several: pass V and F of clean(V, F, repair=True), which number the result."
             )
         P = self.P.tocoo()
         vertex_map = numpy.where(place >= 0, self.vertex_map[place], -1)
@@ -1088,8 +1088,8 @@ class Simplification(Level):
             raise ValueError("k and eigenpairs are both given: leave out k.")
         if relocate and self._asked["coefficients"] is not None:
             raise ValueError(
-                "relocate=True keeps the spectrum of the Laplacian, and the run has coefficients of "
-                "another operator: leave it out, or simplify V_other."
+                "relocate=True keeps the spectrum of the Laplacian, and the run has coefficients "
+                "of another operator: leave it out, or simplify V_other."
             )
         V_other = _array("V_other", V_other)
         if V_other.shape != self.fine_V.shape:

@@ -36,8 +36,8 @@ def simplified(mesh, n, k=None, **options):
     run = ss.simplify(mesh.vertlist, mesh.facelist, n, k, **options)
     if len(run.used) != len(mesh.vertlist):
         raise ValueError(
-            f"{len(run.used)} of {len(mesh.vertlist)} vertices take part, and a spectrum of pyFM has "
-            "a row for each: pass TriMesh(*run.part()), of run = simplify() with these options."
+            f"{len(run.used)} of {len(mesh.vertlist)} vertices take part, and a spectrum of pyFM "
+            "has a row for each: pass TriMesh(*run.part()), of run = simplify() with these options."
         )
     k, pairs = run.report["eigenvectors"], run.fine_eigenpairs
     mesh.W, mesh.A = pairs.L.tocsc(), pairs.M.tocsc()
