@@ -220,7 +220,7 @@ public:
              ", one row for each " + rows_of + ".");
     if(array.dtype().kind() == 'u' && array.itemsize() == 8 && !real) {
       const py::object signed_values = array.attr("astype")("int64", py::arg("casting") = "unsafe");
-      if((signed_values < py::int_(0)).attr("any")().template cast<bool>())
+      if(signed_values.attr("__lt__")(0).attr("any")().template cast<bool>())
         refuse(label + " has a number above 9223372036854775807, which is no index.");
       return py::array_t<Number>(py::array(signed_values));
     }
