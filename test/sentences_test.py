@@ -14,7 +14,7 @@ import sys
 PAGES = ("README.md", "CHANGES.md", "doc/tutorial.md", "doc/how_to.md", "doc/reference.md",
          "doc/measurements.md", "doc/applications.md", "doc/robustness.md", "doc/commands.md",
          "doc/installation.md", "doc/results.md", "doc/rivals.md", "doc/experiments.md",
-         "doc/contributing.md", "examples/python/README.md")
+         "doc/contributing.md", "doc/promises.md", "examples/python/README.md")
 LONGEST, MEAN = 40, 25
 PHRASES = ("that of", "such as are", "of late", "those of whom", "of which the first")
 # A dot behind these ends no sentence.

@@ -323,7 +323,7 @@ struct Row
 };
 
 const char *const yes = "yes", *const chords = "no, on its chords",
-                  *const first = "no, on that of the first stage";
+                  *const first = "no, on the border of the first stage";
 
 const Row rows[] = {
     {"the number of vertices is exact", fault_of_count, {yes, yes, yes, yes, yes, yes, yes, yes}},
@@ -345,7 +345,7 @@ const Row rows[] = {
     {"a run that is cancelled leaves a mesh and its P",
      fault_of_cancelling,
      {yes, yes, yes, yes, yes, yes, yes, yes}},
-    {"vertices of the border are on that of the input",
+    {"vertices of the border are on the border of the input",
      fault_of_border,
      {chords, chords, chords, yes, yes, first, chords, first}}};
 
