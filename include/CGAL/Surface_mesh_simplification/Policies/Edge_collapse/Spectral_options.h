@@ -129,8 +129,8 @@ struct Spectral_options : Spectral_geometry::Run_control
   bool keep_free_of_self_intersections = true;
 
   /// The mass matrix B of L Phi = B Phi Lambda and of the metric: `lumped` is the paper's;
-  /// `averaged`, the mean of lumped and consistent mass, keeps eigenvalues of coarse meshes within
-  /// half a per cent; `voronoi` is that of Meyer et al. 2003, `consistent` that of finite elements.
+  /// `averaged` is the mean of lumped and consistent mass, in which coarse meshes keep eigenvalues
+  /// best; `voronoi` is that of Meyer et al. 2003, `consistent` that of finite elements.
   Spectral_geometry::Mass mass = Spectral_geometry::Mass::averaged;
 
   /// Coefficients of the operator whose spectrum is kept, n x 7, rows in the order of
