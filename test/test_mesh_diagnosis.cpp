@@ -196,6 +196,16 @@ TEST_CASE("Copies of a face are found in whatever order they list its vertices")
   CHECK_THAT(d.obstacles().front(), ContainsSubstring("copies"));
 }
 
+TEST_CASE("Faces with the least vertex and the sum of another are no copies of it")
+{
+  Soup soup = grid();
+  soup.polygons = {{0, 1, 8}, {0, 2, 7}, {0, 3, 6}, {0, 4, 5}, {0, 1, 2, 6}, {6, 3, 0}};
+  const SG::Mesh_diagnosis d = soup.diagnosis();
+  CHECK(d.duplicate_faces.count == 1);
+  CHECK(d.duplicate_faces.first == 5);
+  CHECK(d.duplicate_faces.second == 2);
+}
+
 TEST_CASE("What is handled is remarked upon, not refused")
 {
   Soup soup = grid();

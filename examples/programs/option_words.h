@@ -92,7 +92,7 @@ relocation_word(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
 struct Option_words
 {
   std::string preset;       // best, fast, paper
-  std::size_t vertices = 0; // the target, for fast
+  std::size_t vertices = 0; // the target, for best and fast; best with 0: no first stage
   // Empty: as the preset has it.
   std::string placement;          // on_edge, midpoint, free
   std::string mass;               // lumped, averaged, voronoi, consistent
@@ -134,6 +134,7 @@ options_of(const Option_words& words)
   using Options = SMS::Spectral_edge_collapse_options;
   Options options = words.preset == "paper"  ? Options::paper()
                     : words.preset == "fast" ? Options::fast(words.vertices)
+                    : words.vertices != 0    ? Options::best(words.vertices)
                                              : Options::best();
   if(!words.placement.empty())
     options.placement = value_of(placement_words, words.placement);
@@ -151,6 +152,19 @@ options_of(const Option_words& words)
       options.relocation.signals = value_of(relocation_words, words.relocate);
   }
   return options;
+}
+
+// The first stage: as asked for, or as the preset has it. *best* has one only where collapses by
+// quadrics come first anyway, and where neither signals nor eigenpairs of the input are given.
+inline void
+set_first_stage(const std::string& preset, const std::optional<std::size_t> asked, const bool given,
+                CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
+{
+  if(asked)
+    options.pre_simplify = *asked;
+  else if(preset == "best" &&
+          (given || !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options)))
+    options.pre_simplify = 0;
 }
 
 #endif // SPECTRAL_EXAMPLES_OPTION_WORDS_H

@@ -225,8 +225,6 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
   if(a.intrinsic_delaunay)
     options.operator_of_eigenpairs = intrinsic_operator(options.mass);
   options.threads = a.threads;
-  if(a.pre_simplify)
-    options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
   options.progress = [&bar](const SG::Progress& progress) {
     bar.show(word_of(phase_words, progress.phase), progress.fraction);
     return true;
@@ -260,17 +258,17 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
       options.signals.size() != 0 ? options.signals.cols() : Eigen::Index(a.eigenvectors);
   const double needed = SMS::estimated_memory(n, K, options, !a.fit_operators.empty()),
                available = available_memory();
+  const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
   const std::size_t intermediate = 100000;
   if(available > 0 && needed > available)
     throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " +
                              std::to_string(K) + " eigenvectors takes about " +
                              formatted_memory(needed) + " of memory, but this machine has " +
                              formatted_memory(available) + " left: " +
-                             (n > intermediate && options.pre_simplify == 0
+                             ((reduced ? options.pre_simplify : n) > intermediate
                                   ? "add --pre-simplify " + std::to_string(intermediate) + ", or "
                                   : std::string()) +
                              "lower --eigenvectors.");
-  const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
   const bool pairs_are_known = options.signals.size() == 0 && !reduced;
   const double judging =
       a.no_evaluation ? 0. : SMS::estimated_evaluation_memory(n, target, K, {}, pairs_are_known);
@@ -738,6 +736,7 @@ int run(Arguments a)
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
+  set_first_stage(a.preset, a.pre_simplify, !a.signals.empty(), options);
   std::vector<std::string> inputs = {a.input, a.signals, a.operator_.file};
   inputs.insert(inputs.end(), a.kept.files.begin(), a.kept.files.end());
   Output_files files(inputs);

@@ -5,6 +5,7 @@
 #include "input_mesh.h"
 
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 #include <CGAL/exceptions.h>
 
@@ -124,16 +125,17 @@ private:
 // faces otherwise.
 void orient(Mended& mended)
 {
-  std::vector<std::tuple<std::size_t, std::size_t, std::size_t, bool>>
-      sides; // ends, face, direction
-  for(std::size_t f = 0; f < mended.polygons.size(); ++f) {
-    const auto& p = mended.polygons[f];
-    for(std::size_t i = 0; i < p.size(); ++i) {
-      const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
-      sides.emplace_back((std::min)(v, w), (std::max)(v, w), f, v < w);
-    }
-  }
-  std::sort(sides.begin(), sides.end());
+  using Side = std::tuple<std::size_t, std::size_t, std::size_t, bool>; // ends, face, direction
+  const auto sides = CGAL::Spectral_geometry::internal::sorted_by_vertex<Side>(
+      mended.vertex.size(), [&](const auto& add) {
+        for(std::size_t f = 0; f < mended.polygons.size(); ++f) {
+          const auto& p = mended.polygons[f];
+          for(std::size_t i = 0; i < p.size(); ++i) {
+            const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
+            add((std::min)(v, w), {(std::min)(v, w), (std::max)(v, w), f, v < w});
+          }
+        }
+      });
   const auto same_edge = [&](const std::size_t i, const std::size_t j) {
     return j < sides.size() && std::get<0>(sides[i]) == std::get<0>(sides[j]) &&
            std::get<1>(sides[i]) == std::get<1>(sides[j]);

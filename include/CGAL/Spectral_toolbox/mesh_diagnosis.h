@@ -160,6 +160,8 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm,
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <numeric>
+
 namespace CGAL::Spectral_geometry {
 
 namespace internal {
@@ -228,9 +230,9 @@ private:
   {
     m_sound.assign(m_polygons.size(), false);
     std::vector<bool> used(m_n, false);
-    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> sound; // vertices and number
+    std::vector<std::size_t> sorted;
     for(std::size_t f = 0; f < m_polygons.size(); ++f) {
-      std::vector<std::size_t> sorted = m_polygons[f];
+      sorted = m_polygons[f];
       std::sort(sorted.begin(), sorted.end());
       const bool foreign = !sorted.empty() && sorted.back() >= m_n;
       const bool repeated =
@@ -246,31 +248,63 @@ private:
         m_sound[f] = true;
         if(sorted.size() > 3)
           m_result.polygons.add(f, sorted.size());
-        sound.emplace_back(std::move(sorted), f);
       }
     }
     for(std::size_t v = 0; v < m_n; ++v)
       if(!used[v])
         m_result.isolated_vertices.add(v);
-    std::sort(sound.begin(), sound.end());
-    for(std::size_t i = 1, first = 0; i < sound.size(); ++i)
-      if(sound[i].first != sound[first].first)
-        first = i;
-      else
-        add_smallest(m_result.duplicate_faces, {sound[i].second, sound[first].second});
+    find_duplicate_faces();
+  }
+
+  // Only faces whose least vertices and whose sums of all vertices are equal are compared.
+  void find_duplicate_faces()
+  {
+    using Sum_and_face = std::pair<std::size_t, std::size_t>;
+    const auto least = [&](const std::size_t f) {
+      return *std::min_element(m_polygons[f].begin(), m_polygons[f].end());
+    };
+    const std::vector<Sum_and_face> order =
+        sorted_by_vertex<Sum_and_face>(m_n, [&](const auto& add) {
+          for(std::size_t f = 0; f < m_polygons.size(); ++f)
+            if(m_sound[f])
+              add(least(f),
+                  {std::accumulate(m_polygons[f].begin(), m_polygons[f].end(), std::size_t(0)), f});
+        });
+    std::vector<std::pair<std::vector<std::size_t>, std::size_t>> alike; // vertices and number
+    for(std::size_t i = 0, j = 0; i < order.size(); i = j) {
+      const auto is_alike = [&](const std::size_t k) {
+        return order[k].first == order[i].first && least(order[k].second) == least(order[i].second);
+      };
+      for(++j; j < order.size() && is_alike(j);)
+        ++j;
+      if(j - i == 1)
+        continue;
+      alike.clear();
+      for(std::size_t k = i; k < j; ++k) {
+        alike.emplace_back(m_polygons[order[k].second], order[k].second);
+        std::sort(alike.back().first.begin(), alike.back().first.end());
+      }
+      std::sort(alike.begin(), alike.end());
+      for(std::size_t k = 1, first = 0; k < alike.size(); ++k)
+        if(alike[k].first != alike[first].first)
+          first = k;
+        else
+          add_smallest(m_result.duplicate_faces, {alike[k].second, alike[first].second});
+    }
   }
 
   void collect_sides()
   {
-    m_sides.reserve(3 * m_polygons.size());
-    for(std::size_t face = 0; face < m_polygons.size(); ++face) {
-      const std::vector<std::size_t>& p = m_polygons[face];
-      for(std::size_t i = 0; m_sound[face] && i < p.size(); ++i) {
-        const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
-        m_sides.push_back({(std::min)(v, w), (std::max)(v, w), face, std::uint32_t(i), v < w});
+    m_sides = sorted_by_vertex<Side>(m_n, [&](const auto& add) {
+      for(std::size_t face = 0; face < m_polygons.size(); ++face) {
+        const std::vector<std::size_t>& p = m_polygons[face];
+        for(std::size_t i = 0; m_sound[face] && i < p.size(); ++i) {
+          const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
+          const std::size_t low = (std::min)(v, w);
+          add(low, {low, (std::max)(v, w), face, std::uint32_t(i), v < w});
+        }
       }
-    }
-    std::sort(m_sides.begin(), m_sides.end());
+    });
   }
 
   void examine_edges()

@@ -49,24 +49,23 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
   result.V = std::move(matrices.V);
   const auto index = get(CGAL::dynamic_face_property_t<int>(), mesh);
   int m = 0;
-  for(const auto f : faces(mesh)) {
-    put(index, f, m);
-    for(int k = 0; k < 3; ++k)
-      result.vertex.push_back(matrices.T(m, k));
-    ++m;
-  }
   for(const auto f : faces(mesh))
-    // Corner k is the target of the k-th halfedge, and what leads from there the next one.
+    put(index, f, m++);
+  result.corners.reserve(3 * std::size_t(m));
+  for(const auto f : faces(mesh)) {
+    int k = 0; // corner k is the target of the k-th halfedge, and what leads from there the next
     for(const auto h : halfedges_around_face(next(halfedge(f, mesh), mesh), mesh)) {
       const auto beyond = opposite(h, mesh);
       int corner = -1;
       if(!is_border(beyond, mesh)) {
         const auto first = halfedge(face(beyond, mesh), mesh);
-        const int k = beyond == next(first, mesh) ? 0 : beyond == first ? 2 : 1;
-        corner = 3 * get(index, face(beyond, mesh)) + k;
+        corner = 3 * get(index, face(beyond, mesh)) + (beyond == next(first, mesh) ? 0
+                                                       : beyond == first           ? 2
+                                                                                   : 1);
       }
-      result.opposite.push_back(corner);
+      result.corners.push_back({matrices.T(get(index, f), k++), corner});
     }
+  }
   return result;
 }
 

@@ -9,6 +9,8 @@
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <numeric>
+
 namespace CGAL::Spectral_geometry::internal {
 
 /// For each of n vertices the number of its component, from 0 in the order of their first vertices.
@@ -43,15 +45,35 @@ inline std::vector<Eigen::Index> connected_components(const Eigen::Index n,
   });
 }
 
+/// Items, sorted by the vertices from 0 to n - 1 that they belong to, and by `<` among those of one
+/// vertex: linear where few items belong to one. `for_each` calls its argument with vertex and item
+/// of each, twice.
+template <class Item, class For_each>
+std::vector<Item> sorted_by_vertex(const std::size_t n, const For_each& for_each)
+{
+  std::vector<std::size_t> last(n + 1, 0);
+  for_each([&](const std::size_t v, const Item&) { ++last[v + 1]; });
+  std::partial_sum(last.begin(), last.end(), last.begin());
+  std::vector<Item> result(last[n]);
+  for_each([&](const std::size_t v, const Item& item) { result[last[v]++] = item; });
+  for(std::size_t v = 0, first = 0; v < n; first = last[v++])
+    std::sort(result.begin() + std::ptrdiff_t(first), result.begin() + std::ptrdiff_t(last[v]));
+  return result;
+}
+
 /// The edges of one face, sorted, each with its smaller vertex first.
 inline std::vector<std::pair<int, int>> boundary_edges(const Eigen::MatrixXi& T)
 {
-  std::vector<std::pair<int, int>> edges, result;
-  edges.reserve(3 * std::size_t(T.rows()));
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    for(int k = 0; k < 3; ++k)
-      edges.push_back(std::minmax({T(f, k), T(f, (k + 1) % 3)}));
-  std::sort(edges.begin(), edges.end());
+  using Edge = std::pair<int, int>;
+  const std::size_t n = T.size() == 0 ? 0 : std::size_t(T.maxCoeff()) + 1;
+  const std::vector<Edge> edges = sorted_by_vertex<Edge>(n, [&](const auto& add) {
+    for(Eigen::Index f = 0; f < T.rows(); ++f)
+      for(int k = 0; k < 3; ++k) {
+        const Edge edge = std::minmax({T(f, k), T(f, (k + 1) % 3)});
+        add(std::size_t(edge.first), edge);
+      }
+  });
+  std::vector<Edge> result;
   for(std::size_t i = 0; i < edges.size(); ++i)
     if((i == 0 || edges[i - 1] != edges[i]) && (i + 1 == edges.size() || edges[i + 1] != edges[i]))
       result.push_back(edges[i]);

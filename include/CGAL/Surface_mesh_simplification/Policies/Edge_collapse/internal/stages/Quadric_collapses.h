@@ -16,9 +16,15 @@ namespace CGAL::Surface_mesh_simplification::internal {
 /// face.
 struct Triangle_arrays
 {
-  Eigen::MatrixXd V;             ///< n x 3, finite
-  std::vector<int> vertex;       ///< of each corner
-  std::vector<int> opposite;     ///< the corner whose halfedge leads back, -1 on the border
+  struct Corner
+  {
+    int vertex;
+    int opposite;   ///< the corner whose halfedge leads back, -1 on the border
+    int state = -2; ///< of the halfedge in a run: what is read together lies together
+  };
+
+  Eigen::MatrixXd V; ///< n x 3, finite
+  std::vector<Corner> corners;
   bool single_precision = false; ///< whether the mesh holds positions as `float`
   std::vector<char> fixed;       ///< a flag for each vertex that stays where it is, or nothing
   bool border_is_apart =
@@ -185,7 +191,6 @@ public:
     , m_cost_scale(std::pow((mesh.V.colwise().maxCoeff() - mesh.V.colwise().minCoeff()).norm(), -4))
     , m_log(mesh.V.rows())
     , m_mesh(std::move(mesh))
-    , m_state(m_mesh.vertex.size(), none)
     , m_watched(std::move(watched))
   {
     const std::size_t n = m_log.number_of_vertices();
@@ -195,11 +200,8 @@ public:
       m_points[v] = m_mesh.V.row(Eigen::Index(v)).transpose() - m_origin;
     m_mesh.V.resize(0, 3);
     m_quadrics.resize(n);
-    m_degree.assign(n, 0);
-    m_outgoing.assign(n, -1);
-    m_changed.assign(n, 0);
-    m_mark.assign(n, 0);
-    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
+    m_vertices.resize(n);
+    for(int c = 0; c < number_of_corners(); ++c)
       add_corner(c);
     if(!m_watched.empty())
       m_crossing.set_geometry(m_points, Watched_fans{*this});
@@ -207,8 +209,8 @@ public:
 
   void run(const std::size_t target, const std::function<void(std::size_t)>& progress)
   {
-    for(int c = 0; c < int(m_mesh.vertex.size()); ++c)
-      if(m_mesh.opposite[c] < c)
+    for(int c = 0; c < number_of_corners(); ++c)
+      if(opposite(c) < c)
         push(c);
     const std::size_t n = m_log.number_of_vertices();
     m_log.reserve(n - (std::min)(n, target));
@@ -223,7 +225,7 @@ public:
         progress(before);
         m_largest_degree = stuck ? unlimited : (std::min)(4 * m_largest_degree, unlimited);
         for(const int c : std::exchange(m_refused, {}))
-          if(m_mesh.vertex[c] != removed && m_state[c] == refused)
+          if(source(c) != removed && state(c) == refused)
             push(c);
         continue;
       }
@@ -247,11 +249,11 @@ public:
   {
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> V(
         m_points.front().data(), Eigen::Index(m_points.size()), 3);
-    Eigen::MatrixXi T(Eigen::Index(m_mesh.vertex.size() / 3), 3);
+    Eigen::MatrixXi T(number_of_corners() / 3, 3);
     Eigen::Index faces = 0;
-    for(std::size_t c = 0; c < m_mesh.vertex.size(); c += 3)
-      if(m_mesh.vertex[c] != removed)
-        T.row(faces++) << m_mesh.vertex[c], m_mesh.vertex[c + 1], m_mesh.vertex[c + 2];
+    for(int c = 0; c < number_of_corners(); c += 3)
+      if(source(c) != removed)
+        T.row(faces++) << source(c), source(c + 1), source(c + 2);
     T.conservativeResize(faces, 3);
     enum : char { apart, beside, of_face };
     std::vector<char> place(m_points.size(), apart);
@@ -298,6 +300,13 @@ private:
 
   using Entry = Halfedge_queue::Entry;
 
+  struct Vertex
+  {
+    int degree = 0, outgoing = -1;
+    int changed = 0; // the number of collapses when it last did
+    int mark = 0;
+  };
+
   // The triangles that have a watched vertex.
   struct Watched_fans
   {
@@ -324,19 +333,23 @@ private:
   static int next(const int c) { return c % 3 == 2 ? c - 2 : c + 1; }
   static int previous(const int c) { return c % 3 == 0 ? c + 2 : c - 1; }
 
-  int source(const int c) const { return m_mesh.vertex[c]; }
-  int target(const int c) const { return m_mesh.vertex[next(c)]; }
-  bool is_border(const int c) const { return m_mesh.opposite[c] < 0; }
-  bool is_border_vertex(const int v) const { return is_border(m_outgoing[v]); }
+  int number_of_corners() const { return int(m_mesh.corners.size()); }
+  int source(const int c) const { return m_mesh.corners[c].vertex; }
+  int target(const int c) const { return source(next(c)); }
+  int opposite(const int c) const { return m_mesh.corners[c].opposite; }
+  int state(const int c) const { return m_mesh.corners[c].state; }
+  int& state(const int c) { return m_mesh.corners[c].state; }
+  bool is_border(const int c) const { return opposite(c) < 0; }
+  bool is_border_vertex(const int v) const { return is_border(m_vertices[v].outgoing); }
 
   // Starts with the halfedge on the border, if there is one, and turns from there.
   template <class Visit>
   void for_outgoing(const int v, const Visit& visit) const
   {
-    const int first = m_outgoing[v];
+    const int first = m_vertices[v].outgoing;
     int c = first;
     do {
-      const int beyond = m_mesh.opposite[previous(c)];
+      const int beyond = opposite(previous(c));
       visit(c);
       c = beyond;
     } while(c >= 0 && c != first);
@@ -346,9 +359,9 @@ private:
   {
     const int v = source(c);
     const Eigen::Vector3d& p = m_points[v];
-    m_degree[v] += is_border(c) ? 2 : 1;
-    if(m_outgoing[v] < 0 || is_border(c))
-      m_outgoing[v] = c;
+    m_vertices[v].degree += is_border(c) ? 2 : 1;
+    if(m_vertices[v].outgoing < 0 || is_border(c))
+      m_vertices[v].outgoing = c;
     m_quadrics[v].add_corner(p, m_points[target(c)] - p, is_border(c),
                              m_points[source(previous(c))] - p, is_border(previous(c)));
   }
@@ -357,7 +370,7 @@ private:
 
   void push(const int c, const float cost)
   {
-    m_state[c] = number_of_collapses();
+    state(c) = number_of_collapses();
     m_queue.push({cost, c});
   }
 
@@ -389,27 +402,27 @@ private:
 
   void handle(const Entry& entry)
   {
-    const int c = entry.halfedge, opposite = m_mesh.opposite[c];
+    const int c = entry.halfedge;
     if(source(c) == removed)
       return;
-    const int computed = std::exchange(m_state[c], none);
-    if(opposite >= 0 &&
-       m_state[opposite] >= 0) // two edges have become one: its other entry stands for it
+    const int computed = std::exchange(state(c), none);
+    if(!is_border(c) &&
+       state(opposite(c)) >= 0) // two edges have become one: its other entry stands for it
       return;
     const int u = source(c), v = target(c);
     if(would_change(u, v) || would_change(v, u))
       return;
     const auto [cost, x] = placement(c);
-    if((std::max)(m_changed[u], m_changed[v]) > computed && !m_queue.empty() &&
+    if((std::max)(m_vertices[u].changed, m_vertices[v].changed) > computed && !m_queue.empty() &&
        cost > m_queue.top().cost) {
       push(c, cost);
       return;
     }
-    if(m_degree[u] + m_degree[v] > m_largest_degree || !keeps_manifold(c) ||
+    if(m_vertices[u].degree + m_vertices[v].degree > m_largest_degree || !keeps_manifold(c) ||
        !keeps_shape(u, v, x) || !keeps_shape(v, u, x) ||
        (!m_watched.empty() && (m_watched[u] || m_watched[v]) &&
         m_crossing.crosses(m_points, *this, Spectral_slot(u), Spectral_slot(v), x))) {
-      m_state[c] = refused;
+      state(c) = refused;
       m_refused.push_back(c);
       return;
     }
@@ -423,17 +436,14 @@ private:
   // corners have come.
   void prefetch_next() const
   {
-    if(const int c = m_queue.ahead(8); c >= 0) {
-      CGAL_SPECTRAL_PREFETCH(&m_mesh.vertex[c]);
-      CGAL_SPECTRAL_PREFETCH(&m_mesh.opposite[c]);
-      CGAL_SPECTRAL_PREFETCH(&m_state[c]);
-    }
+    if(const int c = m_queue.ahead(8); c >= 0)
+      CGAL_SPECTRAL_PREFETCH(&m_mesh.corners[c]);
     if(const int c = m_queue.ahead(4); c >= 0 && source(c) != removed)
       for(const int v : {source(c), target(c)}) {
         CGAL_SPECTRAL_PREFETCH(&m_points[v]);
         CGAL_SPECTRAL_PREFETCH(&m_quadrics[v]);
         CGAL_SPECTRAL_PREFETCH(&m_quadrics[v].c);
-        CGAL_SPECTRAL_PREFETCH(&m_changed[v]);
+        CGAL_SPECTRAL_PREFETCH(&m_vertices[v]);
       }
   }
 
@@ -448,24 +458,24 @@ private:
   // The link condition.
   bool keeps_manifold(const int c)
   {
-    const int u = source(c), v = target(c), opposite = m_mesh.opposite[c];
-    if(opposite >= 0 && is_border_vertex(u) && is_border_vertex(v))
+    const int u = source(c), v = target(c);
+    if(!is_border(c) && is_border_vertex(u) && is_border_vertex(v))
       return false;
     int faces = 0;
-    for(const int side : {c, opposite}) {
+    for(const int side : {c, opposite(c)}) {
       if(side < 0)
         continue;
       ++faces;
       const int apex = source(previous(side));
       // an ear, or a tetrahedron
       if((is_border(next(side)) && is_border(previous(side))) ||
-         (m_degree[apex] == 3 && !is_border_vertex(apex)))
+         (m_vertices[apex].degree == 3 && !is_border_vertex(apex)))
         return false;
     }
     ++m_marks;
-    for_neighbours(u, [&](const int w) { m_mark[w] = m_marks; });
+    for_neighbours(u, [&](const int w) { m_vertices[w].mark = m_marks; });
     int common = 0;
-    for_neighbours(v, [&](const int w) { common += m_mark[w] == m_marks; });
+    for_neighbours(v, [&](const int w) { common += m_vertices[w].mark == m_marks; });
     return common == faces;
   }
 
@@ -519,27 +529,27 @@ private:
 
     std::vector<int>& ring = m_ring; // what is left of both
     ring.clear();
-    const int opposite = m_mesh.opposite[c];
+    const int beyond = opposite(c);
     const auto is_left = [&](const int h) {
-      return h / 3 != c / 3 && (opposite < 0 || h / 3 != opposite / 3);
+      return h / 3 != c / 3 && (beyond < 0 || h / 3 != beyond / 3);
     };
     for(const int v : {gone, kept})
       for_outgoing(v, [&](const int h) {
         if(is_left(h))
           ring.push_back(h);
       });
-    m_degree[kept] += m_degree[gone] - 2;
-    for(const int side : {c, opposite})
+    m_vertices[kept].degree += m_vertices[gone].degree - 2;
+    for(const int side : {c, beyond})
       if(side >= 0)
         close(side, kept);
     m_points[kept] = x;
     m_quadrics[kept] += m_quadrics[gone];
-    m_changed[kept] = number_of_collapses();
-    m_outgoing[kept] = ring.front();
+    m_vertices[kept].changed = number_of_collapses();
+    m_vertices[kept].outgoing = ring.front();
     for(const int h : ring) {
-      m_mesh.vertex[h] = kept;
+      m_mesh.corners[h].vertex = kept;
       if(is_border(h))
-        m_outgoing[kept] = h;
+        m_vertices[kept].outgoing = h;
     }
     for(const int h : ring) {
       reconsider(h);
@@ -562,31 +572,30 @@ private:
   void close(const int side, const int kept)
   {
     const int apex = source(previous(side));
-    const int a = m_mesh.opposite[next(side)], b = m_mesh.opposite[previous(side)];
-    const bool was_queued = m_state[next(side)] != none || m_state[previous(side)] != none;
+    const int a = opposite(next(side)), b = opposite(previous(side));
+    const bool was_queued = state(next(side)) != none || state(previous(side)) != none;
     if(a >= 0)
-      m_mesh.opposite[a] = b;
+      m_mesh.corners[a].opposite = b;
     if(b >= 0)
-      m_mesh.opposite[b] = a;
-    if(m_outgoing[apex] == previous(side))
-      m_outgoing[apex] = a;
-    --m_degree[apex];
-    --m_degree[kept];
+      m_mesh.corners[b].opposite = a;
+    if(m_vertices[apex].outgoing == previous(side))
+      m_vertices[apex].outgoing = a;
+    --m_vertices[apex].degree;
+    --m_vertices[kept].degree;
     for(const int h : {side, next(side), previous(side)})
-      m_mesh.vertex[h] = removed;
+      m_mesh.corners[h].vertex = removed;
     // An entry of the edge that is left, if only one of the removed sides had one.
     const int left = a >= 0 ? a : b;
-    if(was_queued && m_state[left] == none && (b < 0 || m_state[b] == none))
-      m_state[left] = refused; // until the ring is complete
+    if(was_queued && state(left) == none && (b < 0 || state(b) == none))
+      state(left) = refused; // until the ring is complete
   }
 
   void reconsider(const int h)
   {
-    if(m_state[h] == refused)
+    if(state(h) == refused)
       push(h);
-    const int opposite = m_mesh.opposite[h];
-    if(opposite >= 0 && m_state[opposite] == refused)
-      push(opposite);
+    if(!is_border(h) && state(opposite(h)) == refused)
+      push(opposite(h));
   }
 
   Eigen::Vector3d m_origin;
@@ -595,11 +604,8 @@ private:
   Triangle_arrays m_mesh;                // but for positions
   std::vector<Eigen::Vector3d> m_points; // of each vertex, as what follows, from the origin
   std::vector<Spectral_quadric> m_quadrics;
-  std::vector<int> m_degree, m_outgoing;
-  std::vector<int> m_changed; // the number of collapses when it last did
-  std::vector<int> m_mark;
+  std::vector<Vertex> m_vertices;
   int m_marks = 0;
-  std::vector<int> m_state; // of each halfedge
   std::vector<int> m_refused, m_ring;
   std::vector<char> m_watched; // of each vertex, or nothing
   // Hubs come last: to look at one takes as long as it has neighbours.
