@@ -509,7 +509,7 @@ function(manual_sections result figures prefix)
   # And the programs.
   string(REGEX REPLACE "`spectral_[a-z]+ --[^`]*`, " "" all "${all}")
   string(REGEX REPLACE " On the command line: `[^`]*`\\." "" all "${all}")
-  string(REGEX REPLACE "[ \n]+`spectral_simplify`[ \n]and[ \n]Python[ \n]have[ \n]all[ \n]three[^.]*\\.[^.]*\\." "" all "${all}")
+  string(REGEX REPLACE "[ \n]+`spectral_simplify`[ \n]has[ \n]`best\\(\\)`[^.]*\\.[^.]*\\." "" all "${all}")
   # And the toolbox.
   string(REGEX REPLACE "[ \n]+Or[ \n]+fit[ \n]+operators[ \n]+with[^%]*%\\." "" all "${all}")
   string(REGEX REPLACE "\n[^\n]*Fitted operators[^\n]*\n[^\n]*\n" "\n" all "${all}")

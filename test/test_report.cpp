@@ -5,6 +5,7 @@
 // The pieces of the programs' pages that no reader would see to be wrong.
 
 #include "../examples/programs/compare/mode_alignment.h"
+#include "../examples/programs/option_words.h"
 #include "../examples/programs/report/html_report.h"
 #include "../examples/programs/report/judgement.h"
 #include "../examples/programs/report/plain_words.h"
@@ -156,6 +157,26 @@ void check_mesh(const std::string& html, const std::string& name, const shapes::
 }
 
 } // namespace
+
+TEST_CASE("The first stage of best stays out of the way of other options")
+{
+  using Options = CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options;
+  const auto first_stage = [](const Options& options) {
+    return first_stage_of_best(options, 20000);
+  };
+  Options best, late, preserved, bounded, paper = Options::paper();
+  CHECK(first_stage(best) == 600000);
+  CHECK(first_stage_of_best(best, 600) == 500000);
+  late.quadrics_above = 30;
+  CHECK(first_stage(late) == 600000);
+  late.quadrics_above = 31;
+  CHECK(first_stage(late) == 0);
+  preserved.preserve_border = true;
+  CHECK(first_stage(preserved) == 0);
+  bounded.maximum_error = 0.1;
+  CHECK(first_stage(bounded) == 0);
+  CHECK(first_stage(paper) == 0);
+}
 
 TEST_CASE("base64 of lengths with and without padding")
 {

@@ -8,8 +8,6 @@
 #include "collapse_helpers.h"
 #include "core_helpers.h"
 
-#include "../examples/programs/option_words.h"
-
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
@@ -22,7 +20,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -548,42 +545,6 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
   CHECK_FALSE(paper.relocate);
   CHECK(std::isinf(paper.quadrics_above));
   CHECK(Spectral_options::paper().mass == SG::Mass::lumped);
-}
-
-TEST_CASE("Presets of the programs: best has a first stage unless something else rules it out")
-{
-  const auto first_stage = [](const std::string& preset, const auto& change,
-                              const std::optional<std::size_t> asked = {}) {
-    Option_words words;
-    words.preset = preset;
-    words.vertices = 20000;
-    Spectral_edge_collapse_options options = options_of(words);
-    const bool given = change(options);
-    set_first_stage(preset, asked, given, options);
-    return options.pre_simplify;
-  };
-  const auto nothing = [](auto&) { return false; };
-  CHECK(first_stage("best", nothing) == 600000);
-  CHECK(first_stage("best", nothing, 0) == 0);
-  CHECK(first_stage("best", nothing, 70000) == 70000);
-  CHECK(first_stage("best", [](auto&) { return true; }) == 0);
-  CHECK(first_stage("best", [](auto& o) {
-          o.preserve_border = true;
-          return false;
-        }) == 0);
-  CHECK(first_stage("best", [](auto& o) {
-          o.maximum_error = 0.1;
-          return false;
-        }) == 0);
-  CHECK(first_stage("best", [](auto& o) {
-          o.shape = 0;
-          return false;
-        }) == 0);
-  CHECK(first_stage("fast", [](auto& o) {
-          o.preserve_border = true;
-          return true;
-        }) == 300000);
-  CHECK(first_stage("paper", nothing) == 0);
 }
 
 TEST_CASE("Options that contradict each other are refused before the mesh changes")

@@ -92,7 +92,7 @@ relocation_word(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
 struct Option_words
 {
   std::string preset;       // best, fast, paper
-  std::size_t vertices = 0; // the target, for best and fast; best with 0: no first stage
+  std::size_t vertices = 0; // the target, for fast
   // Empty: as the preset has it.
   std::string placement;          // on_edge, midpoint, free
   std::string mass;               // lumped, averaged, voronoi, consistent
@@ -118,6 +118,21 @@ inline bool quadrics_above_is_passed_over(
          !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options);
 }
 
+// Where quadrics stop before the eigenpairs are computed, if only these are to steer: as
+// `Spectral_edge_collapse_options::best(vertices)` has it, but 0, never, where quadrics do not come
+// first anyway or have to stop earlier.
+inline std::size_t first_stage_of_best(
+    const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options,
+    const std::size_t vertices)
+{
+  namespace SMS = CGAL::Surface_mesh_simplification;
+  const std::size_t result = SMS::Spectral_edge_collapse_options::best(vertices).pre_simplify;
+  return SMS::internal::quadrics_come_first(options) &&
+                 options.quadrics_above * double(vertices) <= double(result)
+             ? result
+             : 0;
+}
+
 // What an intrinsic triangulation asks for, in the mass of the run.
 inline auto intrinsic_operator(const CGAL::Spectral_geometry::Mass mass)
 {
@@ -134,7 +149,6 @@ options_of(const Option_words& words)
   using Options = SMS::Spectral_edge_collapse_options;
   Options options = words.preset == "paper"  ? Options::paper()
                     : words.preset == "fast" ? Options::fast(words.vertices)
-                    : words.vertices != 0    ? Options::best(words.vertices)
                                              : Options::best();
   if(!words.placement.empty())
     options.placement = value_of(placement_words, words.placement);
@@ -152,19 +166,6 @@ options_of(const Option_words& words)
       options.relocation.signals = value_of(relocation_words, words.relocate);
   }
   return options;
-}
-
-// The first stage: as asked for, or as the preset has it. *best* has one only where collapses by
-// quadrics come first anyway, and where neither signals nor eigenpairs of the input are given.
-inline void
-set_first_stage(const std::string& preset, const std::optional<std::size_t> asked, const bool given,
-                CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options& options)
-{
-  if(asked)
-    options.pre_simplify = *asked;
-  else if(preset == "best" &&
-          (given || !CGAL::Surface_mesh_simplification::internal::quadrics_come_first(options)))
-    options.pre_simplify = 0;
 }
 
 #endif // SPECTRAL_EXAMPLES_OPTION_WORDS_H

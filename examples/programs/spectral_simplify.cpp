@@ -736,7 +736,10 @@ int run(Arguments a)
   SMS::Spectral_edge_collapse_options options =
       options_of_run(a, target, input.numbering, std::move(kept), bar);
   options.coefficients = operator_coefficients(a.operator_, input.mesh, input.numbering);
-  set_first_stage(a.preset, a.pre_simplify, !a.signals.empty(), options);
+  if(a.pre_simplify)
+    options.pre_simplify = static_cast<std::size_t>(*a.pre_simplify);
+  else if(a.preset == "best" && a.no_evaluation && a.signals.empty())
+    options.pre_simplify = first_stage_of_best(options, target);
   std::vector<std::string> inputs = {a.input, a.signals, a.operator_.file};
   inputs.insert(inputs.end(), a.kept.files.begin(), a.kept.files.end());
   Output_files files(inputs);

@@ -179,10 +179,8 @@ void set_signals(const Arguments& a, const Index n, const Index target,
   options.number_of_eigenvectors =
       own ? options.signals.cols() : a.integer("k", 1, n - 1, ", one less than V has vertices");
   const Index k = options.number_of_eigenvectors;
-  std::optional<std::size_t> asked;
   if(a.has("pre_simplify"))
-    asked = std::size_t(a.integer("pre_simplify", 0));
-  set_first_stage(a["preset"].cast<std::string>(), asked, own || a.has("eigenpairs"), options);
+    options.pre_simplify = std::size_t(a.integer("pre_simplify", 0));
   const Index first = Index(options.pre_simplify);
   if(first > 0 && (first < target || first <= k))
     refuse("pre_simplify is " + to_string(first) + ", it must not be below n, which is " +
@@ -236,9 +234,9 @@ py::dict simplify(const Arguments& a)
   const SG::Mesh_diagnosis diagnosis = checked(*fine, "V, F");
   const Index n = a.integer("n", 1, vertices, ", as many as V has");
   SMS::Spectral_edge_collapse_options options = run_options(a, n);
+  set_signals(a, vertices, n, options);
   options.coefficients = a.coefficients(vertices);
   options.boundary = a.boundary();
-  set_signals(a, vertices, n, options);
   if(a.intrinsic_delaunay())
     options.operator_of_eigenpairs = intrinsic_operator(options.mass);
   const bool fits_operators = a.flag("fit_operators");

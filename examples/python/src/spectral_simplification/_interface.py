@@ -91,9 +91,8 @@ def simplify(
         how many eigenvectors are kept, the constant one included; below v. 100, or as many as
         signals has columns
     preset : str
-        'best': what keeps the spectrum best, with pre_simplify at 30 n, at least 500000; 'fast':
-        the same with pre_simplify at 15 n, at least 10000, and filtered noise in place of
-        eigenvectors; 'paper': what Lescoat et al. describe
+        'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 15 n, at least
+        10000, and filtered noise in place of eigenvectors; 'paper': what Lescoat et al. describe
         (Spectral Mesh Simplification, 2020). Each of the next five, quadrics_above and
         pre_simplify overrides it
     mass : str, optional
