@@ -28,10 +28,10 @@ struct Spectral_edge_collapse_options : Spectral_options
   static Spectral_edge_collapse_options best() { return Spectral_edge_collapse_options(); }
 
   /// `best()` for large inputs: collapses by quadrics reduce a mesh first to 30 times the target,
-  /// but not below 500,000 vertices, and the eigenpairs are those of that mesh. One of 1.44 million
-  /// took half of the time and 0.4 of the memory, and eigenvalues were a tenth further off, |C|_L
-  /// was not larger. On a mesh that is larger it takes neither signals nor eigenpairs, and neither
-  /// a filter nor a visitor.
+  /// but not below 500,000 vertices, and the eigenpairs are those of that mesh. A terrain of 1.44
+  /// million vertices took half of the time and 0.4 of the memory. |C|_L was no larger, and
+  /// eigenvalues were a tenth further off. Where this stage takes part, signals and eigenpairs are
+  /// refused, and so are a filter and a visitor.
   static Spectral_edge_collapse_options best(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
