@@ -183,6 +183,7 @@ grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)
   fail "--preset fast gives two results"
 "$program" shape.off best.off --vertices 100 --eigenvectors 20 --pre-simplify 500 --no-evaluation --quiet && ! cmp -s fast.off best.off ||
   fail "--preset fast --pre-simplify 500 has the eigenvectors of best"
+grep -q '"pre_simplified_vertices": 500' fast.json || fail "the JSON does not say where the first stage ended"
 grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
 runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json
 grep -q "\"quadric_collapses\": $(($(sed -n 2p shape.off | cut -d ' ' -f 1) - 300))," ahead.json || fail "quadrics end at 3 N: $(grep quadric ahead.json)"
@@ -492,6 +493,7 @@ echo "precious" >precious.off
 mkdir full.json
 refuses "no such folder" "no folder" shape.off nowhere/out.off --vertices 200 --eigenvectors 20
 refuses "output is a folder" "not an ordinary file" shape.off folder.off --vertices 200 --eigenvectors 20
+refuses "output is what it prints to" "the program prints to it" shape.off out.off --json /dev/stdout --vertices 200 --eigenvectors 20
 refuses "output is a device" "not an ordinary file" shape.off out.off --json /dev/full --vertices 200 --eigenvectors 20
 refuses "JSON is a folder" "full.json" shape.off precious.off --json full.json --vertices 200 --eigenvectors 20
 refuses "matrix in no folder" "no folder" shape.off precious.off --restriction x/P.mtx --vertices 200 --eigenvectors 20

@@ -230,7 +230,7 @@ class Results_live(Case):
             ("k is 0, it must be", (pairs.L, pairs.M, 0)),
             ("M has the shape", (pairs.L, pairs.M[:5, :5], 5)),
             ("must be a sparse matrix", (np.eye(3), None, 2)),
-            ("of B is not positive", (pairs.L, -pairs.M, 5)),
+            ("of the mass matrix B is not positive", (pairs.L, -pairs.M, 5)),
         ):
             with self.assertRaisesRegex(ValueError, words):
                 ss.eigsh(*arguments)
@@ -1103,6 +1103,16 @@ class Collections(Case):
         rows = ss.simplify_collection(meshes, 150, workers=2, k=40, progress=False)
         self.assertEqual([r.error is None for r in rows], [True, True, True, False])
         np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
+
+    def test_meshes_that_end_with_an_exception(self):
+        def meshes():
+            yield V, F
+            raise OSError("the disk is gone")
+
+        for workers in 1, 2:
+            rows = ss.simplify_collection(meshes(), 150, workers=workers, k=40, progress=False)
+            np.testing.assert_allclose(rows[0].result.V, RUN.V, atol=1e-9)
+            self.assertEqual(rows[1].error, "meshes ended with OSError: the disk is gone.")
 
     def test_a_mesh_whose_process_dies(self):
         meshes = [(V, F), Deadly(), (V, F)]

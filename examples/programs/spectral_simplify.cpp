@@ -216,8 +216,8 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
                                                    std::vector<std::size_t> kept, Progress_bar& bar)
 {
   SMS::Spectral_edge_collapse_options options =
-      options_of({a.preset, target, a.placement, a.mass, a.self_intersections, a.relocate, a.shape,
-                  a.quadrics_above});
+      options_of({a.preset, a.levels.empty() ? target : std::size_t(a.levels.front()), a.placement,
+                  a.mass, a.self_intersections, a.relocate, a.shape, a.quadrics_above});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;
@@ -261,14 +261,14 @@ void check_memory(const Arguments& a, const Mesh& mesh, const std::size_t target
   const bool reduced = options.pre_simplify != 0 && n > options.pre_simplify;
   const std::size_t intermediate = 100000;
   if(available > 0 && needed > available)
-    throw std::runtime_error("a mesh of " + std::to_string(n) + " vertices with " +
-                             std::to_string(K) + " eigenvectors takes about " +
-                             formatted_memory(needed) + " of memory, but this machine has " +
-                             formatted_memory(available) + " left: " +
-                             ((reduced ? options.pre_simplify : n) > intermediate
-                                  ? "add --pre-simplify " + std::to_string(intermediate) + ", or "
-                                  : std::string()) +
-                             "lower --eigenvectors.");
+    throw std::runtime_error(
+        "a mesh of " + std::to_string(n) + " vertices with " + std::to_string(K) +
+        " eigenvectors takes about " + formatted_memory(needed) +
+        " of memory, but this machine has " + formatted_memory(available) + " left: " +
+        (a.signals.empty() && (reduced ? options.pre_simplify : n) > intermediate
+             ? "add --pre-simplify " + std::to_string(intermediate) + ", or "
+             : std::string()) +
+        "lower --eigenvectors.");
   const bool pairs_are_known = options.signals.size() == 0 && !reduced;
   const double judging =
       a.no_evaluation ? 0. : SMS::estimated_evaluation_memory(n, target, K, {}, pairs_are_known);

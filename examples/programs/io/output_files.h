@@ -6,6 +6,7 @@
 #define SPECTRAL_EXAMPLES_IO_OUTPUT_FILES_H
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -79,6 +80,11 @@ public:
     if(target.filename().empty() ||
        (fs::exists(target, error) && !fs::is_regular_file(target, error)))
       throw Write_error(path, "it is not an ordinary file.");
+    struct stat file, stream; // /dev/stdout is a file where a shell has put it into one
+    for(const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
+      if(stat(target.c_str(), &file) == 0 && fstat(descriptor, &stream) == 0 &&
+         file.st_dev == stream.st_dev && file.st_ino == stream.st_ino)
+        throw Write_error(path, "the program prints to it, give another name.");
     if(input == Input::is_kept && m_inputs.count(target.string()) > 0)
       throw Write_error(path, "it is read as an input, give another name.");
     if(!m_targets.insert(target.string()).second)

@@ -84,6 +84,7 @@ run_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_result&
           {"shape", options.shape},
           {"quadrics_above", number_json(options.quadrics_above)},
           {"quadric_collapses", result.quadric_collapses},
+          {"pre_simplified_vertices", result.pre_simplified_vertices},
           {"keep_free_of_self_intersections", options.keep_free_of_self_intersections},
           {"binary", options.binary},
           {"max_error", number_json(options.maximum_error)},

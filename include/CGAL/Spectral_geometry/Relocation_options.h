@@ -157,10 +157,9 @@ struct Relocation_limits
   /// Inner products of the signals take part.
   bool keep_inner_products = true;
   /// epsilon of `Spectrum_term`: relative errors of the first K eigenvalues of this size in the
-  /// mean square cost as much as all that is minimised does at the start. With 0.03 errors fall to
-  /// 0.6 times what they are without the term (0.36 for modes 2 to 20) and |C|_L stays; with 0.02
-  /// |C|_L is 1.15 times as large, with 0.01 1.5 times (twelve meshes). 0: no such term.
-  double eigenvalue_error = 0.025;
+  /// mean square cost as much as all that is minimised does at the start. With 0.025 they are 1.1
+  /// times as large, and |C|_L 0.95 times. 0: no such term.
+  double eigenvalue_error = 0.02;
   /// So many of the coarse modes beyond K, in parts of K, do not fall in the mean, at unit area,
   /// and rise as the eigenvalues say: they are too low with the averaged mass, and without this the
   /// descent lowers them further. 0: they may fall.

@@ -364,7 +364,7 @@ inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
   const Eigen::VectorXd sums = problem.B().cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
   if(!((2. * diagonal - sums).array() > 0.).all())
     require(number_of_negative_eigenvalues(problem.B(), threads) == 0,
-            "Eigenpairs: B is not positive definite; pass a mass matrix.");
+            "Eigenpairs: the mass matrix B is not positive definite.");
 }
 
 inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
@@ -374,9 +374,10 @@ inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* 
   const Eigen::SparseMatrix<double> transposed = matrix.transpose();
   const Eigen::SparseMatrix<double> difference = matrix - transposed;
   for(Eigen::Index j = 0; j < matrix.cols(); ++j) {
-    const double size = matrix.col(j).norm();
-    require(std::isfinite(size) && difference.col(j).norm() <= 1e-10 * size, "Eigenpairs: ", name,
-            " is not symmetric and finite in row ", j, " (counted from 0); correct it.");
+    const double size = matrix.col(j).cwiseAbs().sum();
+    require(std::isfinite(size) && difference.col(j).cwiseAbs().sum() <= 1e-10 * size,
+            "Eigenpairs: ", name, " is not symmetric and finite in row ", j,
+            " (counted from 0); correct it.");
   }
 }
 
@@ -414,7 +415,7 @@ Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L, const Eigen::SparseM
   op.mass = B * Eigen::VectorXd::Ones(B.cols());
   for(Eigen::Index v = 0; v < op.mass.size(); ++v)
     internal::require(op.mass[v] > 0., "Eigenpairs: the sum of row ", v,
-                      " (counted from 0) of B is not positive; pass a mass matrix.");
+                      " (counted from 0) of the mass matrix B is not positive.");
   return eigenpairs(op, K, options);
 }
 

@@ -79,7 +79,7 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
   const double seen =
       options.number_of_mixtures == 0 ? K : (std::min)(K, double(options.number_of_mixtures));
   const double noise =
-      double((std::max)(internal::least_filtered_signals, options.number_of_mixtures));
+      double((std::max)(internal::mixtures_of_relocation, options.number_of_mixtures));
 
   // Bytes per vertex: rings and CGAL's queue; the first stage.
   const double first_stage = options.keep_free_of_self_intersections ? 600 : 500;

@@ -124,8 +124,8 @@ Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
       throw;
     throw std::runtime_error(
         sentence("spectral_edge_collapse: the mesh of ", first.slots.size(),
-                 " vertices that pre_simplify has left cannot be used, choose another number or "
-                 "repair the input (",
+                 " vertices that the first stage has left cannot be used, choose another "
+                 "pre_simplify or repair the input (",
                  error.what(), ")"));
   }
 }

@@ -344,6 +344,7 @@ def simplify_collection(
         File names, see read_mesh(), or pairs (V, F); for a folder the list of glob.glob(). Read as
         they are wanted, but for a shared connectivity. Each is cleaned as clean() does, unless an
         option has a number or a row for each vertex, and results are numbered as the mesh came.
+        An iterable that raises an exception ends with a row that says so.
     n : int
         Vertices of each result.
     output : folder, optional
@@ -533,7 +534,17 @@ def simplify_collection(
     else:
 
         def tasks():
-            for i, mesh in enumerate(meshes):
+            source = enumerate(meshes)
+            while True:
+                try:
+                    i, mesh = next(source)
+                except StopIteration:
+                    return
+                except Exception as error:  # what has been computed is not lost to it
+                    i = len(names)
+                    named(i, None)
+                    reason = f"meshes ended with {type(error).__name__}: {error}."
+                    return ended(i, None, reason, 0.0)
                 named(i, mesh)
                 if not there(i):
                     yield i, _one, (mesh, n, repair, options)

@@ -93,7 +93,7 @@ struct Spectral_options : Spectral_geometry::Run_control
   /// of the collapses needs no more, and costs do not depend on K. No more than r signals are never
   /// mixed. Multiples of 16 are free of padding. |C|_L after relocation was 1.08 times that of
   /// version 0.2 with 16, 1.02 with 32, and 1.01 with all 100 eigenvectors, which version 0.2 saw
-  /// (geometric means of twelve meshes). Not negative.
+  /// (geometric means of twelve meshes). Relocation sees at least 64. Not negative.
   Eigen::Index number_of_mixtures = 32;
 
   /// Which mixtures, or which noise. The same seed gives the same result everywhere.

@@ -38,9 +38,10 @@ struct Spectral_basis
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,
                                                           Eigen::Index n);
 
-/// So many signals of filtered noise are made at least: 16 serve the collapses, but with 32 in a
-/// relocation afterwards |C|_L is 1.06 times what it is with 64. One factorisation serves both.
-constexpr Eigen::Index least_filtered_signals = 64;
+/// Relocation sees so many mixtures at least, or signals of filtered noise, which are made for it
+/// and the collapses together. With 32 it takes five sixths of the time, and |C|_L is 1.05 times as
+/// large, of noise 1.06 times.
+constexpr Eigen::Index mixtures_of_relocation = 64;
 
 /// Whether signals are made of noise.
 inline bool is_filtered(const Spectral_options& options)
@@ -148,20 +149,20 @@ public:
                                                  : given().cols();
   }
 
-  /// Relocation sees as many mixtures as the collapses, but others. Filtered signals are not mixed.
-  /// Low eigenvectors weigh more, 1 / lambda: |C|_L is 0.98 times as large, biharmonic distances
-  /// are 0.94 times as far off. Twice as many mixtures take 1.2 times as long, with |C|_L 0.98
-  /// times as large and errors of eigenvalues 1.03 times.
+  /// What relocation sees: other mixtures than the collapses. Filtered signals are not mixed. Low
+  /// eigenvectors weigh more, lambda^-1/2: with 1 / lambda |C|_D is 1.03 times as large, without
+  /// weights biharmonic distances are 1.06 times as far off.
   Signals mixtures() const
   {
     Spectral_options options;
-    options.number_of_mixtures = m_options.number_of_mixtures;
+    const Eigen::Index r = m_options.number_of_mixtures;
+    options.number_of_mixtures = r == 0 ? 0 : (std::max)(r, mixtures_of_relocation);
     options.seed = m_options.seed + 1; // others than those of the collapses
     Eigen::VectorXd by_eigenvalue = weights();
     if(const auto pairs = m_state.eigenpairs(); pairs && pairs->values.maxCoeff() > 0) {
       const Eigen::VectorXd parts = pairs->values / pairs->values.maxCoeff();
       for(Eigen::Index k = m_state.number_of_constants(); k < parts.size(); ++k)
-        by_eigenvalue[k] /= (std::max)(parts[k], 1e-6); // zeros that are no constants
+        by_eigenvalue[k] /= std::sqrt((std::max)(parts[k], 1e-6)); // zeros that are no constants
     }
     return mixed(mixing_matrix(options, by_eigenvalue));
   }
@@ -474,7 +475,7 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
 {
   Spectral_geometry::Filtered_signals_options how;
   const Eigen::Index r = options.number_of_mixtures;
-  how.signals = (std::max)(r, least_filtered_signals);
+  how.signals = (std::max)(r, mixtures_of_relocation);
   how.seed = options.seed;
   how.threads = options.threads;
   how.progress = [&options, &op](const double fraction) {
