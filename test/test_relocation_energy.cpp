@@ -233,7 +233,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     CHECK(gradient_error(to_goals, W) < 1e-6);
     CHECK(to_goals.value(V) ==
           Catch::Approx(
-              3. * (std::pow(0.01 / 1.01 / limits.eigenvalue_error, 2) + std::pow(0.01 / 0.05, 2)))
+              3. * (std::pow(0.01 / 1.01 / limits.eigenvalue_error, 2) + std::pow(0.01 / 0.03, 2)))
               .epsilon(0.05));
   }
 }
