@@ -183,6 +183,11 @@ grep -q '^memory: about ' said || fail "no estimate of the memory in $(cat said)
   fail "--preset fast gives two results"
 "$program" shape.off best.off --vertices 100 --eigenvectors 20 --pre-simplify 500 --no-evaluation --quiet && ! cmp -s fast.off best.off ||
   fail "--preset fast --pre-simplify 500 has the eigenvectors of best"
+awk 'BEGIN { n = 110; print "OFF\n" n * n, 2 * (n - 1) * (n - 1), 0
+  for(i = 0; i < n * n; ++i) { x = int(i / n); y = i % n; print x, y, 3 * sin(x / 9) * cos(y / 7) }
+  for(x = 0; x < n - 1; ++x) for(y = 0; y < n - 1; ++y) { a = x * n + y; print 3, a, a + n, a + 1; print 3, a + 1, a + n, a + n + 1 } }' >grid.off
+"$program" grid.off levels.off --levels 800,200 --eigenvectors 20 --preset fast --no-evaluation --quiet --json levels.json
+grep -q '"pre_simplified_vertices": 12000' levels.json || fail "the first stage of fast does not go by the largest level"
 grep -q '"pre_simplified_vertices": 500' fast.json || fail "the JSON does not say where the first stage ended"
 grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
 runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json

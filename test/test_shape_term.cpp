@@ -324,10 +324,14 @@ TEST_CASE("A thin limb folded beside a body survives, and would not in the paper
   CHECK(best.furthest < 1.001 * shaped.furthest);
   // They say little of the paper's metric: rounding decides how the limb is lost, at all of these
   // sizes alike.
-  for(const std::size_t vertices : {82, 86, 90, 94, 98})
-    CHECK(found(policies, vertices).low < 0.16);
+  double gain = 1; // of relocation in low modes, which at one size is chance
+  for(const std::size_t vertices : {82, 86, 90, 94, 98}) {
+    const double low = found(policies, vertices).low;
+    CHECK(low < 0.16);
+    gain *= low / found(Spectral_edge_collapse_options::best(), vertices).low;
+  }
+  CHECK(gain > 1);
   CHECK(best.norm_L < shaped.norm_L);
-  CHECK(best.low < 0.16); // of 3 K vertices relocation may leave low modes where they are
   CHECK(shaped.crossings == 0);
   CHECK(best.crossings == 0);
 }

@@ -6,7 +6,6 @@
 #define SPECTRAL_EXAMPLES_IO_OUTPUT_FILES_H
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -80,10 +79,8 @@ public:
     if(target.filename().empty() ||
        (fs::exists(target, error) && !fs::is_regular_file(target, error)))
       throw Write_error(path, "it is not an ordinary file.");
-    struct stat file, stream; // /dev/stdout is a file where a shell has put it into one
-    for(const int descriptor : {STDOUT_FILENO, STDERR_FILENO})
-      if(stat(target.c_str(), &file) == 0 && fstat(descriptor, &stream) == 0 &&
-         file.st_dev == stream.st_dev && file.st_ino == stream.st_ino)
+    for(const char* const stream : {"/dev/stdout", "/dev/stderr"}) // a shell can make them files
+      if(fs::exists(target, error) && fs::equivalent(target, stream, error))
         throw Write_error(path, "the program prints to it, give another name.");
     if(input == Input::is_kept && m_inputs.count(target.string()) > 0)
       throw Write_error(path, "it is read as an input, give another name.");

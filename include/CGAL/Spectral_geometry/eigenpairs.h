@@ -364,7 +364,7 @@ inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
   const Eigen::VectorXd sums = problem.B().cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
   if(!((2. * diagonal - sums).array() > 0.).all())
     require(number_of_negative_eigenvalues(problem.B(), threads) == 0,
-            "Eigenpairs: the mass matrix B is not positive definite.");
+            "Eigenpairs: the mass matrix B is not positive definite; pass one that is.");
 }
 
 inline void check_pencil(const Eigen::SparseMatrix<double>& matrix, const char* name)
@@ -415,7 +415,7 @@ Eigenpairs eigenpairs(const Eigen::SparseMatrix<double>& L, const Eigen::SparseM
   op.mass = B * Eigen::VectorXd::Ones(B.cols());
   for(Eigen::Index v = 0; v < op.mass.size(); ++v)
     internal::require(op.mass[v] > 0., "Eigenpairs: the sum of row ", v,
-                      " (counted from 0) of the mass matrix B is not positive.");
+                      " (counted from 0) of the mass matrix B is not positive; correct it.");
   return eigenpairs(op, K, options);
 }
 

@@ -179,7 +179,7 @@ inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
     return number_of_negative_eigenvalues(A, threads);
   };
   require(negative(problem.B()) == 0,
-          "Eigenpairs: the mass matrix B is not positive definite.");
+          "Eigenpairs: the mass matrix B is not positive definite; pass one that is.");
   require(negative(s * problem.B() - problem.L()) != 0,
           "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
   const Eigen::Index count =

@@ -139,8 +139,8 @@ public:
 private:
   // A mean that misses its aim by the width costs as much as all does at the start: three times the
   // aim, so that large errors are lowered and small ones do not grow. With five times the aim
-  // errors from K to 1.5 K are 1.15 times as large, with two 0.85 times, and |C|_L and biharmonic
-  // distances 1.02 and 1.04 times.
+  // errors from K to 1.5 K are 1.15 times as large. With two they are 0.85 times as large, and
+  // |C|_L 1.02 times.
   static constexpr double largest_width = 0.1;
 
   // It is above zero, so that eigenvectors that are not up to date do no harm.
