@@ -25,15 +25,20 @@ struct Spectral_sample
   bool collapsible() const { return std::isfinite(cost); }
 };
 
+// clang-format off
 /*!
  * The local cost of collapsing one edge: cost = sum over H of E_w after - sum over H of E_w before,
  * where H is the merged vertex and its link (section 3.3 of the paper).
  *
- *        a0 ---- s ---- b2         The rings of u and v run counterclockwise; s and t see both
- * ends, the a_i see u alone, the / \    / \    / \          b_i see v alone. a1 --- u --- v --- b1
- * goes:      (u v s) and (v u t), the triangles of the edge \ /    \ /    \ /          changes: (u;
- * a0 a1), (v; b1 b2), ... become (x; ., .), the outer triangles .  --- t ---- .           H = {x} +
- * link, whose E_w a collapse changes
+ *        a0 ---- s ---- b2
+ *       / \    / \    / \
+ *     a1 --- u --- v --- b1
+ *       \ /    \ /    \ /
+ *        .  --- t ---- .
+ *
+ * The rings of u and v run counterclockwise; s and t see both ends, the a_i see u alone, the b_i
+ * see v alone. The triangles of the edge, (u v s) and (v u t), go. The outer triangles, (u; a0 a1),
+ * (v; b1 b2) and so on, become (x; ., .). H = {x} + link, whose E_w a collapse changes.
  *
  * The row of x is summed anew. For a vertex w of the link, R_w after is R_w plus what its triangles
  * around u and v give after less what they gave before: a combination of a few rows of F and Z,
@@ -43,6 +48,7 @@ struct Spectral_sample
  *
  * The object holds scratch memory; it allocates only when a ring is larger than any before.
  */
+// clang-format on
 class Spectral_collapse_kernel
 {
 public:
