@@ -26,7 +26,7 @@ With eigenvalues of the fine mesh, the weighted mean square of their relative er
    w_k = 1 + 50 \lambda_2 / \lambda_k. \f]
 E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as many modes take part
 as a sixth of the vertices: linear elements hardly have the others. With more than ten vertices for
-each the elements err less, and epsilon falls with the root of their number.
+each of the K modes they err less, and epsilon falls with the root of K / N.
 
 The modes after these, up to 1.5 K, would fall: a coarse mode i beyond K meets only signals with
 \f$ \lambda_j < \widetilde\lambda_i \f$, so that each of its terms \f$ (\lambda_j -
@@ -154,7 +154,7 @@ private:
   // Where low modes weigh 1 and not 51 their errors are 1.3 times as large, |C|_L the same.
   static constexpr double low = 50;
 
-  // Vertices for each mode with a goal from which on epsilon falls. With 40 for each, errors of
+  // Vertices for each of the K modes from which on epsilon falls. With 40 for each, errors of
   // eigenvalues are 0.62 times what they are without it, and |C|_L 0.97 times (ten meshes); with
   // the consistent mass 0.58 and 0.89 times.
   static constexpr double finer = 10;
