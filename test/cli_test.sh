@@ -189,6 +189,20 @@ awk 'BEGIN { n = 110; print "OFF\n" n * n, 2 * (n - 1) * (n - 1), 0
 "$program" grid.off levels.off --levels 800,200 --eigenvectors 20 --preset fast --no-evaluation --quiet --json levels.json
 grep -q '"pre_simplified_vertices": 12000' levels.json || fail "the first stage of fast does not go by the largest level"
 grep -q '"pre_simplified_vertices": 500' fast.json || fail "the JSON does not say where the first stage ended"
+# Above 20,000 vertices it judges its result only where that is asked for.
+awk 'BEGIN { n = 150; print "OFF"; print n * n, 2 * (n - 1) * (n - 1), 0
+  for(i = 0; i < n; ++i) for(j = 0; j < n; ++j) print i, j, sin(i / 9) * cos(j / 7)
+  for(i = 0; i + 1 < n; ++i) for(j = 0; j + 1 < n; ++j) { a = i * n + j
+    print 3, a, a + n, a + 1; print 3, a + 1, a + n, a + n + 1 } }' > many.off
+"$program" many.off few.off --vertices 300 --eigenvectors 20 --preset fast > many.txt &&
+  grep -q 'add --evaluation' many.txt && ! grep -q 'eigenvalue error' many.txt ||
+  fail "--preset fast judges 22,500 vertices unasked, or does not say that it does not"
+"$program" many.off few2.off --vertices 300 --eigenvectors 20 --preset fast --evaluation > many.txt &&
+  grep -q 'eigenvalue error' many.txt && ! grep -q 'add --evaluation' many.txt && cmp -s few.off few2.off ||
+  fail "--evaluation does not judge the result of fast"
+"$program" many.off few2.off --vertices 300 --eigenvectors 20 --preset fast --quiet --json many.json &&
+  grep -q '"norm_L"' many.json || fail "--json of fast has no norms"
+refuses "evaluation and none" "leave one of them out" shape.off new.off --vertices 100 --evaluation --no-evaluation
 grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset fast"
 runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json
 grep -q "\"quadric_collapses\": $(($(sed -n 2p shape.off | cut -d ' ' -f 1) - 300))," ahead.json || fail "quadrics end at 3 N: $(grep quadric ahead.json)"

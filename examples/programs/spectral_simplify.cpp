@@ -708,6 +708,14 @@ simplify_to_faces(Mesh& mesh, std::size_t target, const std::size_t faces,
   return result;
 }
 
+// Without an output that has its figures: it takes as long as all the rest of fast.
+bool leaves_out_evaluation(const Arguments& a, const std::size_t vertices)
+{
+  constexpr std::size_t many = 20000;
+  return a.preset == "fast" && vertices > many && !a.evaluation && !a.no_evaluation &&
+         a.json.empty() && a.report.empty() && a.eigenpairs.empty() && a.fit_operators.empty();
+}
+
 int run(Arguments a)
 {
   a.threads = usable_threads(a.threads, a.quiet);
@@ -724,6 +732,11 @@ int run(Arguments a)
   bar.clear();
   Simplification_report report;
   report.seconds_reading = timer.time();
+  if(leaves_out_evaluation(a, num_vertices(input.mesh))) {
+    a.no_evaluation = true;
+    if(!a.quiet)
+      std::cout << "fast does not judge more than 20000 vertices: add --evaluation for that\n\n";
+  }
   set_labels(a, input);
   std::vector<std::size_t> kept = kept_vertices(a, input, seams);
   const std::string nothing_kept =

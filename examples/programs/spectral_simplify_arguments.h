@@ -41,8 +41,9 @@ struct Arguments
   std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
   std::optional<double> shape;                               // the same
   int threads = all_threads();
-  bool binary = false, preserve_border = false, no_evaluation = false, quiet = false,
-       repair = false, strict = false, intrinsic_delaunay = false, no_attributes = false;
+  bool binary = false, preserve_border = false, evaluation = false, no_evaluation = false,
+       quiet = false, repair = false, strict = false, intrinsic_delaunay = false,
+       no_attributes = false;
   std::string restriction, prolongation, map, eigenpairs, json, report,
       repaired;                 // empty: not wanted
   std::string fit_operators;    // the same
@@ -121,6 +122,8 @@ inline void check(const Arguments& a)
     refuse("--binary asks for a restriction of ones and zeros, and relocation by the closest "
            "points makes "
            "another one: add --relocate none or --relocate carried.");
+  if(a.no_evaluation && a.evaluation)
+    refuse("--evaluation and --no-evaluation contradict each other: leave one of them out.");
   if(a.no_evaluation && !a.eigenpairs.empty())
     refuse("--eigenpairs writes what the evaluation computes: leave out --no-evaluation.");
   if(a.no_evaluation && !a.fit_operators.empty())
