@@ -1272,6 +1272,22 @@ class Command_line(Case):
                 self.assertIn(f"{word} {choices.replace(',', '|')}", known)
             self.assertNotIn("%%", ours)
 
+    def test_fast_judges_many_vertices_where_that_is_asked_for(self):
+        n = 150
+        x, y = np.divmod(np.arange(n * n), n)
+        a = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+        faces = np.vstack([np.c_[a, a + n, a + 1], np.c_[a + 1, a + n, a + n + 1]])
+        ss.write_mesh(self.path("in.off"), np.c_[x, y, np.sin(x / 9) * np.cos(y / 7)], faces)
+        words = ("in.off", "out.off", "--vertices", "300", "--eigenvectors", "20")
+        words += ("--preset", "fast")
+        self.assertRegex(self.command(*words).stdout, r"^fast does not .*add --evaluation[^|]*$")
+        self.assertIn("|C|_L", self.command(*words, "--evaluation").stdout)
+        self.assertEqual(self.command(*words, "--quiet", "--json", "out.json").stdout, "")
+        self.assertIn("norm_L", json.loads(self.text("out.json")))
+        both = self.command(*words, "--evaluation", "--no-evaluation")
+        self.assertEqual(both.returncode, 1)
+        self.assertIn("not allowed with", both.stderr)
+
     def test_what_cannot_be_meant(self):
         ss.write_mesh(self.path("in.off"), V, F)
         np.savetxt(self.path("halves"), [1.5, 2.5])

@@ -74,7 +74,7 @@ inline Command_line described(Arguments& a)
   line.threads(a.threads);
   line.flag("no-evaluation", a.no_evaluation,
             "do not compute how well the spectrum was kept; with fast the default above 20000 "
-            "vertices, unless an output needs it");
+            "vertices, unless an output shows it");
   line.flag("evaluation", a.evaluation, "compute it in any case");
   line.flag("quiet", a.quiet, "no table, no progress bar, no warnings");
 

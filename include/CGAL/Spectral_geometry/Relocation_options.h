@@ -156,9 +156,9 @@ struct Relocation_limits
   double gain = 0.97;
   /// Inner products of the signals take part.
   bool keep_inner_products = true;
-  /// epsilon of `Spectrum_term`: relative errors of the first K eigenvalues of this size in the
-  /// mean square cost as much as all that is minimised does at the start. With 0.025 they are 1.1
-  /// times as large, and |C|_L 0.95 times. 0: no such term.
+  /// epsilon of `Spectrum_term`, up to ten vertices for each mode: relative errors of the first K
+  /// eigenvalues of this size in the mean square cost as much as all does at the start. With 0.025
+  /// they are 1.1 times as large, and |C|_L 0.95 times. 0: no such term.
   double eigenvalue_error = 0.02;
   /// So many of the coarse modes beyond K, in parts of K, do not fall in the mean, at unit area,
   /// and rise as the eigenvalues say: they are too low with the averaged mass, and without this the

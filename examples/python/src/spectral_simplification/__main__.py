@@ -101,9 +101,14 @@ def _arguments() -> argparse.ArgumentParser:
     )
     add("--json", metavar="FILE", help="the figures of the run")
     add("--threads", metavar="T", type=int)
-    add(
-        "--no-evaluation", action="store_true", help="do not compute how well the spectrum was kept"
+    judged = parser.add_mutually_exclusive_group().add_argument
+    judged(
+        "--no-evaluation",
+        action="store_true",
+        help="do not compute how well the spectrum was kept; with fast the default above 20000 "
+        "vertices, unless --json shows it",
     )
+    judged("--evaluation", action="store_true", help="compute it in any case")
     add("--quiet", action="store_true", help="no figures, no warnings")
     add(
         "--mask",
@@ -252,7 +257,10 @@ def _run(a: argparse.Namespace) -> None:
         if is_one_to_one or a.restriction or a.prolongation or a.map or a.save:
             run = run._renumbered(V, cleaned.place, cleaned.origin)
     report = dict(run.report)
-    if not a.no_evaluation:
+    left_out = a.preset == "fast" and len(given[0]) > 20000 and not (a.evaluation or a.json)
+    if left_out and not (a.no_evaluation or a.quiet):
+        print("fast does not judge more than 20000 vertices: add --evaluation for that")
+    if not (a.no_evaluation or left_out):
         k = min(report["eigenvectors"], len(run.V))
         e = evaluate(
             *run.part(),
