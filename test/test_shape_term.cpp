@@ -524,7 +524,7 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
     CHECK(o.mass == SG::Mass::averaged);
     CHECK(o.placement == Spectral_placement_strategy::free);
     CHECK(o.shape == 3);
-    CHECK(o.quadrics_above == 15);
+    CHECK(o.quadrics_above == 7);
     CHECK(o.number_of_mixtures == 32);
     CHECK(o.keep_free_of_self_intersections);
     CHECK(o.relocate);

@@ -99,7 +99,7 @@ inline Command_line described(Arguments& a)
   line.option(
       "quadrics-above", a.quadrics_above, "R",
       "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "
-      "much faster, and as good (best: 15, fast: 7, paper: inf, never)");
+      "much faster, and as good (best and fast: 7, paper: inf, never)");
   line.option(
       "pre-simplify", a.pre_simplify, "N0",
       "first reduce a larger INPUT to this number by quadrics alone (fast: 15 N, at least 10000; "

@@ -40,20 +40,18 @@ struct Spectral_edge_collapse_options : Spectral_options
   }
 
   /// `best()` without an eigensolver. Collapses by quadrics reduce the mesh first to 15 times the
-  /// target, but not below 10,000 vertices, and signals of filtered noise are made there; quadrics
-  /// go on to 7 times the target. Relocation sees 64 of the signals and takes 28 steps at most.
-  /// With 30 times and 40 steps a run from 50,000 vertices took 1.5 times as long and |C|_L was
-  /// 0.93 times as large in the mean, on human figures 0.8 times. Where K is at most 32, or N
-  /// below 2 K, eigenpairs judge the relocation: noise alone would let |C|_L rise there. E and the
-  /// relative error are estimates; signals or eigenpairs cannot be given, and it takes neither
-  /// filter nor visitor.
+  /// target, but not below 10,000 vertices, and signals of filtered noise are made there.
+  /// Relocation sees 64 of the signals and takes 28 steps at most. With 30 times and 40 steps a
+  /// run from 50,000 vertices took 1.5 times as long and |C|_L was 0.93 times as large in the mean,
+  /// on human figures 0.8 times. Where K is at most 32, or N below 2 K, eigenpairs judge the
+  /// relocation: noise alone would let |C|_L rise there. E and the relative error are estimates;
+  /// signals or eigenpairs cannot be given, and it takes neither filter nor visitor.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
     options.source = Spectral_signal_source::filtered_noise;
     options.number_of_mixtures = 16;
     options.pre_simplify = (std::max)(15 * number_of_vertices, std::size_t(10000));
-    options.quadrics_above = 7;
     options.relocation.maximum_steps = 28;
     return options;
   }
@@ -84,14 +82,14 @@ struct Spectral_edge_collapse_options : Spectral_options
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
   /// quadrics of `shape` alone, as with `pre_simplify`, but F, Z and P follow: eigenpairs,
-  /// relocation and the error are about the input. The last few collapses decide
-  /// the quality: on a dozen meshes the norms were the same in the mean, and a mesh of 80 N took
-  /// half the time. From 1; infinite: never. It is passed over, for every collapse to be
-  /// that of the metric, where it could not be what was asked for: without `shape`, with another
-  /// `placement` than `free`, with `coefficients`, `binary`, `preserve_border`, the Dirichlet
-  /// condition or `maximum_error`, with a filter or a visitor. Levels of
-  /// `Spectral_edge_collapse_result::log` above so many vertices are those of quadrics.
-  double quadrics_above = 15;
+  /// relocation and the error are about the input. The last few collapses decide the quality: with
+  /// 7 and with 15 the norms were the same in the mean of 106 runs, and a mesh of 80 N took half
+  /// the time. From 1; infinite: never. It is passed over, for every collapse to be that of the
+  /// metric, where it could not be what was asked for: without `shape`, with another `placement`
+  /// than `free`, with `coefficients`, `binary`, `preserve_border`, the Dirichlet condition or
+  /// `maximum_error`, with a filter or a visitor. Levels of `Spectral_edge_collapse_result::log`
+  /// above so many vertices are those of quadrics.
+  double quadrics_above = 7;
 
   /// Moves the vertices that are left so that the spectrum is kept still better, see
   /// `Spectral_geometry::relocate_positions()`. Kept vertices and both ends of constrained edges

@@ -129,7 +129,7 @@ def simplify(
         what eigenpairs(V, F, k, mass) returned, to save the solve; the first k are used
     quadrics_above : float, optional
         while there are more than this many times n vertices, collapse edges by quadrics alone:
-        much faster, and as good (best: 15, fast: 7, paper: infinity, never). Levels above that are
+        much faster, and as good (best and fast: 7, paper: infinity, never). Levels above that are
         those of quadrics
     pre_simplify : int, optional
         first reduce a larger mesh to this number of vertices by quadrics alone; 0: do not. None:
