@@ -188,6 +188,7 @@ private:
       m_bar.show("basis", 0.);
       stop_if_interrupted();
       bases.push_back(spectral_basis(m_fine, m_arguments.eigenvectors, mass));
+      bases.back().seed = static_cast<std::uint64_t>(m_arguments.seed);
     }
     std::vector<Simplifier> simplifiers = collapse_simplifiers(m_fine, bases, m_arguments.threads);
     for(Simplifier& s : remeshers(m_fine, m_comparison.notes))

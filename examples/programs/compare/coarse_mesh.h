@@ -13,6 +13,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,6 +37,7 @@ struct Basis
   CGAL::Spectral_geometry::Mass mass;
   std::shared_ptr<const CGAL::Spectral_geometry::Eigenpairs> pairs;
   double seconds = 0;
+  std::uint64_t seed = 1; // of the mixtures of eigenvectors
 };
 
 struct Simplifier

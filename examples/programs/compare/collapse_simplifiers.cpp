@@ -84,6 +84,7 @@ Simplifier spectral(const std::string& name, Options options, const Basis& basis
   options.mass = basis.mass;
   options.eigenpairs = basis.pairs;
   options.threads = threads;
+  options.seed = basis.seed;
   return {
       name,
       word_of(placement_words, options.placement),

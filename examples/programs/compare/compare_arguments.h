@@ -62,7 +62,7 @@ inline Command_line described(Compare_arguments& a)
   line.choice("judge", a.masses, {"lumped,averaged", "lumped", "averaged", "consistent"},
               "the masses to judge in, and of the spectral metric");
   line.option("sources", a.sources, "S", "how many random vertices distances are measured from");
-  line.option("seed", a.seed, "X", "of these vertices");
+  line.option("seed", a.seed, "X", "of these vertices, and of the random mixtures that best sees");
   line.group("Simplifiers and rivals");
   line.option("only", a.only, "TEXT",
               "only simplifiers with TEXT in their names; may be given several times, for those "
