@@ -54,6 +54,14 @@ grep -q "^property float eigenvector_2$" ply/fine.ply || fail "the fine mesh has
 grep -q "^property float hks$" ply/spectral_paper_on_edge_lumped_metric_120.ply || fail "a coarse mesh has no signature"
 rm -f report.html
 
+for seed in 2 3 2; do
+  runs "seed $seed" shape.off --vertices 150 --eigenvectors 50 --judge averaged --only "spectral, best" --without "fitted operators" \
+    --seed $seed --json seed.json --quiet
+  echo "$(number seed.json hausdorff_over_diagonal)" >>seeds
+done
+[ "$(sed -n 1p seeds)" = "$(sed -n 3p seeds)" ] || fail "one seed gives two meshes"
+[ "$(sed -n 1p seeds)" != "$(sed -n 2p seeds)" ] || fail "two seeds give one mesh"
+
 "$simplify" shape.off coarse.off --vertices 150 --eigenvectors 20 --preset paper --restriction P.mtx --eigenpairs pairs --json s.json \
   --quiet || fail "spectral_simplify"
 runs "anybody's mesh" shape.off --rival x=coarse.off,P.mtx --eigenvectors 20 --judge lumped --json mesh.json
