@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/spectral_edge_collapse.h>
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
@@ -38,7 +39,7 @@ SMS::Collapse_log quadric_log(const Mesh& mesh, const std::size_t target,
   SMS::internal::Triangle_arrays arrays =
       SMS::internal::triangle_arrays(mesh, SG::mesh_matrices(mesh));
   arrays.fixed = fixed;
-  return SMS::internal::quadric_collapses(std::move(arrays), false, target, [](std::size_t) {});
+  return SMS::internal::quadric_collapses(std::move(arrays), false, target, [](std::size_t) {}).log;
 }
 
 Mesh replayed(Mesh mesh, const SMS::Collapse_log& log, const std::size_t N)
@@ -250,7 +251,7 @@ TEST_CASE("Vertices that are fixed take no values from a border that is apart")
     arrays.fixed = fixed;
     arrays.border_is_apart = true;
     const SMS::Collapse_log log =
-        SMS::internal::quadric_collapses(std::move(arrays), true, 3, [](std::size_t) {});
+        SMS::internal::quadric_collapses(std::move(arrays), true, 3, [](std::size_t) {}).log;
     const std::size_t N = log.number_of_vertices_left();
     CHECK(N < border.size());
     const std::vector<std::size_t> map = log.vertex_map(N);
@@ -325,6 +326,47 @@ SMS::Spectral_edge_collapse_options ahead_options()
   options.number_of_eigenvectors = 12;
   options.relocate = false;
   return options;
+}
+
+TEST_CASE("The mesh after quadrics is the one that a replay of their log leaves")
+{
+  using Exact_mesh = CGAL::Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel::Point_3>;
+  const auto check = [](auto input, const std::size_t N, const std::vector<char>& kept) {
+    using Any_mesh = decltype(input);
+    Any_mesh mesh = input;
+    const auto [log, slots] = SMS::internal::collapse_by_quadrics(
+        mesh, N, kept, false, false, true, [](std::size_t) {}, CGAL::parameters::default_values());
+    SMS::Collapse_replay<Any_mesh> replay(input, log);
+    replay.collapse_to(log.number_of_vertices_left());
+    REQUIRE(log.number_of_vertices_left() == N);
+    CHECK(replay.slots() == slots);
+    CHECK((mesh.is_valid(false) && CGAL::is_valid_polygon_mesh(mesh)));
+    REQUIRE(mesh.number_of_faces() == input.number_of_faces());
+    REQUIRE(mesh.number_of_edges() == input.number_of_edges());
+    std::size_t others = 0;
+    for(const auto v : input.vertices())
+      others += mesh.is_removed(v) || mesh.point(v) != input.point(v);
+    for(const auto f : input.faces())
+      others += mesh.is_removed(f);
+    for(const auto h : input.halfedges())
+      others += mesh.is_removed(h) || mesh.target(h) != input.target(h) ||
+                mesh.next(h) != input.next(h) || mesh.face(h) != input.face(h);
+    CHECK(others == 0);
+  };
+  const std::size_t N = GENERATE(40, 200);
+  for(const shapes::Matrices& shape :
+      {shapes::bumpy_icosphere_matrices(3), wavy_grid_matrices(25, 25)}) {
+    std::vector<char> kept(std::size_t(shape.V.rows()));
+    check(make_mesh(shape), N, kept);
+    for(std::size_t v = 3; v < kept.size(); v += 41)
+      kept[v] = true;
+    check(make_mesh(shape), N, kept);
+    Exact_mesh exact;
+    shapes::make_mesh(exact, shape);
+    for(const auto v : exact.vertices()) // where no double is
+      exact.point(v) = exact.point(v) + (exact.point(v) - CGAL::ORIGIN) / 3;
+    check(exact, N, kept);
+  }
 }
 
 TEST_CASE("F, Z and P follow collapses by quadrics ahead of the spectral cost")
@@ -534,8 +576,10 @@ TEST_CASE("Quadrics put no face through another, and would without the guard")
   const std::size_t N = GENERATE(60, 150);
   const auto crossings = [&](const bool guarded) {
     Mesh mesh = make_mesh(input);
-    const SMS::Collapse_log log = SMS::internal::quadric_collapses(
-        SMS::internal::triangle_arrays(mesh, input), guarded, N, [](std::size_t) {});
+    const SMS::Collapse_log log =
+        SMS::internal::quadric_collapses(SMS::internal::triangle_arrays(mesh, input), guarded, N,
+                                         [](std::size_t) {})
+            .log;
     CHECK(log.number_of_vertices_left() == N);
     const shapes::Matrices coarse = SG::mesh_matrices(replayed(mesh, log, N));
     return SG::internal::self_intersecting_faces(coarse.V, coarse.T).size();

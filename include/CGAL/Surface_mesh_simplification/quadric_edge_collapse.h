@@ -18,7 +18,9 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
+#include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace CGAL::Surface_mesh_simplification {
 namespace internal {
@@ -52,6 +54,7 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
   for(const auto f : faces(mesh))
     put(index, f, m++);
   result.corners.reserve(3 * std::size_t(m));
+  int c = 0;
   for(const auto f : faces(mesh)) {
     int k = 0; // corner k is the target of the k-th halfedge, and what leads from there the next
     for(const auto h : halfedges_around_face(next(halfedge(f, mesh), mesh), mesh)) {
@@ -63,10 +66,109 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
                                                        : beyond == first           ? 2
                                                                                    : 1);
       }
-      result.corners.push_back({matrices.T(get(index, f), k++), corner});
+      result.corners.push_back({matrices.T(get(index, f), k++), corner, c++});
     }
   }
   return result;
+}
+
+/*!
+ * Makes of the mesh that `triangle_arrays()` read what `Collapse_replay` would, without a look at
+ * each collapse: the vertices, faces and edges that are left are those that
+ * `Euler::collapse_edge()` leaves. It keeps the target of the edge's halfedge. Returns the slots of
+ * `vertices(mesh)`.
+ *
+ *          t
+ *        /   \         pq is gone, and with it p, the face, and pt:
+ *       /     \        the face beyond pt has the halfedge qt in its place
+ *      /  side \
+ *     p ------> q
+ */
+template <class TriangleMesh, class NamedParameters>
+std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collapses& run,
+                                        const NamedParameters& np)
+{
+  using Traits = boost::graph_traits<TriangleMesh>;
+  using Point = typename boost::property_traits<
+      typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
+  using FT = typename Kernel_traits<Point>::Kernel::FT;
+  const auto points =
+      parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
+                                   get_property_map(vertex_point, mesh));
+  const auto& corners = run.corners;
+  const std::vector<typename Traits::vertex_descriptor> input(vertices(mesh).begin(),
+                                                              vertices(mesh).end());
+  const std::vector<typename Traits::face_descriptor> triangles(faces(mesh).begin(),
+                                                                faces(mesh).end());
+  std::vector<typename Traits::halfedge_descriptor> halfedges;
+  halfedges.reserve(corners.size());
+  for(const auto f : triangles)
+    for(const auto h : halfedges_around_face(next(halfedge(f, mesh), mesh), mesh))
+      halfedges.push_back(h);
+
+  // For each slot its vertex, and the input vertex that has its point, or ~ the merge that has.
+  std::vector<int> vertex(input.size());
+  std::iota(vertex.begin(), vertex.end(), 0);
+  std::vector<int> place = vertex;
+  const auto& merges = run.log.forest().merges();
+  for(std::size_t i = 0; i < merges.size(); ++i) {
+    const auto [corner, point] = run.collapsed[i];
+    const auto h = corner < 0 ? opposite(halfedges[~corner], mesh) : halfedges[corner];
+    const auto [removed, kept, weight] = merges[i];
+    if(halfedge(edge(h, mesh), mesh) != h) // an edge that knows no direction
+      vertex[kept] = vertex[removed];
+    if(point == Quadric_collapses::Edge::removed)
+      place[kept] = place[removed];
+    else if(point == Quadric_collapses::Edge::neither)
+      place[kept] = ~int(i);
+  }
+  std::vector<Eigen::Index> slots(input.size(), -1);
+  for(const Eigen::Index slot : run.log.forest().kept_slots(Eigen::Index(merges.size()))) {
+    slots[vertex[slot]] = slot;
+    if(place[slot] < 0) {
+      const Eigen::Vector3d& x = run.log.points()[~place[slot]];
+      put(points, input[vertex[slot]], Point(FT(x.x()), FT(x.y()), FT(x.z())));
+    } else if(place[slot] != vertex[slot])
+      put(points, input[vertex[slot]], Point(get(points, input[place[slot]])));
+  }
+
+  const auto halfedge_of = [&](const int c) { return halfedges[corners[c].halfedge]; };
+  const auto vertex_of = [&](const int c) { return input[vertex[corners[c].vertex]]; };
+  for(int c = 0; c < int(corners.size()); ++c) {
+    const auto f = triangles[c / 3];
+    if(corners[c].vertex < 0) {
+      if(c % 3 == 0)
+        remove_face(f, mesh);
+      continue;
+    }
+    const auto h = halfedge_of(c), into = halfedge_of(previous_corner(c));
+    set_target(into, vertex_of(c), mesh);
+    set_next(into, h, mesh);
+    set_face(h, f, mesh);
+    if(c % 3 == 0)
+      set_halfedge(f, into, mesh);
+    set_halfedge(vertex_of(c), into, mesh);
+  }
+  for(int c = 0; c < int(corners.size()); ++c)
+    if(corners[c].vertex >= 0 && corners[c].opposite < 0) {
+      int last = previous_corner(c); // that leads to the vertex of c
+      while(corners[last].opposite >= 0)
+        last = previous_corner(corners[last].opposite);
+      const auto h = opposite(halfedge_of(c), mesh);
+      set_face(h, Traits::null_face(), mesh);
+      set_target(h, vertex_of(c), mesh);
+      set_next(h, opposite(halfedge_of(last), mesh), mesh);
+      set_halfedge(vertex_of(c), h, mesh);
+    }
+  for(const auto& [c, point] : run.collapsed)
+    remove_edge(edge(halfedges[c < 0 ? ~c : c], mesh), mesh);
+  for(const int c : run.joined)
+    remove_edge(edge(halfedges[c], mesh), mesh);
+  for(std::size_t v = 0; v < input.size(); ++v)
+    if(slots[v] < 0)
+      remove_vertex(input[v], mesh);
+  slots.erase(std::remove(slots.begin(), slots.end(), Eigen::Index(-1)), slots.end());
+  return slots;
 }
 
 /// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in
@@ -93,11 +195,17 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
   arrays.border_is_apart = border_is_apart;
   arrays.binary = binary;
   report(std::size_t(arrays.V.rows()));
-  Collapse_log log = quadric_collapses(std::move(arrays), keep_free_of_self_intersections,
-                                       number_of_vertices, report);
-  Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, log, np);
-  replay.collapse_to(log.number_of_vertices_left());
-  return {std::move(log), replay.slots()};
+  Quadric_collapses run = quadric_collapses(std::move(arrays), keep_free_of_self_intersections,
+                                            number_of_vertices, report);
+  if constexpr(parameters::is_default_parameter<NamedParameters,
+                                                internal_np::edge_is_constrained_t>::value) {
+    std::vector<Eigen::Index> slots = set_collapsed(mesh, run, np);
+    return {std::move(run.log), std::move(slots)};
+  } else { // of two edges that become one, a constrained one stays
+    Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, run.log, np);
+    replay.collapse_to(run.log.number_of_vertices_left());
+    return {std::move(run.log), replay.slots()};
+  }
 }
 
 /// P, vertex map and log of a run. `slots`: those of the log that `vertices(mesh)` are, in that

@@ -20,6 +20,7 @@ struct Triangle_arrays
   {
     int vertex;
     int opposite;   ///< the corner whose halfedge leads back, -1 on the border
+    int halfedge;   ///< the corner that had it in the input
     int state = -2; ///< of the halfedge in a run: what is read together lies together
   };
 
@@ -30,6 +31,30 @@ struct Triangle_arrays
   bool border_is_apart =
       false; ///< whether a vertex of the border stays on it, with values of the border alone
   bool binary = false; ///< whether a merged vertex has the values of one of both ends
+};
+
+inline int next_corner(const int c)
+{
+  return c % 3 == 2 ? c - 2 : c + 1;
+}
+inline int previous_corner(const int c)
+{
+  return c % 3 == 0 ? c + 2 : c - 1;
+}
+
+/// What `quadric_collapses()` has done.
+struct Quadric_collapses
+{
+  struct Edge
+  {
+    int halfedge; ///< that leads to the vertex that is kept, or ~ of the one that leads back
+    enum : char { neither, kept, removed } point; ///< of which end it is
+  };
+
+  Collapse_log log;
+  std::vector<Edge> collapsed;                  ///< of each merge
+  std::vector<int> joined;                      ///< halfedges of edges that others stand for
+  std::vector<Triangle_arrays::Corner> corners; ///< in the end: the vertex is -1 of faces gone
 };
 
 /*!
@@ -58,7 +83,7 @@ struct Triangle_arrays
  *        through
  * @return the collapses; a fixed vertex keeps its slot, its position and its values
  */
-CGAL_SPECTRAL_GEOMETRY_INLINE Collapse_log
+CGAL_SPECTRAL_GEOMETRY_INLINE Quadric_collapses
 quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, std::size_t target,
                   const std::function<void(std::size_t)>& progress);
 
@@ -214,6 +239,8 @@ public:
         push(c);
     const std::size_t n = m_log.number_of_vertices();
     m_log.reserve(n - (std::min)(n, target));
+    m_collapsed.reserve(n - (std::min)(n, target));
+    m_joined.reserve(2 * m_collapsed.capacity());
     const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
     std::size_t next_report = n - (std::min)(n, step), before = n;
     while(m_log.number_of_vertices_left() > target) {
@@ -241,7 +268,11 @@ public:
     }
   }
 
-  Collapse_log take_log() { return std::move(m_log); }
+  Quadric_collapses take_result()
+  {
+    return {std::move(m_log), std::move(m_collapsed), std::move(m_joined),
+            std::move(m_mesh.corners)};
+  }
 
   /// Flags the vertices of the input that have become those of faces that intersect, or neighbours
   /// of these. Returns whether one that is now of such a face was not watched by this run.
@@ -279,7 +310,7 @@ public:
   template <class Visit>
   void for_triangles(const int v, const Visit& visit) const
   {
-    for_outgoing(v, [&](const int c) { visit(target(c), source(previous(c))); });
+    for_outgoing(v, [&](const int c) { visit(target(c), source(previous_corner(c))); });
   }
 
   /// Calls visit(w) for each neighbour of v.
@@ -288,8 +319,8 @@ public:
   {
     for_outgoing(v, [&](const int c) {
       visit(target(c));
-      if(is_border(previous(c)))
-        visit(source(previous(c)));
+      if(is_border(previous_corner(c)))
+        visit(source(previous_corner(c)));
     });
   }
 
@@ -330,13 +361,11 @@ private:
   static constexpr int removed = -1; // vertex of the corners of a face that is gone
   static constexpr int unlimited = (std::numeric_limits<int>::max)() / 8;
 
-  static int next(const int c) { return c % 3 == 2 ? c - 2 : c + 1; }
-  static int previous(const int c) { return c % 3 == 0 ? c + 2 : c - 1; }
-
   int number_of_corners() const { return int(m_mesh.corners.size()); }
   int source(const int c) const { return m_mesh.corners[c].vertex; }
-  int target(const int c) const { return source(next(c)); }
+  int target(const int c) const { return source(next_corner(c)); }
   int opposite(const int c) const { return m_mesh.corners[c].opposite; }
+  int halfedge(const int c) const { return m_mesh.corners[c].halfedge; }
   int state(const int c) const { return m_mesh.corners[c].state; }
   int& state(const int c) { return m_mesh.corners[c].state; }
   bool is_border(const int c) const { return opposite(c) < 0; }
@@ -349,7 +378,7 @@ private:
     const int first = m_vertices[v].outgoing;
     int c = first;
     do {
-      const int beyond = opposite(previous(c));
+      const int beyond = opposite(previous_corner(c));
       visit(c);
       c = beyond;
     } while(c >= 0 && c != first);
@@ -363,7 +392,8 @@ private:
     if(m_vertices[v].outgoing < 0 || is_border(c))
       m_vertices[v].outgoing = c;
     m_quadrics[v].add_corner(p, m_points[target(c)] - p, is_border(c),
-                             m_points[source(previous(c))] - p, is_border(previous(c)));
+                             m_points[source(previous_corner(c))] - p,
+                             is_border(previous_corner(c)));
   }
 
   void push(const int c) { push(c, placement(c).first); }
@@ -466,9 +496,9 @@ private:
       if(side < 0)
         continue;
       ++faces;
-      const int apex = source(previous(side));
+      const int apex = source(previous_corner(side));
       // an ear, or a tetrahedron
-      if((is_border(next(side)) && is_border(previous(side))) ||
+      if((is_border(next_corner(side)) && is_border(previous_corner(side))) ||
          (m_vertices[apex].degree == 3 && !is_border_vertex(apex)))
         return false;
     }
@@ -525,6 +555,11 @@ private:
       weight = is_border_vertex(kept) ? 0. : 1.;
     if(m_mesh.binary)
       weight = weight <= 0.5 ? 0. : 1.;
+    using Edge = Quadric_collapses::Edge;
+    m_collapsed.push_back(
+        {gone == source(c) ? halfedge(c) : ~halfedge(c), x == m_points[kept]   ? Edge::kept
+                                                         : x == m_points[gone] ? Edge::removed
+                                                                               : Edge::neither});
     m_log.merge(gone, kept, weight, x + m_origin);
 
     std::vector<int>& ring = m_ring; // what is left of both
@@ -553,7 +588,7 @@ private:
     }
     for(const int h : ring) {
       reconsider(h);
-      reconsider(previous(h));
+      reconsider(previous_corner(h));
     }
     if(!m_watched.empty())
       follow_crossings(gone, kept);
@@ -571,18 +606,22 @@ private:
   // Removes a face on the edge: its other two edges become one.
   void close(const int side, const int kept)
   {
-    const int apex = source(previous(side));
-    const int a = opposite(next(side)), b = opposite(previous(side));
-    const bool was_queued = state(next(side)) != none || state(previous(side)) != none;
+    const int apex = source(previous_corner(side));
+    const int a = opposite(next_corner(side)), b = opposite(previous_corner(side));
+    const bool was_queued =
+        state(next_corner(side)) != none || state(previous_corner(side)) != none;
     if(a >= 0)
       m_mesh.corners[a].opposite = b;
-    if(b >= 0)
+    if(b >= 0) { // which has the halfedge of the other side from now on
       m_mesh.corners[b].opposite = a;
-    if(m_vertices[apex].outgoing == previous(side))
+      m_mesh.corners[b].halfedge = halfedge(next_corner(side));
+    }
+    m_joined.push_back(halfedge(previous_corner(side)));
+    if(m_vertices[apex].outgoing == previous_corner(side))
       m_vertices[apex].outgoing = a;
     --m_vertices[apex].degree;
     --m_vertices[kept].degree;
-    for(const int h : {side, next(side), previous(side)})
+    for(const int h : {side, next_corner(side), previous_corner(side)})
       m_mesh.corners[h].vertex = removed;
     // An entry of the edge that is left, if only one of the removed sides had one.
     const int left = a >= 0 ? a : b;
@@ -601,6 +640,8 @@ private:
   Eigen::Vector3d m_origin;
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
+  std::vector<Quadric_collapses::Edge> m_collapsed;
+  std::vector<int> m_joined;
   Triangle_arrays m_mesh;                // but for positions
   std::vector<Eigen::Vector3d> m_points; // of each vertex, as what follows, from the origin
   std::vector<Spectral_quadric> m_quadrics;
@@ -614,9 +655,10 @@ private:
   Halfedge_queue m_queue;
 };
 
-Collapse_log quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_self_intersections,
-                               const std::size_t target,
-                               const std::function<void(std::size_t)>& progress)
+Quadric_collapses quadric_collapses(Triangle_arrays mesh,
+                                    const bool keep_free_of_self_intersections,
+                                    const std::size_t target,
+                                    const std::function<void(std::size_t)>& progress)
 {
   // To look for intersections at each collapse takes five times as long as the collapses: only
   // around those that are left in the end, until there are no others.
@@ -634,7 +676,7 @@ Collapse_log quadric_collapses(Triangle_arrays mesh, const bool keep_free_of_sel
     Quadric_collapser run(last ? std::move(mesh) : mesh, watched);
     run.run(target, report);
     if(last || !run.watch_intersections(watched))
-      return run.take_log();
+      return run.take_result();
   }
 }
 
