@@ -351,6 +351,7 @@ private:
   void solve(Panel& x, Work& work) const
   {
     constexpr int eight = internal::panel_width;
+    static_assert(width % eight == 0);
     work.panel.resize(m_factor->number_of_rows() * eight);
     const std::vector<int>& order = m_factor->order();
     for(int first = 0; first < width; first += eight) {

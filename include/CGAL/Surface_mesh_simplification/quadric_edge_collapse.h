@@ -75,11 +75,12 @@ Triangle_arrays triangle_arrays(const TriangleMesh& mesh, Spectral_geometry::Mes
 /*!
  * Makes of the mesh that `triangle_arrays()` read what `Collapse_replay` would, without a look at
  * each collapse: the vertices, faces and edges that are left are those that
- * `Euler::collapse_edge()` leaves. It keeps the target of the edge's halfedge. Returns the slots of
+ * `Euler::collapse_edge()` leaves, which keeps the target of the edge's halfedge. Faces and
+ * vertices keep the halfedge that they name, unless it is gone. Returns the slots of
  * `vertices(mesh)`.
  *
  *          t
- *        /   \         pq is gone, and with it p, the face, and pt:
+ *        /   \         pq is gone, and with it the face and pt:
  *       /     \        the face beyond pt has the halfedge qt in its place
  *      /  side \
  *     p ------> q
@@ -132,6 +133,17 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
       put(points, input[vertex[slot]], Point(get(points, input[place[slot]])));
   }
 
+  std::vector<typename Traits::edge_descriptor> removed;
+  removed.reserve(run.collapsed.size() + run.joined.size());
+  for(const auto& [c, point] : run.collapsed)
+    removed.push_back(edge(halfedges[c < 0 ? ~c : c], mesh));
+  for(const int c : run.joined)
+    removed.push_back(edge(halfedges[c], mesh));
+  const auto is_removed = get(CGAL::dynamic_edge_property_t<char>(), mesh); // OpenMesh: no bool
+  for(const auto e : removed)
+    put(is_removed, e, char(true));
+  const auto is_gone = [&](const auto h) { return get(is_removed, edge(h, mesh)); };
+
   const auto halfedge_of = [&](const int c) { return halfedges[corners[c].halfedge]; };
   const auto vertex_of = [&](const int c) { return input[vertex[corners[c].vertex]]; };
   for(int c = 0; c < int(corners.size()); ++c) {
@@ -145,9 +157,10 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
     set_target(into, vertex_of(c), mesh);
     set_next(into, h, mesh);
     set_face(h, f, mesh);
-    if(c % 3 == 0)
+    if(is_gone(halfedge(f, mesh)))
       set_halfedge(f, into, mesh);
-    set_halfedge(vertex_of(c), into, mesh);
+    if(is_gone(halfedge(vertex_of(c), mesh)))
+      set_halfedge(vertex_of(c), into, mesh);
   }
   for(int c = 0; c < int(corners.size()); ++c)
     if(corners[c].vertex >= 0 && corners[c].opposite < 0) {
@@ -158,12 +171,9 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
       set_face(h, Traits::null_face(), mesh);
       set_target(h, vertex_of(c), mesh);
       set_next(h, opposite(halfedge_of(last), mesh), mesh);
-      set_halfedge(vertex_of(c), h, mesh);
     }
-  for(const auto& [c, point] : run.collapsed)
-    remove_edge(edge(halfedges[c < 0 ? ~c : c], mesh), mesh);
-  for(const int c : run.joined)
-    remove_edge(edge(halfedges[c], mesh), mesh);
+  for(const auto e : removed)
+    remove_edge(e, mesh);
   for(std::size_t v = 0; v < input.size(); ++v)
     if(slots[v] < 0)
       remove_vertex(input[v], mesh);
@@ -171,7 +181,7 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
   return slots;
 }
 
-/// `quadric_collapses()` on arrays, then the same collapses on the mesh. `kept`: by positions in
+/// `quadric_collapses()` on arrays, then the mesh that they leave. `kept`: by positions in
 /// `vertices(mesh)`, or empty. `report(left)` may throw before the mesh changes. Returns the log
 /// and the slots of the vertices that are left.
 template <class TriangleMesh, class Report, class NamedParameters>

@@ -232,7 +232,8 @@ public:
     std::copy_n(m_workspace.data(), entries, x.row(0));
   }
 
-  /// Solves for a panel of `number_of_rows()` rows, those of A first, the others of any value.
+  /// Solves for a panel of `number_of_rows()` rows: those of A in the order of the factor, then
+  /// others of any value. Calls for different panels may run at a time.
   void solve_in_place(double* panel, int threads) const
   {
     solve_in_place<panel_width>(panel, threads, forward, backward);
@@ -258,8 +259,7 @@ private:
   [[noreturn]] static void throw_lack_of_memory()
   {
     throw std::runtime_error(
-        "Eigenpairs: there is not enough memory for the factor of the shifted Laplacian; "
-        "simplify the mesh before.");
+        "There is not enough memory for the factor of the Laplacian; simplify the mesh before.");
   }
 
   std::size_t width(std::size_t k) const { return m_first[k + 1] - m_first[k]; }

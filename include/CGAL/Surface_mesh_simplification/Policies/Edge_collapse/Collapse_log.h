@@ -185,11 +185,12 @@ private:
  * (`Mesh copy = mesh;` before the run) the mesh of N vertices is therefore the very one that a run
  * of the same options stopped at N leaves (those that depend on the target, see `Collapse_log`, set
  * alike): the same connectivity and coordinates, and the same order of vertices, faces and edges,
- * before garbage is collected. On the same mesh rebuilt in another way (read from a file again, in
- * another type) connectivity and coordinates are the same, but the vertex that goes on after a
- * collapse may be the other one of the two, so that the order may differ; restriction() follows the
- * mesh as it is. Among the edges without length, which are merged before a run asks whether to
- * stop, there are levels that no run stops at.
+ * before garbage is collected. Faces and vertices may name another of their halfedges. On the same
+ * mesh rebuilt in another way (read from a file again, in another type) connectivity and
+ * coordinates are the same, but the vertex that goes on after a collapse may be the other one of
+ * the two, so that the order may differ; restriction() follows the mesh as it is. Among the edges
+ * without length, which are merged before a run asks whether to stop, there are levels that no run
+ * stops at.
  *
  * Coordinates that are not `double` are restored from `double`; an end of an edge stays what it is.
  *

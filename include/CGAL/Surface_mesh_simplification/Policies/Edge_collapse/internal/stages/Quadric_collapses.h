@@ -20,7 +20,7 @@ struct Triangle_arrays
   {
     int vertex;
     int opposite;   ///< the corner whose halfedge leads back, -1 on the border
-    int halfedge;   ///< the corner that had it in the input
+    int halfedge;   ///< that leads from here now, by its corner of the input
     int state = -2; ///< of the halfedge in a run: what is read together lies together
   };
 
@@ -48,7 +48,7 @@ struct Quadric_collapses
   struct Edge
   {
     int halfedge; ///< that leads to the vertex that is kept, or ~ of the one that leads back
-    enum : char { neither, kept, removed } point; ///< of which end it is
+    enum : char { neither, kept, removed } point; ///< which end it lies on
   };
 
   Collapse_log log;
