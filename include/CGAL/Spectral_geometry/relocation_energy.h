@@ -6,9 +6,10 @@
 #define CGAL_SPECTRAL_GEOMETRY_RELOCATION_ENERGY_H
 
 #include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
-#include <CGAL/Spectral_geometry/internal/numerics/Supernodal_factor.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
+
+#include <Eigen/SparseCholesky>
 
 namespace CGAL::Spectral_geometry {
 
@@ -64,8 +65,8 @@ its corners. Residuals are made of differences F_j - F_w: the small ones of smoo
 lost in the rounding of large sums.
 
 A value or a gradient takes O(n K); where tau is positive also one sparse Cholesky factorisation of
-A and for each signal one solve, two with a gradient. Signals are treated 32 at a time, on as many
-threads as `set_threads()` says.
+A and for each signal one solve, two with a gradient. Signals are treated 32 at a time, so that what
+a solve works on stays in the cache, on as many threads as `set_threads()` says.
 
 E does not see the side of a surface on which a vertex lies: it is a function of lengths, and knows
 nothing of inversions. Whoever moves vertices has to guard them, see `relocate_positions()`.
@@ -184,8 +185,7 @@ private:
   {
     double smoothed, energy, inner = 0;
     Entries derivatives;
-    Panel Y, X, multiplier, BF, by_F;
-    internal::Aligned_buffer panel;
+    Panel Y, X, multiplier, scratch, BF, by_F;
   };
 
   double evaluate(const Positions& V, Positions* gradient)
@@ -301,90 +301,68 @@ private:
   // A = B + tau L, lower triangle.
   bool factorise()
   {
-    const Index n = number_of_vertices(), edges = Index(m_geometry.edges().size());
-    Eigen::VectorXd values(edges + n); // those of edges, then the diagonal
-    values.tail(n) = m_entries.B_diagonal;
-    for(Index e = 0; e < edges; ++e) {
-      const auto [i, j] = m_geometry.edges()[std::size_t(e)];
-      const double L = m_tau * m_entries.L(e);
-      values(edges + i) -= L;
-      values(edges + j) -= L;
+    const Index n = number_of_vertices();
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(std::size_t(n) + m_geometry.edges().size());
+    Eigen::VectorXd diagonal = m_entries.B_diagonal;
+    for(std::size_t e = 0; e < m_geometry.edges().size(); ++e) {
+      const auto [i, j] = m_geometry.edges()[e];
+      const double L = m_tau * m_entries.L(Index(e));
+      diagonal(i) -= L;
+      diagonal(j) -= L;
       const bool apart =
           m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j); // but for the diagonal
-      values(e) = apart ? 0. : m_entries.B(e) + L;
+      entries.emplace_back((std::max)(i, j), (std::min)(i, j),
+                           apart ? 0. : m_entries.B(Index(e)) + L);
     }
     for(Index i = 0; i < n; ++i)
-      if(!(values(edges + i) > 0))
-        values(edges + i) = 1.; // a vertex without a face
-    if(m_value.empty())
-      set_pattern();
-    for(Index p = 0; p < m_A.nonZeros(); ++p)
-      m_A.valuePtr()[p] = values(m_value[std::size_t(p)]);
-    try {
-      if(m_factor)
-        m_factor->factorise(m_A, 1);
-      else
-        m_factor = std::make_unique<internal::Supernodal_factor>(m_A);
-    } catch(const internal::Not_positive_definite&) {
-      return false;
-    }
-    return true;
+      entries.emplace_back(int(i), int(i),
+                           diagonal(i) > 0 ? diagonal(i) : 1.); // 1: a vertex without a face
+    Eigen::SparseMatrix<double> A(n, n);
+    A.setFromTriplets(entries.begin(), entries.end());
+    if(m_cholesky.rows() == 0)
+      m_cholesky.analyzePattern(A); // it stays the same
+    m_cholesky.factorize(A);
+    return m_cholesky.info() == Eigen::Success;
   }
 
-  // The structure of A, which stays the same, and which of the values each entry is.
-  void set_pattern()
+  // x <- A^-1 x, row by row of the factor: what belongs to one vertex is contiguous.
+  CGAL_SPECTRAL_INLINE void solve(Panel& x, Panel& scratch) const
   {
-    const Index n = number_of_vertices(), edges = Index(m_geometry.edges().size());
-    std::vector<Eigen::Triplet<double>> entries;
-    for(Index e = 0; e < edges; ++e) {
-      const auto [i, j] = m_geometry.edges()[std::size_t(e)];
-      entries.emplace_back((std::max)(i, j), (std::min)(i, j), double(e));
+    using Entry_of_factor = Eigen::SparseMatrix<double>::InnerIterator;
+    const auto& G = m_cholesky.matrixL().nestedExpression();
+    const auto& place = m_cholesky.permutationP().indices();
+    scratch.resize(x.rows(), width);
+    double* const y = scratch.data();
+    for(Index i = 0; i < x.rows(); ++i)
+      std::copy_n(x.row(i).data(), width, y + place(i) * width);
+    for(Index j = 0; j < x.rows(); ++j) {
+      Entry_of_factor it(G, j); // the diagonal comes first
+      double* const pivot = y + j * width;
+      scale(1 / it.value(), pivot);
+      for(++it; it; ++it)
+        add_multiple(-it.value(), pivot, y + it.row() * width);
     }
-    for(Index i = 0; i < n; ++i)
-      entries.emplace_back(int(i), int(i), double(edges + i));
-    m_A.resize(n, n);
-    m_A.setFromTriplets(entries.begin(), entries.end());
-    m_value.assign(m_A.valuePtr(), m_A.valuePtr() + m_A.nonZeros());
-  }
-
-  // x <- A^-1 x
-  void solve(Panel& x, Work& work) const
-  {
-    constexpr int eight = internal::panel_width;
-    static_assert(width % eight == 0);
-    work.panel.resize(m_factor->number_of_rows() * eight);
-    const std::vector<int>& order = m_factor->order();
-    for(int first = 0; first < width; first += eight) {
-      double* row = work.panel.data();
-      for(const int i : order)
-        row = std::copy_n(x.row(i).data() + first, eight, row);
-      m_factor->solve_in_place(work.panel.data(), 1);
-      row = work.panel.data();
-      for(const int i : order) {
-        std::copy_n(row, eight, x.row(i).data() + first);
-        row += eight;
-      }
+    for(Index j = x.rows(); j-- > 0;) {
+      Entry_of_factor it(G, j);
+      const double diagonal = it.value();
+      double* const pivot = y + j * width;
+      for(++it; it; ++it)
+        add_multiple(-it.value(), y + it.row() * width, pivot);
+      scale(1 / diagonal, pivot);
     }
+    for(Index i = 0; i < x.rows(); ++i)
+      std::copy_n(y + place(i) * width, width, x.row(i).data());
   }
 
   // With Y = A^-1 R, X = A^-1 B Y and Q = R / M:
   // dS = Y^T dB Y - 2 X^T dA Y + 2 (X + mu Q)^T (dB Z - dL F) - mu E_w / M_w dM_w.
   void add(const Signals& s, const bool derive, Work& work) const
   {
-    internal::on_vector_units([&] { set_residuals(s, derive, work); });
-    if(m_tau > 0) {
-      solve(work.Y, work);
-      internal::on_vector_units([&] { smooth(work); });
-      if(derive)
-        solve(work.X, work);
-    } else
-      work.Y.setZero();
-    if(derive)
-      internal::on_vector_units([&] { add_derivatives(s, work); });
+    internal::on_vector_units([&] { add_body(s, derive, work); });
   }
 
-  // R in Y, mu Q in the multiplier, and E.
-  CGAL_SPECTRAL_INLINE void set_residuals(const Signals& s, const bool derive, Work& work) const
+  CGAL_SPECTRAL_INLINE void add_body(const Signals& s, const bool derive, Work& work) const
   {
     const Index n = number_of_vertices();
     Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
@@ -411,12 +389,21 @@ private:
       if(derive)
         work.derivatives.mass(w) -= m_mu * E / mass;
     }
+    if(m_tau > 0)
+      smooth(derive, work);
+    else
+      Y.setZero();
+    if(derive) {
+      Q += X;
+      add_derivatives(s, work);
+    }
   }
 
-  // The first term, and B Y in X.
-  CGAL_SPECTRAL_INLINE void smooth(Work& work) const
+  // Makes Y and the first term of the R in Y, and X where derivatives are to be taken.
+  CGAL_SPECTRAL_INLINE void smooth(const bool derive, Work& work) const
   {
     Panel &Y = work.Y, &X = work.X;
+    solve(Y, work.scratch);
     for(Index w = 0; w < Y.rows(); ++w) {
       if(m_geometry.vanishes_at(w))
         continue;
@@ -426,13 +413,13 @@ private:
         add_multiple(m_entries.B(entry.edge), Y.row(entry.neighbour).data(), x);
       work.smoothed += dot(x, Y.row(w).data());
     }
+    if(derive)
+      solve(X, work.scratch);
   }
 
   CGAL_SPECTRAL_INLINE void add_derivatives(const Signals& s, Work& work) const
   {
-    const Panel &Y = work.Y, &X = work.X;
-    Panel& Q = work.multiplier;
-    Q += X;
+    const Panel &Y = work.Y, &X = work.X, &Q = work.multiplier;
     Entries& d = work.derivatives;
     for(Index w = 0; w < number_of_vertices(); ++w) {
       const double *const y = Y.row(w).data(), *const x = X.row(w).data();
@@ -473,6 +460,12 @@ private:
       y[c] += a * (x[c] - x0[c]);
   }
 
+  CGAL_SPECTRAL_INLINE static void scale(const double a, double* y)
+  {
+    for(int c = 0; c < width; ++c)
+      y[c] *= a;
+  }
+
   // Eight partial sums: one alone could not be vectorised.
   CGAL_SPECTRAL_INLINE static double dot(const double* x, const double* y)
   {
@@ -494,9 +487,7 @@ private:
   Position_dependent_signals* m_moving;
   std::vector<Signals> m_given;
   Entries m_entries;
-  Eigen::SparseMatrix<double> m_A;
-  std::vector<Index> m_value; // of each entry of A
-  std::unique_ptr<internal::Supernodal_factor> m_factor;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> m_cholesky;
   double m_smoothed = 0, m_energy = 0, m_nu = 0;
   std::vector<Eigen::MatrixXd> m_inner_products; // of the fine mesh, of 32 signals each
   int m_threads = 1;

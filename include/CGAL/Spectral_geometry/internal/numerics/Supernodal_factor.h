@@ -224,21 +224,13 @@ public:
   /// x = A^-1 b, in the order of the factor; b may be x.
   void solve(const Panel& b, Panel& x, int threads)
   {
-    if(m_workspace.size() < number_of_rows() * panel_width)
-      m_workspace.assign(number_of_rows() * panel_width, 0.);
+    if(m_workspace.size() < std::size_t(m_slots * panel_width))
+      m_workspace.assign(m_slots * panel_width, 0.);
     const Index entries = Index(m_order.size()) * panel_width;
     std::copy_n(b.row(0), entries, m_workspace.data());
-    solve_in_place(m_workspace.data(), threads);
+    solve_in_place<panel_width>(m_workspace.data(), threads, forward, backward);
     std::copy_n(m_workspace.data(), entries, x.row(0));
   }
-
-  /// Solves for a panel of `number_of_rows()` rows: those of A in the order of the factor, then
-  /// others of any value. Calls for different panels may run at a time.
-  void solve_in_place(double* panel, int threads) const
-  {
-    solve_in_place<panel_width>(panel, threads, forward, backward);
-  }
-  std::size_t number_of_rows() const { return m_slots; }
 
   /// Solves for one vector, in the order of A.
   Eigen::VectorXd solve(const Eigen::VectorXd& b, int threads)
@@ -259,7 +251,8 @@ private:
   [[noreturn]] static void throw_lack_of_memory()
   {
     throw std::runtime_error(
-        "There is not enough memory for the factor of the Laplacian; simplify the mesh before.");
+        "Eigenpairs: there is not enough memory for the factor of the shifted Laplacian; "
+        "simplify the mesh before.");
   }
 
   std::size_t width(std::size_t k) const { return m_first[k + 1] - m_first[k]; }
