@@ -312,4 +312,97 @@ TEST_CASE("signals read off a surface are those of its closest points, with the 
   CHECK(slope == Catch::Approx(gradient.cwiseProduct(direction).sum()).epsilon(1e-6));
 }
 
+namespace {
+
+// Vertices on springs of unequal strength, each pulled elsewhere.
+struct Springs
+{
+  Eigen::MatrixXd H;
+  Positions pull;
+
+  double value_and_gradient(const Positions& V, Positions& gradient) const
+  {
+    gradient = H * V - pull;
+    return V.cwiseProduct(0.5 * H * V - pull).sum();
+  }
+};
+
+// One vertex at most must stay.
+struct One_fixed
+{
+  Eigen::Index v = -1;
+
+  void tangential(const Positions&, Positions& direction) const
+  {
+    if(v >= 0)
+      direction.row(v).setZero();
+  }
+  void admit(const Positions& from, Positions& to) const
+  {
+    if(v >= 0)
+      to.row(v) = from.row(v);
+  }
+};
+
+} // namespace
+
+TEST_CASE("a descent goes on after a vertex was put back, and knows what it knew")
+{
+  const Eigen::Index n = 40;
+  Springs springs{0.01 * Eigen::MatrixXd::Identity(n, n), Positions(n, 3)};
+  for(Eigen::Index i = 0; i + 1 < n; ++i) {
+    const double strength = 1 + 30 * (i % 3);
+    springs.H.block(i, i, 2, 2) += strength * (Eigen::Matrix2d() << 1., -1., -1., 1.).finished();
+  }
+  for(Eigen::Index i = 0; i < springs.pull.size(); ++i)
+    springs.pull.data()[i] = std::sin(3. * double(i));
+  One_fixed guards;
+  using Descent = SG::internal::Guarded_descent<Springs, One_fixed>;
+  const auto after = [&](const int steps) {
+    Descent descent(springs, guards, 0.1);
+    descent.start(Positions::Zero(n, 3));
+    for(int i = 0; i < steps; ++i)
+      REQUIRE(descent.step());
+    return descent;
+  };
+  Descent whole = after(25), kept = after(15);
+  kept.go_on_from(Positions(kept.positions())); // where nothing was put back
+  for(int i = 15; i < 25; ++i)
+    REQUIRE(kept.step());
+  CHECK(kept.value() == whole.value());
+
+  Positions V = whole.positions();
+  V.row(17).setZero();
+  guards.v = 17;
+  Eigen::MatrixXd H = springs.H; // the minimum where vertex 17 stays in the origin
+  H.row(17).setZero();
+  H.col(17).setZero();
+  H(17, 17) = 1;
+  Positions pull = springs.pull;
+  pull.row(17).setZero();
+  const Positions best = H.ldlt().solve(Eigen::MatrixXd(pull));
+  Positions gradient;
+  const double least = springs.value_and_gradient(best, gradient);
+  const auto steps_to_minimum = [&](Descent& descent) {
+    const double gap = descent.value() - least;
+    int steps = 0;
+    for(; descent.value() - least > 1e-6 * gap && steps < 500; ++steps)
+      REQUIRE(descent.step());
+    CHECK(descent.positions().row(17).norm() == 0);
+    return steps;
+  };
+  Descent anew = whole;
+  anew.start(V);
+  whole.go_on_from(V);
+  CHECK(whole.value() == anew.value());
+  const int with_history = steps_to_minimum(whole), without = steps_to_minimum(anew);
+  CAPTURE(with_history, without);
+  CHECK(without < 500);
+  CHECK(with_history < without);
+
+  Descent all = after(10);
+  all.go_on_from(Positions::Zero(n, 3)); // all of them
+  CHECK(steps_to_minimum(all) < 500);
+}
+
 } // namespace test_relocation_energy

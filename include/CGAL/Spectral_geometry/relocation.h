@@ -178,7 +178,7 @@ public:
           const Positions repaired_so_far = repaired(descent.positions());
           const bool refreshed = m_objective->refresh(repaired_so_far);
           if(repaired_so_far != descent.positions())
-            descent.start(repaired_so_far);
+            descent.go_on_from(repaired_so_far);
           else if(refreshed)
             descent.refresh();
         }
