@@ -366,7 +366,7 @@ TEST_CASE("a descent goes on after a vertex was put back, and knows what it knew
     return descent;
   };
   Descent whole = after(25), kept = after(15);
-  kept.go_on_from(Positions(kept.positions())); // where nothing was put back
+  kept.go_on_from(kept.positions()); // where nothing was put back
   for(int i = 15; i < 25; ++i)
     REQUIRE(kept.step());
   CHECK(kept.value() == whole.value());

@@ -46,13 +46,13 @@ public:
 
   /// goes on where some vertices were put back. What is known of the curvature at the others is
   /// kept.
-  void go_on_from(const Positions& V)
+  void go_on_from(Positions V)
   {
-    const Positions before = std::exchange(m_V, V);
+    m_V.swap(V);
     refresh();
     for(Pair& pair : std::exchange(m_history, {})) {
       for(Eigen::Index v = 0; v < V.rows(); ++v)
-        if(V.row(v) != before.row(v)) {
+        if(m_V.row(v) != V.row(v)) {
           pair.s.row(v).setZero();
           pair.y.row(v).setZero();
         }
