@@ -254,7 +254,7 @@ bool same_faces(const Mesh& mesh, const Mesh& other)
 
 // The levels of detail are those of the run.
 std::string fault_of_log(Mesh copy, const Edge_flags& flags, const Mesh& mesh, const One_call& call,
-                         const SMS::Spectral_edge_collapse_result& result)
+                         const SMS::Spectral_edge_collapse_result& result, const bool swept)
 {
   const auto np = CGAL::parameters::edge_is_constrained_map(flags);
   SMS::Collapse_replay<Mesh, std::decay_t<decltype(np)>> replay(copy, result.log, np);
@@ -270,7 +270,7 @@ std::string fault_of_log(Mesh copy, const Edge_flags& flags, const Mesh& mesh, c
   if(!result.relocation.resampled &&
      (result.log.restriction(result.output_vertices) - result.restriction).norm() != 0)
     return "the last level has another restriction than the result";
-  if(!call.post_processed() && !same_faces(copy, mesh))
+  if(!call.post_processed() && !(swept ? same_faces(copy, mesh) : unchanged(copy, mesh)))
     return "the last level is not the result";
   return "";
 }
@@ -424,6 +424,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   add_one_call_options(call, bytes);
   Edge_flags flags(mesh);
   const int flagged = bytes.below(4);
+  const bool without_map = flagged == 0 && !bytes.one_in(3);
   for(int i = 0; i < flagged; ++i)
     put(flags, Mesh::Edge_index(unsigned(bytes.byte()) % mesh.num_edges()), true);
   const Mesh before = mesh;
@@ -440,7 +441,7 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
                  : SMS::spectral_edge_collapse(mesh, call.N, options, with_filter);
     };
     const auto np = CGAL::parameters::edge_is_constrained_map(flags);
-    result = flagged == 0 // no map: quadrics leave the mesh in one sweep
+    result = without_map // a first stage sets the mesh in one sweep then
                  ? run(CGAL::parameters::filter(call.filter), CGAL::parameters::all_default())
                  : run(np.filter(call.filter), np);
   } catch(const SG::Cancelled&) {
@@ -461,7 +462,8 @@ std::string fault_of_one_call(Mesh mesh, One_call call, Bytes& bytes)
   if(fault.empty())
     fault = fault_of_constraints(mesh, flags, before, flags_before, call, result);
   if(fault.empty())
-    fault = fault_of_log(before, flags_of_replay, mesh, call, result);
+    fault = fault_of_log(before, flags_of_replay, mesh, call, result,
+                         without_map && call.pre_simplified());
   return fault.empty() && !is_large(call.fine) && bytes.one_in(4)
              ? fault_of_fitting(SG::mesh_matrices(mesh), call, result, bytes)
              : fault;

@@ -44,8 +44,8 @@ public:
     set_scales();
   }
 
-  /// goes on where some vertices were put back. What is known of the curvature at the others is
-  /// kept.
+  /// goes on where some vertices were put back. Pairs keep their rows of the others, which is about
+  /// what is known of the curvature there.
   void go_on_from(Positions V)
   {
     m_V.swap(V);
@@ -80,11 +80,12 @@ public:
     if(m_history.empty())
       return false;
     m_history.clear(); // once more along the gradient
+    set_scales();
     return try_direction();
   }
 
 private:
-  // With 12, forgotten where vertices are put back, 70 steps come as far as 50 do now.
+  // With 12, forgotten where vertices are put back, the objective of 50 steps took 70.
   static constexpr std::size_t memory = 24;
 
   struct Pair
