@@ -60,7 +60,7 @@ struct Relocation_options : Run_control
   double largest_distance = std::numeric_limits<double>::infinity();
 
   /// Ends after so many steps; one step is a value and a gradient, seldom two. 60 take three
-  /// quarters of its time, with 1.01 times the |C|_L.
+  /// quarters of the time, with 1.01 times the |C|_L.
   int maximum_steps = 80;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();

@@ -85,7 +85,7 @@ public:
   }
 
 private:
-  // With 12, forgotten where vertices are put back, the objective of 50 steps took 70.
+  // With 12, and none kept where vertices are put back, 70 steps came as far as 50 do.
   static constexpr std::size_t memory = 24;
 
   struct Pair
