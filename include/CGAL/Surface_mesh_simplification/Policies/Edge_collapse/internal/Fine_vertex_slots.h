@@ -15,7 +15,6 @@
 
 #include <iterator>
 #include <mutex>
-#include <set>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -72,12 +71,23 @@ public:
   using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
 
   explicit Vertex_slot_map(Triangle_mesh& mesh)
-    : m_name(Names::add())
   {
+    // The names in use, of all meshes of this type: a copy of a mesh has its properties, too.
+    static std::mutex mutex;
+    static std::vector<std::shared_ptr<const std::string>> names;
+    static std::size_t next = 0;
+    const std::string prefix = "v:spectral_slot_";
+    const std::lock_guard<std::mutex> lock(mutex);
+    names.erase(std::remove_if(names.begin(), names.end(),
+                               [](const auto& name) { return name.use_count() == 1; }),
+                names.end());
     for(const std::string& name : mesh.template properties<vertex_descriptor>())
-      if(Names::is_abandoned(name))
+      if(name.compare(0, prefix.size(), prefix) == 0 &&
+         std::none_of(names.begin(), names.end(), [&](const auto& used) { return *used == name; }))
         if(std::optional<Map> map = look_up(mesh, name))
           mesh.remove_property_map(*map);
+    m_name = std::make_shared<const std::string>(prefix + std::to_string(next++));
+    names.push_back(m_name);
     m_map = mesh.template add_property_map<vertex_descriptor, Number>(*m_name, Number()).first;
   }
 
@@ -108,43 +118,6 @@ private:
     return found.second ? std::optional<Map>(found.first) : std::nullopt;
 #endif
   }
-
-  // The names that are in use, of all meshes of this type: a copy of a mesh has its properties,
-  // too.
-  class Names
-  {
-  public:
-    static std::shared_ptr<const std::string> add()
-    {
-      const std::lock_guard<std::mutex> lock(names().m_mutex);
-      const std::string name = prefix() + std::to_string(names().m_next++);
-      names().m_used.insert(name);
-      return std::shared_ptr<const std::string>(new std::string(name), [](const std::string* gone) {
-        const std::lock_guard<std::mutex> lock(names().m_mutex);
-        names().m_used.erase(*gone);
-        delete gone;
-      });
-    }
-
-    static bool is_abandoned(const std::string& name)
-    {
-      const std::lock_guard<std::mutex> lock(names().m_mutex);
-      return name.compare(0, prefix().size(), prefix()) == 0 && names().m_used.count(name) == 0;
-    }
-
-  private:
-    static std::string prefix() { return "v:spectral_slot_"; }
-    // Never destroyed: a map in static memory may be destroyed later.
-    static Names& names()
-    {
-      static Names& result = *new Names;
-      return result;
-    }
-
-    std::mutex m_mutex;
-    std::set<std::string> m_used;
-    std::size_t m_next = 0;
-  };
 
   std::shared_ptr<const std::string> m_name;
   Map m_map;
