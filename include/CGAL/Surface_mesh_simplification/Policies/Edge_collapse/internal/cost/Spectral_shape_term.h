@@ -58,10 +58,9 @@ public:
       return;
     const Eigen::Vector3d normal = cross / double_area;
     add_plane(normal, p, double_area / 2);
-    if(a_is_border)
-      add_border(a, normal, p);
-    if(b_is_border)
-      add_border(b, normal, p);
+    for(const auto& [edge, is_border] : {std::pair(a, a_is_border), std::pair(b, b_is_border)})
+      if(is_border)
+        add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm());
   }
 
 private:
@@ -70,12 +69,6 @@ private:
   static constexpr double variance = 0.0225;
   // A border edge counts so much beside a face of as much area; 100 is as good, 1 lets it wear off.
   static constexpr double border_weight = 10;
-
-  void add_border(const Eigen::Vector3d& edge, const Eigen::Vector3d& normal,
-                  const Eigen::Vector3d& p)
-  {
-    add_plane(edge.cross(normal).normalized(), p, border_weight * edge.squaredNorm());
-  }
 
   // Adds weight ((n.(x - p))^2 + variance |x - p|^2): the expected squared distance to a plane
   // through p whose unit normal n has that variance in each coordinate (Trettner and Kobbelt, *Fast
@@ -104,11 +97,9 @@ private:
  * it spreads vertices evenly. Weights are areas, so that the resolution of the input does not
  * matter.
  *
- * Before set_geometry() it is empty and costs nothing. Reads may run on several threads.
- *
- * With the shape term no change of E counts for more than `Spectral_options::largest_loss` times
- * what the signals have at both ends: beside needles E is larger than that by orders of magnitude,
- * and a few folds of the input (eyes, nostrils) would never be collapsed.
+ * Before set_geometry() it is empty and costs nothing. It also says how much a change of E counts
+ * for at most, see `Spectral_options::largest_loss`: a few folds of the input (eyes, nostrils)
+ * would never be collapsed otherwise.
  */
 class Spectral_shape_term
 {

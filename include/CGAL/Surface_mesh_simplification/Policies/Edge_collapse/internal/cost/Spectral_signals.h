@@ -54,8 +54,7 @@ public:
   Spectral_block* operator[](const std::size_t w) { return &m_values[w * std::size_t(m_blocks)]; }
 
   /// Sets the columns from `first` on, a multiple of 16, of F and Z.
-  template <class Matrix_F, class Matrix_Z>
-  void set(const Eigen::Index first, const Matrix_F& F, const Matrix_Z& Z)
+  void set(const Eigen::Index first, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z)
   {
     for(Eigen::Index k = 0; k < F.cols(); ++k)
       for(Eigen::Index w = 0; w < F.rows(); ++w) {
@@ -100,20 +99,12 @@ CGAL_SPECTRAL_INLINE const Spectral_quad& spectral_quad(const double* p)
 {
   return *reinterpret_cast<const Spectral_quad*>(p);
 }
-CGAL_SPECTRAL_INLINE Spectral_quad& spectral_quad(double* p)
-{
-  return *reinterpret_cast<Spectral_quad*>(p);
-}
 #else
 using Spectral_quad = Eigen::Array4d;
 
 inline Eigen::Map<const Eigen::Array4d> spectral_quad(const double* p)
 {
   return Eigen::Map<const Eigen::Array4d>(p);
-}
-inline Eigen::Map<Eigen::Array4d> spectral_quad(double* p)
-{
-  return Eigen::Map<Eigen::Array4d>(p);
 }
 #endif
 
@@ -150,11 +141,11 @@ CGAL_SPECTRAL_INLINE double spectral_residual_row(const Spectral_signals& signal
       add(e->of_z, block.z);
     }
     squares += s0 * s0 + s1 * s1 + s2 * s2 + s3 * s3;
-    if(result != nullptr) {
-      spectral_quad(result[b].r) = s0;
-      spectral_quad(result[b].r + 4) = s1;
-      spectral_quad(result[b].r + 8) = s2;
-      spectral_quad(result[b].r + 12) = s3;
+    for(int i = 0; i < 4 && result != nullptr; ++i) {
+      result[b].r[i] = s0[i];
+      result[b].r[4 + i] = s1[i];
+      result[b].r[8 + i] = s2[i];
+      result[b].r[12 + i] = s3[i];
     }
   }
   return (squares[0] + squares[1]) + (squares[2] + squares[3]);
