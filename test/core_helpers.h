@@ -77,7 +77,7 @@ inline void commit(Core& core, Slow_mesh& mesh, const Edge& e, const Sample& c,
   const int kept = keep_first ? e.first : e.second, removed = keep_first ? e.second : e.first;
   const double weight = keep_first ? c.weight : 1 - c.weight;
   mesh.collapse(removed, kept, weight, c.point);
-  core.commit(Slot(removed), Slot(kept), weight, c.point, mesh.ring(kept));
+  core.commit({removed, kept, weight}, c.point, mesh.ring(kept));
 }
 
 // Collapses `count` edges, each the cheapest of a few drawn at random, in the core and in the slow

@@ -279,7 +279,7 @@ TEST_CASE("Costs and E of mixtures estimate those of all signals without bias, b
     for(const int after : {0, 1}) {
       if(after == 1)
         for(const Recorded_collapse& c : collapses)
-          core.commit(c.removed, c.kept, c.weight, c.point, c.ring);
+          core.commit({c.removed, c.kept, c.weight}, c.point, c.ring);
       const std::vector<double> mixed = costs(core, after == 1 ? coarse : fine);
       estimates[after].resize(mixed.size());
       for(std::size_t i = 0; i < mixed.size(); ++i)

@@ -303,7 +303,7 @@ TEST_CASE("Rough eigenpairs still start from E = 0, and E is tracked with B^-1 L
   const Eigen::VectorXd lambda = fine.basis.lambda;
   fine.basis = signal_basis(input, op.theta, fine.basis.F);
   fine.basis.lambda = lambda; // which says what is constant
-  CHECK(policies.state().has_rough_basis());
+  CHECK(policies.state().basis().rough);
   collapse(mesh, policies, 100);
   CHECK(fault_of_run(mesh, policies, fine) == "");
 }
@@ -317,7 +317,7 @@ TEST_CASE("Rough eigenpairs of our own solver are taken again by the residuals t
   Mesh mesh = make_mesh(input);
   const Policies policies(mesh, options);
   collapse(mesh, policies, 641);
-  CHECK(policies.state().has_rough_basis());
+  CHECK(policies.state().basis().rough);
   collapse(mesh, policies, 150);
   Spectral_options again = Spectral_options::paper();
   again.eigenpairs = policies.eigenpairs();
@@ -426,7 +426,7 @@ TEST_CASE("With constants alone nothing can be lost")
   if(signals)
     options.signals = Eigen::MatrixXd::Constant(162, 2, -1e3);
   const Policies policies(mesh, options);
-  CHECK(policies.state().sum_of_squares() == 0);
+  CHECK(policies.state().basis().sum_of_squares == 0);
   CHECK(policies.relative_error() == 0);
   collapse(mesh, policies, 60);
   CHECK(fault_of_restriction(policies.restriction(), policies.vertex_map()) == "");

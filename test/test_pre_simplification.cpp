@@ -443,7 +443,7 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   }
   SMS::internal::Spectral_shape_term expected;
   const double area = SG::laplace_operator(input.V, input.T, options.mass).mass.sum();
-  expected.set_weights(options, policies.state().sum_of_squares());
+  expected.set_weights(options, policies.state().basis().sum_of_squares);
   expected.set_geometry(points, rings, 1 / area);
   for(const SG::Merge_forest::Merge& m : log.forest().merges())
     expected.merge(SMS::internal::Spectral_slot(m.removed), SMS::internal::Spectral_slot(m.kept));

@@ -130,21 +130,21 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
                          Spectral_geometry::Relocation_options relocation, std::vector<bool> fixed,
                          const NamedParameters& np)
 {
-  const Run_signals signals(state, options);
+  const Run_signals signals(state.basis(), state.fine(), options);
   relocation.modes = signals.modes();
   relocation.threads = (std::max)(relocation.threads, options.threads);
   if(relocation.cancel == nullptr)
     relocation.cancel = options.cancel;
   const std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs =
-      state.filtered_signals() != nullptr && relocation.eigenpairs == nullptr
+      state.basis().filtered && relocation.eigenpairs == nullptr
           ? judging_eigenpairs(state, options, P.rows(), relocation)
-          : state.eigenpairs();
+          : state.basis().eigenpairs;
   if(relocation.eigenpairs == nullptr)
     relocation.eigenpairs = pairs.get();
   const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
   if(pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
-    relocation.eigenvalues = state.area() * pairs->all_values();
-  const Spectral_geometry::Filtered_signals* const filtered = state.filtered_signals();
+    relocation.eigenvalues = state.basis().area * pairs->all_values();
+  const Spectral_geometry::Filtered_signals* const filtered = state.basis().filtered.get();
   const auto mixtures = filtered ? decltype(signals.mixtures())() : signals.mixtures();
   Spectral_geometry::Relocation_result result =
       relocate_mesh(mesh, P, state.fine(), filtered ? filtered->F : mixtures.first,

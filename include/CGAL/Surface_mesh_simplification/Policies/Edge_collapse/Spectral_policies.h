@@ -156,11 +156,17 @@ public:
 
   /// P, coarse x fine (section 3.2): rows in the order of `vertices(mesh)` at the time of the call,
   /// columns in that at construction. Rows sum to 1 and columns have at most one nonzero.
-  Eigen::SparseMatrix<double> restriction() const { return state().restriction(); }
+  Eigen::SparseMatrix<double> restriction() const
+  {
+    return state().log().forest().restriction(state().current_slots());
+  }
 
   /// For each vertex of the input the position in `vertices(mesh)` of the vertex that it was merged
   /// into.
-  std::vector<std::size_t> vertex_map() const { return state().vertex_map(); }
+  std::vector<std::size_t> vertex_map() const
+  {
+    return state().log().forest().vertex_map(state().current_slots());
+  }
 
   /// The merges so far and where each left its vertex, from which `Collapse_replay` makes every
   /// level of detail between the input and the current mesh.
@@ -179,7 +185,7 @@ public:
   /// noise. Put them into `Spectral_options::eigenpairs` to simplify the same input again.
   std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const
   {
-    return state().eigenpairs();
+    return state().basis().eigenpairs;
   }
 
   /// E of the current mesh (Eq. 2), for the input scaled to unit area; tracked while collapsing.

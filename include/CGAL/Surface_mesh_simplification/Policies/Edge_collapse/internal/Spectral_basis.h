@@ -65,9 +65,20 @@ inline Spectral_geometry::Local_operator local_operator(const Spectral_options& 
 }
 
 /// The matrices of it, or those of `Spectral_options::operator_of_eigenpairs`.
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_geometry::Laplace_operator
-operator_of_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
-                  const Spectral_options& options);
+inline Spectral_geometry::Laplace_operator operator_of_basis(const Eigen::MatrixXd& V,
+                                                             const Eigen::MatrixXi& T,
+                                                             const Spectral_options& options)
+{
+  if(!options.operator_of_eigenpairs)
+    return Spectral_geometry::laplace_operator(V, T, local_operator(options));
+  Spectral_geometry::Laplace_operator op = options.operator_of_eigenpairs(V, T);
+  require(op.L.rows() == V.rows() && op.theta == Spectral_geometry::mass_blend(options.mass),
+          "Spectral_options: operator_of_eigenpairs returned an operator of ", op.L.rows(),
+          " vertices and the blend ", op.theta, ", but the mesh has ", V.rows(),
+          " vertices and mass the blend ", Spectral_geometry::mass_blend(options.mass),
+          "; return that of the mesh in this mass.");
+  return op;
+}
 
 inline void check_extent(const Eigen::MatrixXd& V)
 {
@@ -77,8 +88,17 @@ inline void check_extent(const Eigen::MatrixXd& V)
           "the mesh.");
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::VectorXd spectral_weights(const Spectral_options& options,
-                                                               Eigen::Index K);
+inline Eigen::VectorXd spectral_weights(const Spectral_options& options, const Eigen::Index K)
+{
+  if(options.weights.size() == 0)
+    return Eigen::VectorXd::Ones(K);
+  require(options.weights.size() == K, "Spectral_options: there are ", options.weights.size(),
+          " weights for ", K, " signals; give one for each.");
+  for(Eigen::Index k = 0; k < K; ++k)
+    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]),
+            "Spectral_options: weight ", k, " is negative or not finite; use numbers from 0.");
+  return options.weights;
+}
 
 /// Z = B^-1 L F. The consistent mass scaled by its diagonal has eigenvalues in [1/2, 2], so
 /// conjugate gradients converge in a number of steps that does not depend on the mesh.
@@ -109,8 +129,22 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd random_mixtures(Eigen::Index rows,
 /// The mixtures of the signals of positive weight, each multiplied by the square root of that; all
 /// of these signals where there are no more than `Spectral_options::number_of_mixtures`. R has a
 /// row for every signal.
-CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
-                                                            const Eigen::VectorXd& weights);
+inline Eigen::MatrixXd mixing_matrix(const Spectral_options& options,
+                                     const Eigen::VectorXd& weights)
+{
+  std::vector<Eigen::Index> seen;
+  for(Eigen::Index k = 0; k < weights.size(); ++k)
+    if(weights[k] > 0)
+      seen.push_back(k);
+  const Eigen::Index rows = Eigen::Index(seen.size()), r = options.number_of_mixtures;
+  const Eigen::MatrixXd mixtures = r == 0 || rows <= r
+                                       ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows))
+                                       : random_mixtures(rows, r, options.seed);
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(weights.size(), mixtures.cols());
+  for(Eigen::Index i = 0; i < rows; ++i)
+    R.row(seen[i]) = std::sqrt(weights[seen[i]]) * mixtures.row(i);
+  return R;
+}
 
 /// mesh -> Laplacian -> eigenpairs -> F and Z.
 CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixXd& V,
@@ -120,23 +154,24 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_basis spectral_basis(const Eigen::MatrixX
 /// F and Z of a run at the scale of its input, for what follows the collapses: eigenvectors,
 /// filtered noise or signals of the user's. `options` may weigh them otherwise than the collapses
 /// did.
-template <class State>
 class Run_signals
 {
 public:
   using Signals = std::pair<Eigen::MatrixXd, Eigen::MatrixXd>;
 
-  Run_signals(const State& state, const Spectral_options& options)
-    : m_state(state)
+  Run_signals(const Spectral_basis& basis, const Spectral_geometry::Mesh_matrices& fine,
+              const Spectral_options& options)
+    : m_basis(basis)
+    , m_fine(fine)
     , m_options(options)
   {}
 
   /// F.
   const Eigen::MatrixXd& given() const
   {
-    return m_options.signals.size() != 0           ? m_options.signals
-           : m_state.filtered_signals() != nullptr ? m_state.filtered_signals()->F
-                                                   : m_state.eigenpairs()->vectors;
+    return m_options.signals.size() != 0 ? m_options.signals
+           : m_basis.filtered            ? m_basis.filtered->F
+                                         : m_basis.eigenpairs->vectors;
   }
 
   /// One for each column of F.
@@ -145,8 +180,7 @@ public:
   /// K, also where F holds mixtures of the first K eigenvectors.
   Eigen::Index modes() const
   {
-    return m_state.filtered_signals() != nullptr ? m_options.number_of_eigenvectors
-                                                 : given().cols();
+    return m_basis.filtered ? m_options.number_of_eigenvectors : given().cols();
   }
 
   /// What relocation sees: other mixtures than the collapses. Filtered signals are not mixed. Low
@@ -159,9 +193,9 @@ public:
     options.number_of_mixtures = r == 0 ? 0 : (std::max)(r, mixtures_of_relocation);
     options.seed = m_options.seed + 1; // others than those of the collapses
     Eigen::VectorXd by_eigenvalue = weights();
-    if(const auto pairs = m_state.eigenpairs(); pairs && pairs->values.maxCoeff() > 0) {
+    if(const auto& pairs = m_basis.eigenpairs; pairs && pairs->values.maxCoeff() > 0) {
       const Eigen::VectorXd parts = pairs->values / pairs->values.maxCoeff();
-      for(Eigen::Index k = m_state.number_of_constants(); k < parts.size(); ++k)
+      for(Eigen::Index k = m_basis.constants; k < parts.size(); ++k)
         by_eigenvalue[k] /= std::sqrt((std::max)(parts[k], 1e-6)); // zeros that are no constants
     }
     return mixed(mixing_matrix(options, by_eigenvalue));
@@ -170,24 +204,23 @@ public:
   /// All signals but constants, restricted, each multiplied by the root of its weight.
   Signals restricted(const Eigen::SparseMatrix<double>& P) const
   {
-    if(const Spectral_geometry::Filtered_signals* const filtered = m_state.filtered_signals())
-      return {P * filtered->F, P * filtered->Z};
+    if(m_basis.filtered)
+      return {P * m_basis.filtered->F, P * m_basis.filtered->Z};
     Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
-    R.leftCols(m_state.number_of_constants()).setZero();
+    R.leftCols(m_basis.constants).setZero();
     Eigen::MatrixXd PF = P * given() * R;
-    Eigen::MatrixXd PZ = m_state.has_rough_basis()
+    Eigen::MatrixXd PZ = m_basis.rough
                              ? Eigen::MatrixXd(P * mixed(R).second)
-                             : Eigen::MatrixXd(PF * m_state.eigenpairs()->values.asDiagonal());
+                             : Eigen::MatrixXd(PF * m_basis.eigenpairs->values.asDiagonal());
     return {std::move(PF), std::move(PZ)};
   }
 
   /// || Z ||_B^2 of all of them, for the input scaled to unit area.
   double sum_of_squares() const
   {
-    if(!m_state.eigenpairs())
-      return m_state.sum_of_squares();
-    const double area = m_state.area();
-    return area * area * weights().dot(m_state.eigenpairs()->values.cwiseAbs2());
+    if(!m_basis.eigenpairs)
+      return m_basis.sum_of_squares;
+    return m_basis.area * m_basis.area * weights().dot(m_basis.eigenpairs->values.cwiseAbs2());
   }
 
 private:
@@ -196,13 +229,13 @@ private:
   {
     Eigen::MatrixXd F = given() * R;
     Eigen::MatrixXd Z =
-        m_state.has_rough_basis()
-            ? spectral_z(operator_of_basis(m_state.fine().V, m_state.fine().T, m_options), F)
-            : Eigen::MatrixXd(given() * (m_state.eigenpairs()->values.asDiagonal() * R));
+        m_basis.rough ? spectral_z(operator_of_basis(m_fine.V, m_fine.T, m_options), F)
+                      : Eigen::MatrixXd(given() * (m_basis.eigenpairs->values.asDiagonal() * R));
     return {std::move(F), std::move(Z)};
   }
 
-  const State& m_state;
+  const Spectral_basis& m_basis;
+  const Spectral_geometry::Mesh_matrices& m_fine;
   const Spectral_options& m_options;
 };
 
@@ -271,33 +304,6 @@ void check_spectral_options(const Spectral_options& options, const Eigen::Index 
           ", but the mesh has ", n, " vertices; use a number from 1 to ", n - 1, ".");
 }
 
-Spectral_geometry::Laplace_operator operator_of_basis(const Eigen::MatrixXd& V,
-                                                      const Eigen::MatrixXi& T,
-                                                      const Spectral_options& options)
-{
-  if(!options.operator_of_eigenpairs)
-    return Spectral_geometry::laplace_operator(V, T, local_operator(options));
-  Spectral_geometry::Laplace_operator op = options.operator_of_eigenpairs(V, T);
-  require(op.L.rows() == V.rows() && op.theta == Spectral_geometry::mass_blend(options.mass),
-          "Spectral_options: operator_of_eigenpairs returned an operator of ", op.L.rows(),
-          " vertices and the blend ", op.theta, ", but the mesh has ", V.rows(),
-          " vertices and mass the blend ", Spectral_geometry::mass_blend(options.mass),
-          "; return that of the mesh in this mass.");
-  return op;
-}
-
-Eigen::VectorXd spectral_weights(const Spectral_options& options, const Eigen::Index K)
-{
-  if(options.weights.size() == 0)
-    return Eigen::VectorXd::Ones(K);
-  require(options.weights.size() == K, "Spectral_options: there are ", options.weights.size(),
-          " weights for ", K, " signals; give one for each.");
-  for(Eigen::Index k = 0; k < K; ++k)
-    require(options.weights[k] >= 0 && std::isfinite(options.weights[k]),
-            "Spectral_options: weight ", k, " is negative or not finite; use numbers from 0.");
-  return options.weights;
-}
-
 Eigen::MatrixXd spectral_z(const Spectral_geometry::Laplace_operator& op, const Eigen::MatrixXd& F)
 {
   Eigen::MatrixXd Z = op.L * F;
@@ -334,10 +340,7 @@ inline bool eigenvalues_are_rounding(const Spectral_geometry::Laplace_operator& 
                                      const Eigen::VectorXd& residuals)
 {
   const double shift = Spectral_geometry::internal::pencil_shift(op);
-  for(Eigen::Index k = 0; k < pairs.size(); ++k)
-    if(pairs.values[k] > 2 * residuals[k] * (pairs.values[k] + shift))
-      return false;
-  return true;
+  return !(pairs.values.array() > 2 * residuals.array() * (pairs.values.array() + shift)).any();
 }
 
 /// Whether || Z ||_B^2 is what rounding leaves for constant signals: L f is then a rounding of 0
@@ -396,22 +399,6 @@ Eigen::MatrixXd random_mixtures(const Eigen::Index rows, const Eigen::Index r,
   return Q * std::sqrt(double(rows) / double(r));
 }
 
-Eigen::MatrixXd mixing_matrix(const Spectral_options& options, const Eigen::VectorXd& weights)
-{
-  std::vector<Eigen::Index> seen;
-  for(Eigen::Index k = 0; k < weights.size(); ++k)
-    if(weights[k] > 0)
-      seen.push_back(k);
-  const Eigen::Index rows = Eigen::Index(seen.size()), r = options.number_of_mixtures;
-  const Eigen::MatrixXd mixtures = r == 0 || rows <= r
-                                       ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(rows, rows))
-                                       : random_mixtures(rows, r, options.seed);
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(weights.size(), mixtures.cols());
-  for(Eigen::Index i = 0; i < rows; ++i)
-    R.row(seen[i]) = std::sqrt(weights[seen[i]]) * mixtures.row(i);
-  return R;
-}
-
 inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator& op,
                                        const Spectral_options& options, const double area)
 {
@@ -420,7 +407,7 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   const Eigen::MatrixXd R = mixing_matrix(options, weights);
   const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
   basis.signals = Spectral_signals(Z.rows(), R.cols());
-  basis.signals.set(0, Eigen::MatrixXd(options.signals * R), Eigen::MatrixXd(Z * R));
+  basis.signals.set(0, options.signals * R, Z * R);
   basis.sum_of_squares =
       ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
   const double rounding =
@@ -462,9 +449,7 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
     if(basis.rough)
       basis.signals.set(first, F, area * spectral_z(op, F));
     else
-      basis.signals.set(
-          first, F,
-          Eigen::MatrixXd(pairs->vectors * ((area * pairs->values).asDiagonal() * columns)));
+      basis.signals.set(first, F, pairs->vectors * ((area * pairs->values).asDiagonal() * columns));
   }
   basis.eigenpairs = std::move(pairs);
   return basis;

@@ -40,39 +40,29 @@ template <class TriangleMesh, class GeomTraits, class VertexPointMap>
 class Spectral_state
 {
 public:
-  /// \name Types
-  /// @{
-
-  /// of the mesh and its parts, and of the vertices of the input as they are numbered inside
-  using Triangle_mesh = TriangleMesh;
-  using Geom_traits = GeomTraits;
-  using Vertex_point_map = VertexPointMap;
-  using FT = typename Geom_traits::FT;
-  using Point = typename boost::property_traits<Vertex_point_map>::value_type;
-  using vertex_descriptor = typename boost::graph_traits<Triangle_mesh>::vertex_descriptor;
-  using halfedge_descriptor = typename boost::graph_traits<Triangle_mesh>::halfedge_descriptor;
+  using FT = typename GeomTraits::FT;
+  using Point = typename boost::property_traits<VertexPointMap>::value_type;
+  using vertex_descriptor = typename boost::graph_traits<TriangleMesh>::vertex_descriptor;
+  using halfedge_descriptor = typename boost::graph_traits<TriangleMesh>::halfedge_descriptor;
   using Slot = Spectral_slot;
-
-  /// @}
 
   /// Reads the mesh, finds the basis. `np` as of `Spectral_policies`. Throws
   /// `std::invalid_argument` for a mesh, an option or a basis that cannot be used (the first
   /// offender is named), `Spectral_geometry::Cancelled` where the progress callback asks for it.
   template <class NamedParameters>
-  Spectral_state(Triangle_mesh& mesh, const Spectral_options& options, const NamedParameters& np)
+  Spectral_state(TriangleMesh& mesh, const Spectral_options& options, const NamedParameters& np)
     : m_mesh(&mesh)
     , m_vpm(parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                          get_property_map(vertex_point, mesh)))
     , m_has_own_points(
           parameters::is_default_parameter<NamedParameters, internal_np::vertex_point_t>::value)
-    , m_traits(parameters::choose_parameter<Geom_traits>(
+    , m_traits(parameters::choose_parameter<GeomTraits>(
           parameters::get_parameter(np, internal_np::geom_traits)))
     , m_slots(mesh, "Spectral_policies")
     , m_options(options)
     , m_knows_constraints(
           !parameters::is_default_parameter<NamedParameters,
                                             internal_np::edge_is_constrained_t>::value)
-    , m_constrained(fixed_vertex_flags(mesh, {}, np))
   {
     Real_timer timer;
     timer.start();
@@ -80,52 +70,42 @@ public:
     check_fans(mesh, m_fine.T);
     std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
     check_kept_vertices_apart(kept, m_fine.V, m_fine.T);
-    m_core.set_kept(std::move(kept));
-
-    Spectral_basis basis = spectral_basis(m_fine.V, m_fine.T, options);
-    m_eigenpairs = basis.eigenpairs;
-    m_area = basis.area;
-    m_sum_of_squares = basis.sum_of_squares;
-    m_has_rough_basis = basis.rough;
-    m_number_of_constants = basis.constants;
-    m_filtered = basis.filtered;
-    m_core.set_basis(std::move(basis), local_operator(options), options,
-                     std::is_same<FT, float>::value);
+    m_fixed = fixed_vertex_flags(mesh, kept, np);
+    m_core.set_basis(spectral_basis(m_fine.V, m_fine.T, options), local_operator(options), options,
+                     std::is_same<FT, float>::value, std::move(kept));
     m_seconds_basis = timer.time();
   }
 
   Spectral_state(const Spectral_state&) = delete;
   Spectral_state& operator=(const Spectral_state&) = delete;
 
-  /// \name Called by the policies
-  /// @{
-
   /// Before the first run: `collapse()` collapses edges of the mesh, returns their log and the
   /// slots of the vertices that are left. F, Z, P and the quadrics of the shape follow.
   template <class Collapse>
   void collapse_by_others(const Collapse& collapse)
   {
-    auto [points, rings] = read_geometry();
-    m_core.set_input(std::move(points), std::move(rings));
-    m_core.release_rings(); // rings take more memory than the quadrics
+    { // rings take more memory than the quadrics
+      const auto [points, rings] = read_geometry();
+      m_core.set_input(points, rings);
+    }
     const auto [log, slots] = collapse();
     m_slots.set(slots);
     for(std::size_t i = 0; i < log.points().size(); ++i) {
       const Merge& m = log.forest().merges()[i];
-      m_core.follow(Slot(m.removed), Slot(m.kept), m.weight, log.points()[i]);
-      merge_constraints(Slot(m.removed), Slot(m.kept));
+      m_core.follow(m, log.points()[i]);
+      follow_fixed(m);
     }
   }
 
   /// Starts a run. It lasts as long as somebody holds the token that is returned, so that an
   /// exception that leaves the loop ends the run as well.
-  std::shared_ptr<void> on_started(Triangle_mesh& mesh)
+  std::shared_ptr<void> on_started(TriangleMesh& mesh)
   {
     require(&mesh == m_mesh,
             "Spectral_policies: edge_collapse() was called with another mesh than the one "
             "that the policies were made for; make policies for that mesh.");
-    Real_timer timer;
-    timer.start();
+    m_first_costs = Real_timer(); // a run that threw has left the old one running
+    m_first_costs.start();
     m_run.reset();
     auto [points, rings] = read_geometry();
     m_core.set_geometry(std::move(points), std::move(rings));
@@ -133,10 +113,6 @@ public:
     m_selecting = m_selection_open = m_stopped = false;
     m_announced.reset();
     m_answer = Answer();
-    m_postponed = Postponed();
-    m_seconds_first_costs = timer.time(); // so far
-    m_first_costs = Real_timer();         // a run that threw has left the old one running
-    m_first_costs.start();
     m_number_of_first_costs = 0;
     m_expected_first_costs = edges(mesh).size(); // num_edges() may count what has been removed
     std::shared_ptr<void> token = std::make_shared<int>(0);
@@ -154,15 +130,12 @@ public:
 
   void on_selected()
   {
-    if(m_first_costs.is_running()) {
+    if(m_first_costs.is_running())
       m_first_costs.stop();
-      m_seconds_first_costs += m_first_costs.time();
-    }
     close_selection();
     m_selecting = m_selection_open = true;
     m_filter_asked = false;
     m_answer = Answer();
-    m_postponed = Postponed();
     m_placement_found.reset();
   }
 
@@ -205,20 +178,16 @@ public:
   template <class Profile>
   void on_collapsed(const Profile& profile, const vertex_descriptor kept_vertex)
   {
-    const Slot kept = slot(kept_vertex);
-    const bool in_loop = m_announced.has_value();
-    if(!in_loop) { // an edge without length, collapsed before the loop
+    if(!m_announced) { // an edge without length, collapsed before the loop
       const Slot u = slot(profile.v0()), v = slot(profile.v1());
       m_announced = {Eigen::Index(u), Eigen::Index(v),
                      m_core.projected_weight(v, u, m_core.fields().points[u])};
     }
-    const Merge m = merge_into(kept, *std::exchange(m_announced, {}));
+    const Merge m = merge_into(slot(kept_vertex), *std::exchange(m_announced, {}));
     m_selecting = false;
     m_answer = Answer();
-    m_postponed = Postponed();
-    merge_constraints(Slot(m.removed), kept);
-    m_core.commit(Slot(m.removed), kept, m.weight, to_vector(get(m_vpm, kept_vertex)),
-                  ring_of(kept_vertex));
+    follow_fixed(m);
+    m_core.commit(m, to_vector(get(m_vpm, kept_vertex)), ring_of(kept_vertex));
   }
 
   /// The placement of a candidate; no point if it cannot be collapsed. When the candidate was
@@ -230,9 +199,8 @@ public:
     using Optional_point = Spectral_optional<Point>;
     check_ready(profile);
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    if(is_postponed(
-           u,
-           v)) // CGAL asks for the cost next, and for the placement again when it selects the edge
+    // CGAL asks for the cost next, and for the placement again when it selects the edge.
+    if(postponed_cost(u, v))
       return Optional_point(Point(profile.p0()));
     const Spectral_sample& c = answer(u, v);
     m_placement_found = c.collapsible();
@@ -257,8 +225,8 @@ public:
     if(!placement)
       return Optional_cost(largest_cost());
     const Slot u = slot(profile.v0()), v = slot(profile.v1());
-    if(is_postponed(u, v))
-      return Optional_cost(FT(*m_postponed.cost));
+    if(const std::optional<double> postponed = postponed_cost(u, v))
+      return Optional_cost(FT(*postponed));
     const Eigen::Vector3d point = to_vector(*placement);
     if(m_core.fields().moves_kept_vertex(u, v, point))
       return Optional_cost(largest_cost());
@@ -307,19 +275,6 @@ public:
     return is_own_point(u, v, point) || !m_core.crosses(u, v, point);
   }
 
-  /// @}
-  /// \name Results
-  /// @{
-
-  /// P, rows in the order of `vertices(mesh)` now, columns in that of the input.
-  Eigen::SparseMatrix<double> restriction() const
-  {
-    return log().forest().restriction(current_slots());
-  }
-
-  /// For each vertex of the input the index, in `vertices(mesh)`, of the one it was merged into.
-  std::vector<std::size_t> vertex_map() const { return log().forest().vertex_map(current_slots()); }
-
   const Collapse_log& log() const { return m_core.log(); }
 
   /// The slots of `vertices(mesh)`, in that order. Throws `std::logic_error` where the merges on
@@ -334,32 +289,24 @@ public:
     return slots;
   }
 
-  const Triangle_mesh& mesh() const { return *m_mesh; }
+  const TriangleMesh& mesh() const { return *m_mesh; }
   /// The map that positions are read from.
-  Vertex_point_map vertex_point_map() const
+  VertexPointMap vertex_point_map() const
   {
-    using Own_map = typename boost::property_map<Triangle_mesh, vertex_point_t>::type;
-    if constexpr(std::is_same<Vertex_point_map, Own_map>::value)
+    using Own_map = typename boost::property_map<TriangleMesh, vertex_point_t>::type;
+    if constexpr(std::is_same<VertexPointMap, Own_map>::value)
       if(m_has_own_points) // looked up: where they are changes when the mesh is assigned to
         return get(vertex_point, *m_mesh);
     return m_vpm;
   }
-  const Geom_traits& geom_traits() const { return m_traits; }
+  const GeomTraits& geom_traits() const { return m_traits; }
   const Spectral_collapse_core& core() const { return m_core; }
   /// Gives back the memory of what only collapses need: nothing may be collapsed afterwards.
   void release() { m_core.release(); }
   /// The input, which the eigenpairs are of.
   const Spectral_geometry::Mesh_matrices& fine() const { return m_fine; }
-  /// Whether relocation needs a Z = B^-1 L F of its own, because F Lambda is not good enough.
-  bool has_rough_basis() const { return m_has_rough_basis; }
-  /// The first eigenvectors, which E leaves out.
-  Eigen::Index number_of_constants() const { return m_number_of_constants; }
-  /// The signals of filtered noise at the scale of the input; null with others.
-  const Spectral_geometry::Filtered_signals* filtered_signals() const { return m_filtered.get(); }
-
-  /// The eigenpairs of the input at its own scale; null with signals of the user's or of filtered
-  /// noise.
-  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs() const { return m_eigenpairs; }
+  /// What the metric preserves of it, but for the signals that the collapses carry.
+  const Spectral_basis& basis() const { return m_core.basis(); }
   /// Candidates that were given up so far, over all runs.
   Spectral_refusals refusals() const
   {
@@ -379,52 +326,30 @@ public:
   bool knows_constraints() const { return m_knows_constraints; }
   /// For each of `vertices(mesh)` whether it has to stay where it is after the collapses: one that
   /// is kept, or the end of a constrained edge; none where none has.
-  std::vector<bool> fixed_vertices() const
-  {
-    std::vector<bool> fixed;
-    if(!m_core.fields().kept.empty() || !m_constrained.empty())
-      for(const Eigen::Index s : current_slots())
-        fixed.push_back(m_core.fields().is_kept(Slot(s)) ||
-                        (!m_constrained.empty() && m_constrained[s]));
-    return fixed;
-  }
+  std::vector<bool> fixed_vertices() const { return flags_now(m_fixed); }
   /// Vertices that are kept with their row of P; none where none is.
-  std::vector<bool> kept_vertices() const
-  {
-    std::vector<bool> kept;
-    if(!m_core.fields().kept.empty())
-      for(const Eigen::Index s : current_slots())
-        kept.push_back(m_core.fields().is_kept(Slot(s)));
-    return kept;
-  }
+  std::vector<bool> kept_vertices() const { return flags_now(m_core.fields().kept); }
   std::size_t number_of_runs() const { return m_number_of_runs; }
-  /// The area of the input, in its own unit, weighted by the density of the operator.
-  double area() const { return m_area; }
   /// E of the current mesh. What is left of 0 after sums and differences is never negative.
   double error() const { return (std::max)(0., m_core.total()); }
-  /// E when everything is lost: || Z ||_B^2, the sum of lambda_k^2; 0 where the signals are
-  /// constant to rounding.
-  double sum_of_squares() const { return m_sum_of_squares; }
   /// sqrt(E / sum_k lambda_k^2); 0 for constant signals, which P carries over exactly.
   double relative_error() const { return relative_error(error()); }
   double relative_error(const double E) const
   {
-    return m_sum_of_squares > 0 ? std::sqrt((std::max)(0., E) / m_sum_of_squares) : 0.;
+    const double lost = basis().sum_of_squares; // all of it
+    return lost > 0 ? std::sqrt((std::max)(0., E) / lost) : 0.;
   }
   /// Wall seconds of the constructor.
   double seconds_basis() const { return m_seconds_basis; }
   /// Wall seconds of evaluating every edge once, in the last run.
-  double seconds_first_costs() const { return m_seconds_first_costs; }
+  double seconds_first_costs() const { return m_first_costs.time(); }
 
-  /// @}
-
-  bool is_cancelled() const { return Spectral_geometry::internal::is_cancelled(m_core.options()); }
+  bool is_cancelled() const { return Spectral_geometry::internal::is_cancelled(m_options); }
 
   /// Calls the progress callback, if any; `false` means that the user cancelled.
   bool report(const Spectral_geometry::Phase phase, const double fraction) const
   {
-    return Spectral_geometry::internal::goes_on(m_core.options(),
-                                                {phase, fraction, number_of_vertices()});
+    return Spectral_geometry::internal::goes_on(m_options, {phase, fraction, number_of_vertices()});
   }
 
 private:
@@ -436,33 +361,22 @@ private:
     std::optional<Spectral_sample> sample;
   };
 
-  // The last edge that was found to keep its cost, or not, since the mesh changed.
-  struct Postponed
-  {
-    Slot u = 0, v = 0;
-    std::optional<double> cost;
-  };
-
   using Merge = Spectral_geometry::Merge_forest::Merge;
 
   static FT largest_cost()
   {
-    if(std::is_same<FT, float>::value)
-      return FT((std::numeric_limits<float>::max)());
-    return FT((std::numeric_limits<double>::max)());
+    using Number = std::conditional_t<std::is_same<FT, float>::value, float, double>;
+    return FT((std::numeric_limits<Number>::max)());
   }
 
   Slot slot(const vertex_descriptor v) const { return Slot(m_slots.slot(v)); }
 
-  bool is_postponed(Slot u, Slot v)
+  // None for an edge that has been answered for: its cost is that of now.
+  std::optional<double> postponed_cost(const Slot u, const Slot v) const
   {
-    if(m_selecting)
-      return false;
-    if(v < u)
-      std::swap(u, v);
-    if(m_postponed.u != u || m_postponed.v != v)
-      m_postponed = {u, v, m_core.postponed_cost(u, v)};
-    return m_postponed.cost.has_value();
+    return m_selecting || is_answered(u, v)
+               ? std::nullopt
+               : m_core.postponed_cost((std::min)(u, v), (std::max)(u, v));
   }
 
   bool is_answered(const Slot u, const Slot v) const
@@ -501,11 +415,21 @@ private:
     return is_answered(u, v) && m_answer.sample->collapsible() && m_answer.sample->point == point;
   }
 
-  // Constrained edges go on with whichever of both handles the mesh keeps.
-  void merge_constraints(const Slot removed, const Slot kept)
+  // What is fixed goes on with whichever of both handles the mesh keeps.
+  void follow_fixed(const Merge& m)
   {
-    if(!m_constrained.empty() && m_constrained[removed])
-      m_constrained[kept] = true;
+    if(!m_fixed.empty() && m_fixed[m.removed])
+      m_fixed[m.kept] = true;
+  }
+
+  // Flags of slots as those of `vertices(mesh)`; none of none.
+  std::vector<bool> flags_now(const std::vector<char>& flags) const
+  {
+    std::vector<bool> result;
+    if(!flags.empty())
+      for(const Eigen::Index s : current_slots())
+        result.push_back(flags[s] != 0);
+    return result;
   }
 
   // The weight of `removed`, where it is merged into `kept` at `point`: as it was costed with that
@@ -523,7 +447,7 @@ private:
   {
     Spectral_ring ring;
     const halfedge_descriptor h0 = halfedge(v, *m_mesh);
-    if(h0 == boost::graph_traits<Triangle_mesh>::null_halfedge())
+    if(h0 == boost::graph_traits<TriangleMesh>::null_halfedge())
       return ring;
     for(const halfedge_descriptor h : halfedges_around_target(h0, *m_mesh)) {
       ring.emplace_back();
@@ -565,12 +489,12 @@ private:
   template <class Profile>
   void check_ready(const Profile& profile)
   {
-    if(m_positions_checked && !m_run.expired())
-      return;
     if(m_run.expired())
       throw std::logic_error(
           "Spectral_policies: a cost or placement was asked for outside of a run; pass "
           "spectral.visitor() to edge_collapse() with .visitor().");
+    if(m_positions_checked)
+      return;
     for(const vertex_descriptor v : {profile.v0(), profile.v1()})
       if(to_vector(get(profile.vertex_point_map(), v)) != m_core.fields().points[slot(v)])
         throw std::logic_error(
@@ -579,24 +503,21 @@ private:
     m_positions_checked = true;
   }
 
-  Triangle_mesh* m_mesh;
-  Vertex_point_map m_vpm;
+  TriangleMesh* m_mesh;
+  VertexPointMap m_vpm;
   bool m_has_own_points; // of the mesh, not a map of the user's
-  Geom_traits m_traits;
-  Fine_vertex_slots<Triangle_mesh> m_slots;
+  GeomTraits m_traits;
+  Fine_vertex_slots<TriangleMesh> m_slots;
   Spectral_options m_options; // relocation needs the signals again, at all vertices
   bool m_knows_constraints;
-  std::vector<char> m_constrained; // slots at the ends of constrained edges, or none
+  std::vector<char> m_fixed; // slots that are kept or at the ends of constrained edges, or none
 
   Spectral_geometry::Mesh_matrices m_fine;
-  std::shared_ptr<const Spectral_geometry::Eigenpairs> m_eigenpairs;
   Spectral_collapse_core m_core;
-  double m_area = 0, m_sum_of_squares = 0;
 
   std::weak_ptr<void> m_run;
   std::size_t m_number_of_runs = 0;
   Answer m_answer;
-  Postponed m_postponed;
   std::optional<Merge> m_announced; // the collapse under way
   bool m_positions_checked = false;
   bool m_selecting = false;      // a placement asked for now is that of the selected candidate
@@ -606,10 +527,7 @@ private:
   bool m_has_foreign_points = false;
   std::optional<bool> m_placement_found; // whether there was one for it; none: not asked yet
   Spectral_refusals m_refusals;          // but for `crossing`
-  double m_seconds_basis = 0, m_seconds_first_costs = 0;
-  bool m_has_rough_basis = false;
-  Eigen::Index m_number_of_constants = 0;
-  std::shared_ptr<const Spectral_geometry::Filtered_signals> m_filtered;
+  double m_seconds_basis = 0;
   Real_timer m_first_costs; // runs until the first edge is selected
   std::size_t m_number_of_first_costs = 0, m_expected_first_costs = 0;
 };

@@ -31,10 +31,35 @@ namespace CGAL::Surface_mesh_simplification::internal {
 class Spectral_collapse_core
 {
 public:
+  using Slot = Spectral_slot;
+  using Merge = Spectral_geometry::Merge_forest::Merge;
+
   /// `op` has n coefficients or none. `single_precision`: whether the mesh stores its points as
-  /// `float`. Signals and coefficients of the options are not read.
+  /// `float`. `kept`: see `Spectral_fields`. Signals and coefficients of the options are not read.
   void set_basis(Spectral_basis basis, const Spectral_geometry::Local_operator& op,
-                 const Spectral_options& options, const bool single_precision);
+                 const Spectral_options& options, const bool single_precision,
+                 std::vector<char> kept = {})
+  {
+    m_options = options;
+    m_options.signals.resize(0, 0); // large, and in F now
+    m_options.coefficients.resize(0, 7);
+    m_options.boundary = op.boundary;
+    if(op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+      m_options.preserve_border = true;
+    m_basis = std::move(basis);
+    m_log = Collapse_log(m_basis.number_of_vertices);
+    m_fields.signals = std::exchange(m_basis.signals, {});
+    m_fields.theta = op.theta;
+    m_fields.voronoi = op.voronoi;
+    const Spectral_geometry::Operator_coefficients& c = op.coefficients;
+    for(Eigen::Index v = 0; v < c.rows(); ++v)
+      m_fields.coefficients.push_back(c.row(v).transpose());
+    m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
+    m_fields.area_scale = 1 / m_basis.area;
+    m_fields.single_precision = single_precision;
+    m_fields.kept = std::move(kept);
+    m_shape.set_weights(options, m_basis.sum_of_squares);
+  }
 
   /// See `Spectral_fields`.
   void set_largest_degree_of_others(const std::size_t degree)
@@ -42,28 +67,32 @@ public:
     m_fields.largest_degree_of_others = degree;
   }
 
-  /// Takes positions and rings (entries without triangles) of the input: its quadrics and its
-  /// border. set_geometry() does it in the first run, unless the mesh is another one then.
-  void set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
-
-  /// Frees the rings until set_geometry() brings others.
-  void release_rings() { m_fields.rings = {}; }
+  /// Takes the quadrics and the border of the input, from its positions and rings (entries without
+  /// triangles). set_geometry() does it in the first run, unless the mesh is another one then.
+  void set_input(const std::vector<Eigen::Vector3d>& points, const Spectral_rings& rings);
 
   /// Follows a collapse outside of a run: F, Z, coefficients, log, quadrics and what is kept. The
   /// geometry is set afterwards.
-  void follow(const Spectral_slot removed, const Spectral_slot kept, const double weight,
-              const Eigen::Vector3d& point);
+  void follow(const Merge& m, const Eigen::Vector3d& point)
+  {
+    m_shape.merge(Slot(m.removed), Slot(m.kept));
+    m_log.merge(m.removed, m.kept, m.weight, point);
+    if(m_fields.is_kept(Slot(m.removed)))
+      m_fields.kept[m.kept] = true; // which of the two goes on in the mesh is not ours to choose
+    m_fields.signals.merge(m.removed, m.kept, m.weight);
+    if(m_fields.vanishes_at(Slot(m.removed)))
+      m_fields.vanishing[m.kept] = 1;
+    if(!m_fields.coefficients.empty())
+      m_fields.coefficients[m.kept] = (1 - m.weight) * m_fields.coefficients[m.kept] +
+                                      m.weight * m_fields.coefficients[m.removed];
+  }
 
   /// Takes positions and rings of the mesh as it is and computes R, M, E. Slots that are gone have
   /// an empty ring.
   void set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings);
 
-  /// The vertices that survive with their position and their row of P: one flag for each slot, or
-  /// nothing.
-  void set_kept(std::vector<char> kept) { m_fields.kept = std::move(kept); }
-
-  /// Returns the options of set_basis(), without their signals and coefficients.
-  const Spectral_options& options() const { return m_options; }
+  /// That of set_basis(), without its signals, which are among the fields.
+  const Spectral_basis& basis() const { return m_basis; }
   const Spectral_fields& fields() const { return m_fields; }
   const Collapse_log& log() const { return m_log; }
   const Spectral_shape_term& shape() const { return m_shape; }
@@ -74,11 +103,21 @@ public:
   /// The cost of the edge between two slots, u < v, that CGAL's queue may keep for now: a collapse
   /// beside the edge has changed it, but it was far above the cost of recent collapses. None where
   /// it must be evaluated.
-  std::optional<double> postponed_cost(const Spectral_slot u, const Spectral_slot v) const;
+  std::optional<double> postponed_cost(const Slot u, const Slot v) const
+  {
+    if(u == m_last_kept || v == m_last_kept || m_last_kept == null_spectral_slot)
+      return {};
+    const double cost = m_fields.rings[u][m_fields.rings.find(u, v)].cost;
+    const bool inner =
+        m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
+    const double factor = inner ? inner_postponing_factor : outer_postponing_factor;
+    return std::isfinite(cost) && cost > factor * m_recent_cost ? std::optional<double>(cost)
+                                                                : std::nullopt;
+  }
 
   /// Tells the cost under which CGAL's queue has the edge, u < v, where that is not the one of
   /// evaluate(): with a placement of the user's.
-  void set_queued_cost(const Spectral_slot u, const Spectral_slot v, const double cost)
+  void set_queued_cost(const Slot u, const Slot v, const double cost)
   {
     m_fields.rings[u][m_fields.rings.find(u, v)].cost = cost;
   }
@@ -89,43 +128,47 @@ public:
 
   /// The best way to collapse the edge between two slots, u < v, for CGAL's queue. An edge at a hub
   /// is costed as if that hub stayed.
-  Spectral_sample evaluate(const Spectral_slot u, const Spectral_slot v);
+  Spectral_sample evaluate(Slot u, Slot v);
 
   /// The best way for an edge, u < v, whose turn has come. Where its placement would cross another
   /// sheet: the cheapest of the ends and the middle that does not.
-  Spectral_sample select(const Spectral_slot u, const Spectral_slot v);
+  Spectral_sample select(Slot u, Slot v);
 
   /// Whether a collapse of (u,v) to a point would put a face through another, where that is
   /// guarded.
-  bool crosses(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
+  bool crosses(Slot u, Slot v, const Eigen::Vector3d& point);
 
   /// How often an edge was given up because of that.
   std::size_t number_of_crossings() const { return m_number_of_crossings; }
 
   /// The cost of collapsing to a point that somebody else chose; the weights follow from its
   /// projection.
-  double cost_at(const Spectral_slot u, const Spectral_slot v, const Eigen::Vector3d& point);
+  double cost_at(Slot u, Slot v, const Eigen::Vector3d& point);
 
   /// The change of E that commit() would make, to rounding whatever triangles arise; f = (1 -
-  /// weight) f_u + weight f_v.
-  double change_at(const Spectral_slot u, const Spectral_slot v, const double weight,
-                   const Eigen::Vector3d& point);
+  /// weight) f_u + weight f_v. 0 where the edge may not be collapsed.
+  double change_at(Slot u, Slot v, double weight, const Eigen::Vector3d& point);
 
   /// What a collapse to `point` weights v with, see `Spectral_placement_search`.
-  double projected_weight(const Spectral_slot u, const Spectral_slot v,
-                          const Eigen::Vector3d& point) const
+  double projected_weight(const Slot u, const Slot v, const Eigen::Vector3d& point) const
   {
     return search(u, v).projected_weight(point);
   }
 
   /// Follows the collapse of `removed` into `kept`, which now lies at `point` with the given ring:
   /// F_kept = (1 - weight) F_kept + weight F_removed, the same for Z and P (section 3.2).
-  void commit(const Spectral_slot removed, const Spectral_slot kept, const double weight,
-              const Eigen::Vector3d& point, Spectral_ring ring);
+  void commit(const Merge& m, const Eigen::Vector3d& point, Spectral_ring ring);
 
   /// Gives back the memory of what only collapses need. Results stay: the log, total(), counts,
   /// what is kept.
-  void release();
+  void release()
+  {
+    Spectral_fields fields;
+    fields.kept = std::move(m_fields.kept);
+    m_fields = std::move(fields);
+    m_shape = {};
+    m_crossing = {};
+  }
 
   std::size_t number_of_evaluations() const { return m_number_of_evaluations; }
 
@@ -145,9 +188,8 @@ private:
   // A running sum that keeps what rounding takes off (Neumaier 1974): a plain one would carry the
   // rounding of the largest E that it has seen, and a needle makes an E that dwarfs the rest for a
   // while.
-  class Sum
+  struct Sum
   {
-  public:
     void add(const double term)
     {
       const double sum = m_sum + term;
@@ -156,31 +198,26 @@ private:
     }
     double value() const { return m_sum + m_rest; }
 
-  private:
     double m_sum = 0, m_rest = 0;
   };
 
-  Spectral_placement_search search(const Spectral_slot u, const Spectral_slot v) const
+  Spectral_placement_search search(const Slot u, const Slot v) const
   {
     return Spectral_placement_search(m_fields, m_options, m_shape, u, v);
   }
 
-  // Sums up the mesh as it is, whatever the density.
-  double surface_area() const;
+  // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w. R is
+  // computed afresh from the current geometry: nothing accumulates, so E cannot drift.
+  void update_row(Slot w);
 
-  // R_w = sum_j B_wj z_j - sum_j L_wj f_j over the ring of w, M_w and E_w = |R_w|^2 / M_w.
-  void update_row(const Spectral_slot w);
-
-  // R and what follows from it, at `kept` and its neighbours. R is computed afresh from the current
-  // geometry: nothing accumulates, so E cannot drift.
-  void refresh_around(const Spectral_slot kept);
-
+  Spectral_basis m_basis;
   Spectral_fields m_fields;
-  Spectral_options m_options;
+  Spectral_options m_options; // but for signals and coefficients
   Spectral_shape_term m_shape;
   Spectral_crossing_guard m_crossing;
   Spectral_collapse_kernel m_kernel;
-  Spectral_slot m_last_kept = null_spectral_slot;
+  bool m_has_input = false;
+  Slot m_last_kept = null_spectral_slot;
   std::vector<std::uint32_t>
       m_last_neighbor; // for each slot the last collapse, by number, that it was a neighbour of
   std::vector<Spectral_row_entry> m_row; // scratch of update_row()
@@ -198,73 +235,36 @@ private:
 namespace CGAL::Surface_mesh_simplification::internal {
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::set_basis(Spectral_basis basis, const Spectral_geometry::Local_operator& op,
-                                  const Spectral_options& options, const bool single_precision)
+Spectral_collapse_core::set_input(const std::vector<Eigen::Vector3d>& points,
+                                  const Spectral_rings& rings)
 {
-  m_options = options;
-  m_options.signals.resize(0, 0); // large, and in F now
-  m_options.coefficients.resize(0, 7);
-  m_options.boundary = op.boundary;
-  if(op.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-    m_options.preserve_border = true;
-  m_log = Collapse_log(basis.number_of_vertices);
-  m_fields.signals = std::move(basis.signals);
-  m_fields.theta = op.theta;
-  m_fields.voronoi = op.voronoi;
-  const Spectral_geometry::Operator_coefficients& c = op.coefficients;
-  for(Eigen::Index v = 0; v < c.rows(); ++v)
-    m_fields.coefficients.push_back(c.row(v).transpose());
-  m_fields.conductivity = Spectral_geometry::internal::mean_conductivity(c);
-  m_fields.area_scale = 1 / basis.area;
-  m_fields.single_precision = single_precision;
-  m_shape.set_weights(options, basis.sum_of_squares);
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void
-Spectral_collapse_core::set_input(std::vector<Eigen::Vector3d> points, Spectral_rings rings)
-{
-  const bool is_later = !m_fields.points.empty();
-  m_fields.points = std::move(points);
-  m_fields.rings = std::move(rings);
-  if(is_later)
-    return; // quadrics and the border are those of the input
-  if(m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
-    for(std::size_t w = 0; w < m_fields.points.size(); ++w)
-      m_fields.vanishing.push_back(m_fields.rings.is_border(Spectral_slot(w)));
+  if(std::exchange(m_has_input, true))
+    return;        // quadrics and the border are those of the input
+  double area = 0; // three times that of the surface, whatever the density
+  for(std::size_t w = 0; w < points.size(); ++w) {
+    if(m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
+      m_fields.vanishing.push_back(rings.is_border(Slot(w)));
+    rings.for_triangles(Slot(w), [&](const Slot a, const Slot b) {
+      area += spectral_triangle(points[w], points[a], points[b]).area;
+    });
+  }
   if(m_options.shape > 0)
-    m_shape.set_geometry(m_fields.points, m_fields.rings,
-                         m_fields.coefficients.empty() ? m_fields.area_scale : 1 / surface_area());
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::follow(const Spectral_slot removed,
-                                                                  const Spectral_slot kept,
-                                                                  const double weight,
-                                                                  const Eigen::Vector3d& point)
-{
-  m_shape.merge(removed, kept);
-  m_log.merge(removed, kept, weight, point);
-  if(m_fields.is_kept(removed))
-    m_fields.kept[kept] = true; // which of the two goes on in the mesh is not ours to choose
-  m_fields.signals.merge(removed, kept, weight);
-  if(m_fields.vanishes_at(removed))
-    m_fields.vanishing[kept] = 1;
-  if(!m_fields.coefficients.empty())
-    m_fields.coefficients[kept] =
-        (1 - weight) * m_fields.coefficients[kept] + weight * m_fields.coefficients[removed];
+    m_shape.set_geometry(points, rings,
+                         m_fields.coefficients.empty() ? m_fields.area_scale : 1 / (area / 3));
 }
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points, Spectral_rings rings)
 {
-  set_input(std::move(points),
-            std::move(rings)); // of a later run it keeps the positions and the rings alone
+  set_input(points, rings);
+  m_fields.points = std::move(points);
+  m_fields.rings = std::move(rings);
   const Eigen::Index n = Eigen::Index(m_fields.points.size());
   m_fields.mass = Eigen::VectorXd::Zero(n);
   m_fields.E = Eigen::VectorXd::Zero(n);
   for(Eigen::Index w = 0; w < n; ++w) {
-    m_fields.rings.find_back(Spectral_slot(w));
-    m_fields.update_triangles(Spectral_slot(w));
-    update_row(Spectral_slot(w));
+    m_fields.update_triangles(Slot(w));
+    update_row(Slot(w));
   }
   if(m_options.keep_free_of_self_intersections)
     m_crossing.set_geometry(m_fields.points, m_fields.rings);
@@ -274,32 +274,8 @@ Spectral_collapse_core::set_geometry(std::vector<Eigen::Vector3d> points, Spectr
   m_total.add(m_fields.E.sum());
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::surface_area() const
-{
-  double sum = 0;
-  for(std::size_t w = 0; w < m_fields.points.size(); ++w)
-    m_fields.rings.for_triangles(
-        Spectral_slot(w), [&](const Spectral_slot a, const Spectral_slot b) {
-          sum += spectral_triangle(m_fields.points[w], m_fields.points[a], m_fields.points[b]).area;
-        });
-  return sum / 3; // each triangle from its three corners
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE std::optional<double>
-Spectral_collapse_core::postponed_cost(const Spectral_slot u, const Spectral_slot v) const
-{
-  if(u == m_last_kept || v == m_last_kept || m_last_kept == null_spectral_slot)
-    return {};
-  const double cost = m_fields.rings[u][m_fields.rings.find(u, v)].cost;
-  const bool inner =
-      m_last_neighbor[u] == m_log.points().size() && m_last_neighbor[v] == m_last_neighbor[u];
-  const double factor = inner ? inner_postponing_factor : outer_postponing_factor;
-  return std::isfinite(cost) && cost > factor * m_recent_cost ? std::optional<double>(cost)
-                                                              : std::nullopt;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample
-Spectral_collapse_core::evaluate(const Spectral_slot u, const Spectral_slot v)
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::evaluate(const Slot u,
+                                                                               const Slot v)
 {
   ++m_number_of_evaluations;
   Spectral_sample result; // of infinite cost
@@ -312,8 +288,8 @@ Spectral_collapse_core::evaluate(const Spectral_slot u, const Spectral_slot v)
   return result;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(const Spectral_slot u,
-                                                                             const Spectral_slot v)
+CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(const Slot u,
+                                                                             const Slot v)
 {
   ++m_number_of_evaluations;
   if(!m_kernel.prepare(m_fields, u, v))
@@ -332,65 +308,59 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Spectral_sample Spectral_collapse_core::select(con
   return apart;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE bool Spectral_collapse_core::crosses(const Spectral_slot u,
-                                                                   const Spectral_slot v,
+CGAL_SPECTRAL_GEOMETRY_INLINE bool Spectral_collapse_core::crosses(const Slot u, const Slot v,
                                                                    const Eigen::Vector3d& point)
 {
   return m_crossing.crosses(m_fields.points, m_fields.rings, u, v, point);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::cost_at(const Spectral_slot u,
-                                                                     const Spectral_slot v,
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::cost_at(const Slot u, const Slot v,
                                                                      const Eigen::Vector3d& point)
 {
   if(!m_kernel.prepare(m_fields, u, v))
     return std::numeric_limits<double>::infinity();
   ++m_number_of_evaluations;
-  const Spectral_placement_search search = this->search(u, v);
-  Spectral_sample sample{point, search.projected_weight(point)};
-  search.evaluate(m_kernel, sample);
-  return sample.cost;
+  return search(u, v).at_point(m_kernel, point).cost;
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Spectral_slot u,
-                                                                       const Spectral_slot v,
+CGAL_SPECTRAL_GEOMETRY_INLINE double Spectral_collapse_core::change_at(const Slot u, const Slot v,
                                                                        const double weight,
                                                                        const Eigen::Vector3d& point)
 {
-  return m_kernel.change(m_fields, u, v, weight, point);
+  if(!m_kernel.prepare(m_fields, u, v))
+    return 0;
+  Spectral_sample sample{point, weight};
+  m_kernel.evaluate(sample);
+  return m_kernel.change();
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::commit(const Spectral_slot removed,
-                                                                  const Spectral_slot kept,
-                                                                  const double weight,
-                                                                  const Eigen::Vector3d& point,
-                                                                  Spectral_ring ring)
+CGAL_SPECTRAL_GEOMETRY_INLINE void
+Spectral_collapse_core::commit(const Merge& m, const Eigen::Vector3d& point, Spectral_ring ring)
 {
-  follow(removed, kept, weight, point);
+  const Slot removed = Slot(m.removed), kept = Slot(m.kept);
+  follow(m, point);
   m_total.add(-m_fields.E[removed]);
   m_fields.E[removed] = m_fields.mass[removed] = 0;
   m_fields.points[kept] = point;
   m_fields.rings.merge(removed, kept, std::move(ring));
   m_fields.update_triangles(kept);
-  for(std::size_t i = 0; i < m_fields.rings[kept].size(); ++i)
-    m_fields.rings.follow(removed, kept, i);
-  m_last_kept = kept;
-  for(const Spectral_ring_entry& e : m_fields.rings[kept])
-    m_last_neighbor[e.vertex] = std::uint32_t(m_log.points().size());
+  m_fields.rings.follow(removed, kept);
   m_crossing.commit(m_fields.points, m_fields.rings, removed, kept);
-  refresh_around(kept);
+  m_last_kept = kept;
+  std::vector<Slot> changed = {kept};
+  m_fields.rings.for_neighbours(kept, [&](const Slot w) {
+    m_last_neighbor[w] = std::uint32_t(m_log.points().size());
+    changed.push_back(w);
+  });
+  for(const Slot w : changed)
+    m_total.add(-m_fields.E[w]);
+  for(const Slot w : changed)
+    update_row(w);
+  for(const Slot w : changed)
+    m_total.add(m_fields.E[w]);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::release()
-{
-  Spectral_fields fields;
-  fields.kept = std::move(m_fields.kept);
-  m_fields = std::move(fields);
-  m_shape = {};
-  m_crossing = {};
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spectral_slot w)
+CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Slot w)
 {
   const Spectral_ring& ring = m_fields.rings[w];
   double area = 0, to_self = 0;
@@ -414,19 +384,6 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::update_row(const Spec
   });
   m_fields.mass[w] = area / 3;
   m_fields.E[w] = area > 0 && !m_fields.vanishes_at(w) ? square / m_fields.mass[w] : 0;
-}
-
-CGAL_SPECTRAL_GEOMETRY_INLINE void Spectral_collapse_core::refresh_around(const Spectral_slot kept)
-{
-  const Spectral_ring& ring = m_fields.rings[kept];
-  const std::size_t n = ring.size() + 1;
-  const auto slot = [&](const std::size_t i) { return i == 0 ? kept : ring[i - 1].vertex; };
-  for(std::size_t i = 0; i < n; ++i)
-    m_total.add(-m_fields.E[slot(i)]);
-  for(std::size_t i = 0; i < n; ++i)
-    update_row(slot(i));
-  for(std::size_t i = 0; i < n; ++i)
-    m_total.add(m_fields.E[slot(i)]);
 }
 
 } // namespace CGAL::Surface_mesh_simplification::internal

@@ -63,12 +63,10 @@ public:
     const bool small_u = rings[u].size() <= rings[v].size();
     const Spectral_slot c = small_u ? u : v, o = small_u ? v : u;
     const Spectral_ring& ring = rings[c];
-    const std::size_t o_in_c = rings.find(c, o);
-    CGAL_assertion(o_in_c < ring.size());
     m_end[0] = u;
     m_end[1] = v;
-    m_other_in[small_u ? 0 : 1] = o_in_c;
-    m_other_in[small_u ? 1 : 0] = ring[o_in_c].back;
+    const std::size_t o_in_c = rings.find(c, o);
+    CGAL_assertion(o_in_c < ring.size());
     const std::size_t before = Spectral_rings::prev(ring, o_in_c),
                       after = Spectral_rings::next(ring, o_in_c);
     for(std::size_t j = 0; j < ring.size(); ++j) {
@@ -93,17 +91,8 @@ public:
         m_invalid || !std::isfinite(m_change) ? std::numeric_limits<double>::infinity() : m_change;
   }
 
-  /// The change of E that a collapse makes, whatever triangles arise; 0 where the edge may not be
-  /// collapsed. Needs no prepare().
-  double change(const Spectral_fields& fields, const Spectral_slot u, const Spectral_slot v,
-                const double weight, const Eigen::Vector3d& point)
-  {
-    if(!prepare(fields, u, v))
-      return 0;
-    Spectral_sample sample{point, weight};
-    evaluate(sample);
-    return m_change;
-  }
+  /// The change of E that the sample of evaluate() makes, whatever triangles arise.
+  double change() const { return m_change; }
 
 private:
   using Entry = Spectral_row_entry;
@@ -132,8 +121,10 @@ private:
     m_off_diagonal = m_fields->off_diagonal_share() * m_fields->area_scale;
     m_row.resize((std::max)(m_row.size(), ring(0).size() + ring(1).size() + 8));
     for(int end = 0; end < 2; ++end)
-      if(end != m_staying)
+      if(end != m_staying) {
+        m_other_in[end] = m_fields->rings.find(m_end[end], m_end[1 - end]);
         set_outer_triangles(end, sample);
+      }
     add_merged_vertex<Full>();
     for(int end = 0; end < 2; ++end)
       for(std::size_t i = 0; end != m_staying && i < ring(end).size(); ++i)
@@ -343,7 +334,7 @@ private:
 
   const Spectral_fields* m_fields = nullptr;
   Slot m_end[2] = {null_spectral_slot, null_spectral_slot}; // u and v
-  std::size_t m_other_in[2] = {0, 0}; // the place of v in the ring of u, of u in that of v
+  std::size_t m_other_in[2] = {0, 0}; // of an end that does not stay, the place of the other end
   int m_staying = -1; // the end that stays with its values, 0 or 1 for u or v, or none
   double m_weight = 0, m_off_diagonal = 0, m_change = 0;
   bool m_invalid = false;                    // a triangle or a vertex would lose its area

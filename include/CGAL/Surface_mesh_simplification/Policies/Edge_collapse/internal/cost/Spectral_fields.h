@@ -40,15 +40,11 @@ spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eige
   const Eigen::Vector3d edges[3] = {b - a, c - b, a - c};
   const Spectral_geometry::internal::Triangle_element element =
       mean == nullptr ? triangle_element(edges) : triangle_element(edges, *mean);
-  Spectral_triangle t;
   if(element.is_degenerate())
-    return t;
+    return {};
   const double inverse = 1 / element.twice_area;
-  t.cot_center = element.dot[0] * inverse;
-  t.cot_first = element.dot[1] * inverse;
-  t.cot_second = element.dot[2] * inverse;
-  t.area = (mean == nullptr ? 1. : (*mean)[0]) * element.twice_area / 2;
-  return t;
+  return {element.dot[0] * inverse, element.dot[1] * inverse, element.dot[2] * inverse,
+          (mean == nullptr ? 1. : (*mean)[0]) * element.twice_area / 2};
 }
 
 /// A neighbour in the ring of a vertex c, and the triangle (c; vertex, next vertex of the ring) if
@@ -56,7 +52,6 @@ spectral_triangle(const Eigen::Vector3d& c, const Eigen::Vector3d& a, const Eige
 struct Spectral_ring_entry
 {
   Spectral_slot vertex = null_spectral_slot;
-  std::uint32_t back = 0; ///< index of c in the ring of `vertex`
   bool face = false;
   /// the latest cost of collapsing the edge from a smaller slot to `vertex`; negative infinity: not
   /// known
@@ -143,64 +138,39 @@ public:
     m_rings[kept] = std::move(ring);
   }
 
-  /// Second step, for each neighbour w of `kept`, at index i in its ring: puts `kept` in the place
-  /// of `removed` in the ring of w, and takes the two triangles that they share.
-  void follow(const Spectral_slot removed, const Spectral_slot kept, const std::size_t i)
+  /// Second step: puts `kept` in the place of `removed` in the ring of each neighbour of `kept`,
+  /// and takes the two triangles that they share.
+  void follow(const Spectral_slot removed, const Spectral_slot kept)
   {
-    Spectral_ring &around = m_rings[kept], &ring = m_rings[around[i].vertex];
-    const std::size_t moved = replace_in_ring(around[i].vertex, removed, kept), j = link(kept, i);
-    // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
-    ring[prev(ring, j)].triangle = around[i].triangle.from_first();
-    ring[j].triangle = around[prev(around, i)].triangle.from_second();
-    ring[j].cost = Spectral_ring_entry::unknown_cost;
-    for(std::size_t k = moved; k < ring.size(); ++k)
-      link(around[i].vertex, k);
-  }
-
-  /// Called for every c, sets `back` everywhere, in time linear in the size of the rings: it is
-  /// looked for in the smaller of two rings. May run side by side for several c.
-  void find_back(const Spectral_slot c)
-  {
-    const Spectral_ring& ring = m_rings[c];
-    for(std::size_t i = 0; i < ring.size(); ++i) {
-      const Spectral_slot w = ring[i].vertex;
-      if(m_rings[w].size() < ring.size() ||
-         (m_rings[w].size() == ring.size() && c < w)) // else left to w
-        link(c, i);
+    const Spectral_ring& around = m_rings[kept];
+    for(std::size_t i = 0; i < around.size(); ++i) {
+      replace_in_ring(around[i].vertex, removed, kept);
+      Spectral_ring& ring = m_rings[around[i].vertex];
+      const std::size_t j = find(around[i].vertex, kept);
+      CGAL_assertion(j < ring.size());
+      // (kept; w, next) is (w; next, kept), and (kept; previous, w) is (w; kept, previous).
+      ring[prev(ring, j)].triangle = around[i].triangle.from_first();
+      ring[j].triangle = around[prev(around, i)].triangle.from_second();
+      ring[j].cost = Spectral_ring_entry::unknown_cost;
     }
   }
 
 private:
-  // Sets `back` on both sides of the i-th entry of the ring of c, and returns what it is there.
-  std::size_t link(const Spectral_slot c, const std::size_t i)
-  {
-    Spectral_ring_entry& e = m_rings[c][i];
-    const std::size_t j = find(e.vertex, c);
-    CGAL_assertion(j < m_rings[e.vertex].size());
-    e.back = std::uint32_t(j);
-    m_rings[e.vertex][j].back = std::uint32_t(i);
-    return j;
-  }
-
   // Puts `kept` in the place of `removed` in the ring of c. Where removed and kept were
   // consecutive, the triangle between them vanished and the later of the two entries takes the
-  // place of both: an entry carries the face that follows it. Returns the index from which on
-  // entries have moved.
-  std::size_t replace_in_ring(const Spectral_slot c, const Spectral_slot removed,
-                              const Spectral_slot kept)
+  // place of both: an entry carries the face that follows it.
+  void replace_in_ring(const Spectral_slot c, const Spectral_slot removed, const Spectral_slot kept)
   {
     Spectral_ring& ring = m_rings[c];
     const std::size_t i = find(c, removed);
     if(i == ring.size())
-      return i;
+      return;
     ring[i].vertex = kept;
     const std::size_t nx = next(ring, i), pv = prev(ring, i);
-    const std::size_t gone = nx != i && ring[nx].vertex == kept   ? i
-                             : pv != i && ring[pv].vertex == kept ? pv
-                                                                  : ring.size();
-    if(gone < ring.size())
-      ring.erase(ring.begin() + std::ptrdiff_t(gone));
-    return gone;
+    if(nx != i && ring[nx].vertex == kept)
+      ring.erase(ring.begin() + std::ptrdiff_t(i));
+    else if(pv != i && ring[pv].vertex == kept)
+      ring.erase(ring.begin() + std::ptrdiff_t(pv));
   }
 
   std::vector<Spectral_ring> m_rings;
@@ -265,9 +235,8 @@ struct Spectral_fields
   {
     Spectral_ring& ring = rings[c];
     for(std::size_t i = 0; i < ring.size(); ++i)
-      ring[i].triangle =
-          ring[i].face ? triangle(c, ring[i].vertex, ring[Spectral_rings::next(ring, i)].vertex)
-                       : Spectral_triangle();
+      if(ring[i].face)
+        ring[i].triangle = triangle(c, ring[i].vertex, ring[Spectral_rings::next(ring, i)].vertex);
   }
 
   bool vanishes_at(const Spectral_slot s) const { return !vanishing.empty() && vanishing[s] != 0; }

@@ -48,7 +48,14 @@ public:
   }
 
   /// x of sample i.
-  Eigen::Vector3d point(const int i) const { return at(coordinates(i)); }
+  Eigen::Vector3d point(const int i) const
+  {
+    const double h = std::sqrt(0.5);
+    const double y[number_of_samples][3] = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0},  {0, 1, 0},
+                                            {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {h, h, 0},
+                                            {h, 0, h},  {0, h, h}};
+    return at(Eigen::Vector3d(y[i]));
+  }
 
   /// x that minimises the quadric through these ten costs in the ellipsoid of the samples, outside
   /// of which they tell nothing: four of five quadrics have no minimum elsewhere. None unless all
@@ -56,14 +63,10 @@ public:
   std::optional<Eigen::Vector3d> minimiser(const double* costs) const
   {
     const double c = costs[1];
-    const double plus[3] = {costs[2], costs[3], costs[5]},
-                 minus[3] = {costs[0], costs[4], costs[6]};
+    const Eigen::Vector3d plus(costs[2], costs[3], costs[5]), minus(costs[0], costs[4], costs[6]);
+    const Eigen::Vector3d b = (plus - minus) / 2;
     Eigen::Matrix3d A;
-    Eigen::Vector3d b;
-    for(int i = 0; i < 3; ++i) {
-      b[i] = (plus[i] - minus[i]) / 2;
-      A(i, i) = (plus[i] + minus[i]) / 2 - c;
-    }
+    A.diagonal() = ((plus + minus) / 2).array() - c;
     int sample = 7;
     for(int i = 0; i < 3; ++i)
       for(int j = i + 1; j < 3; ++j)
@@ -104,15 +107,6 @@ private:
 
   Eigen::Vector3d at(const Eigen::Vector3d& y) const { return m_middle + m_axes * y; }
 
-  static Eigen::Vector3d coordinates(const int i)
-  {
-    const double h = std::sqrt(0.5);
-    const double y[number_of_samples][3] = {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0},  {0, 1, 0},
-                                            {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {h, h, 0},
-                                            {h, 0, h},  {0, h, h}};
-    return Eigen::Vector3d(y[i][0], y[i][1], y[i][2]);
-  }
-
   Eigen::Vector3d m_middle;
   Eigen::Matrix3d m_axes;
 };
@@ -135,21 +129,17 @@ public:
     , m_v(v)
   {}
 
-  /// Fills the cost of a sample: the change of E and what the shape term adds.
-  void evaluate(Spectral_collapse_kernel& kernel, Spectral_sample& sample) const
-  {
-    kernel.evaluate(sample);
-    if(sample.collapsible())
-      sample.cost = (std::min)(sample.cost,
-                               m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v])) +
-                    m_shape.cost(m_fields.points, m_u, m_v, sample.point);
-  }
-
-  /// alpha = (x - u).(v - u) / |v - u|^2 clamped to [0,1] (appendix A), rounded in binary mode; 1/2
-  /// on an edge without length; all of it on an end that is to be kept.
+  /// `projected_edge_weight()`, rounded in binary mode; all of it on an end that is to be kept.
   double projected_weight(const Eigen::Vector3d& point) const
   {
     return rounded(projected_edge_weight(m_fields.points[m_u], m_fields.points[m_v], point));
+  }
+
+  /// The collapse to what the mesh makes of a point, with the weight of its projection.
+  Spectral_sample at_point(Spectral_collapse_kernel& kernel, const Eigen::Vector3d& x) const
+  {
+    const Eigen::Vector3d point = as_stored(x);
+    return evaluated(kernel, {point, projected_weight(point)});
   }
 
   /// Section 3.4: midpoint, or the minimiser over alpha of the parabola through three samples, or
@@ -160,17 +150,17 @@ public:
     if(fixed.u && fixed.v)
       return Spectral_sample(); // of infinite cost
     if(fixed.u || fixed.v || m_options.placement == Spectral_placement_strategy::midpoint)
-      return evaluated(kernel, sample_at(fixed.u ? 0. : fixed.v ? 1. : 0.5));
+      return at_weight(kernel, fixed.u ? 0. : fixed.v ? 1. : 0.5);
     const bool free = m_options.placement == Spectral_placement_strategy::free && !fixed.on_border;
     if(free && !m_shape.is_empty()) {
-      const Spectral_sample at_minimum = evaluated(kernel, sample_off_edge(minimiser_of_shape()));
+      const Spectral_sample at_minimum = at_point(kernel, minimiser_of_shape());
       const Spectral_sample on_edge = best_on_edge(kernel, std::numeric_limits<double>::infinity(),
                                                    [](const Eigen::Vector3d&) { return true; });
       return at_minimum.cost < on_edge.cost ? at_minimum : on_edge;
     }
     Spectral_sample samples[3];
     for(int s = 0; s < 3; ++s)
-      samples[s] = evaluated(kernel, sample_at(s / 2.));
+      samples[s] = at_weight(kernel, s / 2.);
     Spectral_sample best = *cheapest(samples, 3);
 
     // p(alpha) = c0 + b alpha + a alpha^2
@@ -178,13 +168,11 @@ public:
     const double b = 4 * samples[1].cost - 3 * samples[0].cost - samples[2].cost;
     const double alpha = -b / (2 * a);
     if(std::isfinite(a) && a > 0 && alpha > 0 && alpha < 1 && alpha != 0.5) {
-      const Spectral_sample minimiser = evaluated(kernel, sample_at(alpha));
+      const Spectral_sample minimiser = at_weight(kernel, alpha);
       if(minimiser.cost < best.cost)
         best = minimiser;
     }
-    if(free)
-      return best_free_sample(samples, best, kernel);
-    return best;
+    return free ? best_free_sample(samples, best, kernel) : best;
   }
 
   /// The end of more neighbours stays where it is, which nearly always costs least at a hub.
@@ -198,7 +186,7 @@ public:
     const Fixed_ends fixed = fixed_ends();
     if(more_at_u ? fixed.v : fixed.u)
       return Spectral_sample();
-    return evaluated(kernel, sample_at(more_at_u ? 0. : 1.));
+    return at_weight(kernel, more_at_u ? 0. : 1.);
   }
 
   /// The cheapest of the ends and the middle, those that kept ends leave, of which `allowed(point)`
@@ -212,7 +200,7 @@ public:
     int count = 0;
     for(int s = 0; s < 3; ++s)
       if((!fixed.u || s == 0) && (!fixed.v || s == 2))
-        samples[count++] = evaluated(kernel, sample_at(s / 2.));
+        samples[count++] = at_weight(kernel, s / 2.);
     for(; count > 0; --count) {
       Spectral_sample* const best = cheapest(samples, count);
       if(!std::isfinite(best->cost) || best->cost > bound)
@@ -225,9 +213,14 @@ public:
   }
 
 private:
+  // With its cost: the change of E and what the shape term adds.
   Spectral_sample evaluated(Spectral_collapse_kernel& kernel, Spectral_sample sample) const
   {
-    evaluate(kernel, sample);
+    kernel.evaluate(sample);
+    if(sample.collapsible())
+      sample.cost = (std::min)(sample.cost,
+                               m_shape.largest_loss() * (m_fields.mass[m_u] + m_fields.mass[m_v])) +
+                    m_shape.cost(m_fields.points, m_u, m_v, sample.point);
     return sample;
   }
 
@@ -252,22 +245,15 @@ private:
     return m_u < m_v ? 0. : 1.;
   }
 
-  Spectral_sample sample_at(const double alpha) const
+  Spectral_sample at_weight(Spectral_collapse_kernel& kernel, const double alpha) const
   {
     const Eigen::Vector3d &pu = m_fields.points[m_u], &pv = m_fields.points[m_v];
-    return {as_stored(alpha == 0   ? pu
-                      : alpha == 1 ? pv
-                                   : Eigen::Vector3d((1 - alpha) * pu + alpha * pv)),
-            rounded(alpha)};
+    const Eigen::Vector3d x = alpha == 0   ? pu
+                              : alpha == 1 ? pv
+                                           : Eigen::Vector3d((1 - alpha) * pu + alpha * pv);
+    return evaluated(kernel, {as_stored(x), rounded(alpha)});
   }
 
-  Spectral_sample sample_off_edge(const Eigen::Vector3d& x) const
-  {
-    const Eigen::Vector3d point = as_stored(x);
-    return {point, projected_weight(point)};
-  }
-
-  // What the mesh makes of a point.
   Eigen::Vector3d as_stored(const Eigen::Vector3d& point) const
   {
     return m_fields.single_precision ? point.cast<float>().cast<double>() : point;
@@ -313,7 +299,7 @@ private:
     double costs[n];
     std::copy(on_edge, on_edge + first, samples);
     for(int i = first; i < n; ++i)
-      samples[i] = evaluated(kernel, sample_off_edge(quadric.point(i)));
+      samples[i] = at_point(kernel, quadric.point(i));
     for(int i = 0; i < n; ++i) {
       costs[i] = samples[i].cost;
       if(costs[i] < best.cost)
@@ -322,7 +308,7 @@ private:
     const std::optional<Eigen::Vector3d> x = quadric.minimiser(costs);
     if(!x)
       return best;
-    const Spectral_sample minimiser = evaluated(kernel, sample_off_edge(*x));
+    const Spectral_sample minimiser = at_point(kernel, *x);
     return minimiser.cost < best.cost ? minimiser : best;
   }
 

@@ -225,13 +225,13 @@ private:
   // positions: far from the origin that would cost digits.
   void set_error(const SpMat& P)
   {
-    const double area = m_state.area();
-    const Run_signals signals(m_state, m_options);
+    const double area = m_state.basis().area;
+    const Run_signals signals(m_state.basis(), m_state.fine(), m_options);
     const auto [PF, PZ] = signals.restricted(P);
     m_result.E = area * (m_options.signals.size() != 0 ? 1. : area) *
                  Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
     m_result.relative_error =
-        m_state.sum_of_squares() > 0 ? std::sqrt(m_result.E / signals.sum_of_squares()) : 0.;
+        m_state.basis().sum_of_squares > 0 ? std::sqrt(m_result.E / signals.sum_of_squares()) : 0.;
   }
 
   TriangleMesh& m_mesh;
