@@ -93,13 +93,10 @@ inline Eigenpairs dense_eigenpairs(const Eigen_problem& problem, const Eigen::In
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(L, B);
   if(solver.info() != Eigen::Success)
     throw std::runtime_error("Eigenpairs: the dense eigensolver did not converge.");
-  Eigenpairs result;
-  result.values = s * solver.eigenvalues().head(K);
-  result.vectors = std::sqrt(s) * solver.eigenvectors().leftCols(K);
-  result.further_values =
-      s * solver.eigenvalues().segment(K, (std::min)(K / 2, problem.size() - K));
-  result.solver = "dense";
-  result.complete = true;
+  const Eigen::VectorXd values = s * solver.eigenvalues();
+  Eigenpairs result{
+      values.head(K), std::sqrt(s) * solver.eigenvectors().leftCols(K), {}, "dense", true};
+  result.further_values = values.segment(K, (std::min)(K / 2, problem.size() - K));
   return result;
 }
 
@@ -114,22 +111,18 @@ struct Pair_range
 inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs_options& options,
                                   const Pair_range range, Eigenpairs& pairs)
 {
-  const double tolerance = 10. * options.tolerance;
-  auto residuals = pairs.residuals.segment(range.first, range.count);
-  residuals = problem.residuals(pairs, range.first, range.count);
-  if(-pairs.values(0) > 10. * (std::max)(options.tolerance, pairs.residuals(0)) * problem.scale())
+  if(-pairs.values(0) >
+     10. * (std::max)(options.tolerance, problem.residual(pairs, 0)) * problem.scale())
     refuse_indefinite(problem, options.threads);
-  const Eigen::Index negative =
-      (pairs.values.segment(range.first, range.count).array() < 0.).count();
   pairs.values = pairs.values.cwiseMax(0.).eval();
-  residuals.head(negative) = problem.residuals(pairs, range.first, negative);
   Pair_range failed;
-  for(Eigen::Index k = range.first; k < range.first + range.count; ++k)
-    if(!(pairs.residuals(k) <= tolerance ||
-         pairs.residuals(k) <= 100. * problem.rounding(pairs, k))) {
+  for(Eigen::Index k = range.first; k < range.first + range.count; ++k) {
+    const double r = pairs.residuals(k) = problem.residual(pairs, k);
+    if(!(r <= 10. * options.tolerance || r <= 100. * problem.rounding(pairs, k))) {
       failed.first = failed.count == 0 ? k : failed.first;
       failed.count = k + 1 - failed.first;
     }
+  }
   return failed;
 }
 
@@ -173,17 +166,24 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
     pairs.values(k) = (std::max)(pairs.values(k), pairs.values(k - 1));
 }
 
-/// Whether pairs have their accuracy, if need be after some steps of `refine_range`. Only within it
+/// Whether pairs have their accuracy, if need be after some steps of `refine()`. Only within it
 /// they are complete.
-template <class Refine>
-bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
-                    Eigenpairs& pairs, const Refine& refine_range)
+inline bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
+                           Eigenpairs& pairs)
 {
   pairs.residuals.setZero(pairs.size());
   Pair_range failed = check_residuals(problem, options, {0, pairs.size()}, pairs);
-  for(int sweep = 0; sweep < 2 && failed.count > 0; ++sweep) {
-    refine_range(failed, pairs);
-    failed = check_residuals(problem, options, failed, pairs);
+  try {
+    std::optional<Supernodal_factor> factor;
+    for(int sweep = 0; sweep < 2 && failed.count > 0; ++sweep) {
+      if(!factor)
+        factor.emplace(problem.shifted(-problem.shift()), options.threads);
+      refine(problem, *factor, options.threads, failed, pairs);
+      failed = check_residuals(problem, options, failed, pairs);
+    }
+  } catch(const Not_positive_definite&) { // sizes are so graded that there is no factor
+    if(pairs.solver != "dense")
+      throw;
   }
   pairs.complete = pairs.complete && pairs.residuals.maxCoeff() <= 10. * options.tolerance;
   return failed.count == 0;
@@ -195,12 +195,10 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
   Eigenpairs result;
   std::string reason;
   const bool dense = is_dense(problem.size(), K, options.method);
-  const auto solved_by = [&](auto solver) {
+  const auto solved_by = [&](const auto& compute) {
     try {
-      result = solver.compute();
-      if(have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
-           refine(problem, solver.factor_below(), options.threads, range, pairs);
-         }))
+      result = compute();
+      if(have_converged(problem, options, result))
         return true;
       reason = "a residual of " + in_digits(result.residuals.maxCoeff()) + " is left";
     } catch(const Not_converged& error) {
@@ -208,18 +206,13 @@ Eigenpairs pairs_of_part(const Eigen_problem& problem, const Eigen::Index K,
     }
     return false;
   };
-  if((is_sliced(problem.size(), K, options) && solved_by(Spectrum_slices(problem, K, options))) ||
-     (!dense && solved_by(Block_lanczos(problem, K, options))))
+  const auto slices = [&] { return Spectrum_slices(problem, K, options).compute(); };
+  const auto lanczos = [&] { return Block_lanczos(problem, K, options).compute(); };
+  if((is_sliced(problem.size(), K, options) && solved_by(slices)) || (!dense && solved_by(lanczos)))
     return result;
   if(dense || (options.method == Eigenpairs_method::automatic && problem.size() <= largest_dense)) {
     result = dense_eigenpairs(problem, K);
-    have_converged(problem, options, result, [&](const Pair_range range, Eigenpairs& pairs) {
-      try {
-        Supernodal_factor factor(problem.shifted(-problem.shift()), options.threads);
-        refine(problem, factor, options.threads, range, pairs);
-      } catch(const Not_positive_definite&) { // sizes are so graded that there is no factor
-      }
-    });
+    have_converged(problem, options, result);
     return result; // incomplete where the tolerance is not met: no solver does better in doubles
   }
   throw std::runtime_error(sentence("Eigenpairs: the solver did not converge to the tolerance ",
@@ -296,18 +289,9 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
                                  const std::vector<std::vector<int>>& parts, const Eigen::Index K,
                                  const Eigenpairs_options& options)
 {
-  struct Part_pair
-  {
-    double value;
-    std::size_t part;
-    Eigen::Index k;
-    bool operator<(const Part_pair& other) const { return value < other.value; }
-  };
   std::vector<Eigenpairs> pairs(parts.size());
-  std::vector<Part_pair> order;
-  std::size_t total = 0;
-  for(const std::vector<int>& part : parts)
-    total += part.size();
+  std::vector<std::tuple<double, std::size_t, Eigen::Index>> order; // value, part, number there
+  const double total = double(problem.size() - problem.op().vanishing);
   double bound = std::numeric_limits<double>::infinity(); // no wanted value is larger
   for(bool enough = false; !enough;) {
     enough = true;
@@ -319,24 +303,23 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
         continue;
       enough = false;
       // As many as a part of this size is likely to have (Weyl), with some to spare.
-      const double share = double(K) * double(size) / double(total);
+      const double share = double(K) * double(size) / total;
       const Eigen::Index wanted = known > 0 ? known + known / 2 + 8 : Eigen::Index(1.2 * share) + 8;
       const Laplace_operator op = operator_of_part(problem.op(), parts[p]);
-      const Eigen_problem part(op, problem.scale(),
-                               {1, [&](const double fraction) {
-                                  problem.report((double(done) - (1. - fraction) * double(size)) /
-                                                 double(total));
-                                  return true;
-                                }});
+      const auto report = [&](const double fraction) {
+        problem.report((double(done) - (1. - fraction) * double(size)) / total);
+        return true;
+      };
+      const Eigen_problem part(op, {1, report}, problem.scale());
       pairs[p] = pairs_of_part(part, (std::min)({wanted, size, K}), options);
     }
     order.clear();
     for(std::size_t p = 0; p < parts.size(); ++p)
       for(Eigen::Index k = 0; k < pairs[p].size(); ++k)
-        order.push_back({pairs[p].values(k), p, k});
-    std::stable_sort(order.begin(), order.end());
+        order.emplace_back(pairs[p].values(k), p, k);
+    std::sort(order.begin(), order.end());
     if(Eigen::Index(order.size()) >= K)
-      bound = order[K - 1].value;
+      bound = std::get<0>(order[K - 1]);
   }
   Eigenpairs result{Eigen::VectorXd(K), Eigen::MatrixXd::Zero(problem.size(), K),
                     Eigen::VectorXd(K), "dense", true};
@@ -346,11 +329,11 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
     result.complete = result.complete && part.complete;
   }
   for(Eigen::Index k = 0; k < K; ++k) {
-    const Part_pair& from = order[k];
-    result.values(k) = from.value;
-    result.residuals(k) = pairs[from.part].residuals(from.k);
-    for(std::size_t i = 0; i < parts[from.part].size(); ++i)
-      result.vectors(parts[from.part][i], k) = pairs[from.part].vectors(Eigen::Index(i), from.k);
+    const auto [value, p, own] = order[k];
+    result.values(k) = value;
+    result.residuals(k) = pairs[p].residuals(own);
+    for(std::size_t i = 0; i < parts[p].size(); ++i)
+      result.vectors(parts[p][i], k) = pairs[p].vectors(Eigen::Index(i), own);
   }
   result.further_values = further_values_of_parts(pairs, parts, K);
   return result;
@@ -360,9 +343,7 @@ inline Eigenpairs pairs_of_parts(const Eigen_problem& problem,
 /// masses of meshes; otherwise a factorisation.
 inline void check_mass_matrix(const Eigen_problem& problem, const int threads)
 {
-  const Eigen::VectorXd diagonal = problem.B().diagonal();
-  const Eigen::VectorXd sums = problem.B().cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
-  if(!((2. * diagonal - sums).array() > 0.).all())
+  if(!(dominance(problem.B()).array() > 0.).all())
     require(number_of_negative_eigenvalues(problem.B(), threads) == 0,
             "Eigenpairs: the mass matrix B is not positive definite; pass one that is.");
 }

@@ -46,10 +46,9 @@ inline Index count_missing(const Eigen_problem& problem, const Eigen::VectorXd& 
 /// each access to the factor and to the basis, and find up to eight copies of a multiple
 /// eigenvalue. S V = V T + W E^T, where T is block tridiagonal (with an arrow after a restart).
 ///
-/// The shift sigma lies inside of the wanted spectrum where it can: the eigenvalues below it, which
-/// the inertia of L - sigma B counts, have negative theta, and the Krylov space sees both ends. K =
-/// 100 pairs to 1e-8 take 2.4 K vectors in place of 3.4 K. Otherwise sigma = -s, and no theta is
-/// negative. See Golub and Underwood 1977, Grimes, Lewis and Simon 1994, Wu and Simon 2000.
+/// The eigenvalues below a shift inside of the wanted spectrum, see `eigenpairs()`, have negative
+/// theta; with sigma = -s no theta is negative. See Golub and Underwood 1977, Grimes, Lewis and
+/// Simon 1994, Wu and Simon 2000.
 ///
 /// Small matrices are MatrixXd, and products have such factors, not expressions: each further type
 /// is compiled by itself.
@@ -68,8 +67,7 @@ public:
     , m_BW(problem.size())
     , m_BV(problem.size())
   {
-    // Without restart 3.4 K vectors reach 1e-8, or 2.4 K with the shift inside. A larger space
-    // costs memory, a smaller one more solves.
+    // A larger space than one that needs no restart costs memory, a smaller one more solves.
     const Index standard = (std::max)(K * 36 / 10, K + 120);
     const Index limit = options.maximum_vectors > 0 ? options.maximum_vectors : standard;
     m_maximum_panels = (std::min)(limit, problem.size() - 2 * panel_width) / panel_width;
@@ -124,13 +122,12 @@ public:
   // has of the highest modes.
   Eigenpairs pairs()
   {
-    const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, 0, panel_width, m_K);
-    Eigen::MatrixXd C = m_link * bottom * m_theta.head(m_K).cwiseInverse().asDiagonal();
+    Eigen::MatrixXd C = links(0, m_K) * m_theta.head(m_K).cwiseInverse().asDiagonal();
     const Eigen::VectorXd further = further_values();
     make_orthonormal(C);
     compress(rounded_up(m_K));
-    m_basis.erase(m_basis.begin() + m_panels,
-                  m_basis.end()); // before memory for the result is taken
+    // Before memory for the result is taken.
+    m_basis.erase(m_basis.begin() + m_panels, m_basis.end());
     for(Index k = 0; k < m_K; k += panel_width) {
       const Index columns = (std::min)(m_K - k, Index(panel_width));
       Eigen::MatrixXd minus_C = Eigen::MatrixXd::Zero(panel_width, panel_width);
@@ -146,13 +143,6 @@ public:
         result.vectors(m_factor.order()[i], k) = scale * panel.row(i)[k % panel_width];
     });
     return result;
-  }
-
-  // With the shift below.
-  Supernodal_factor& factor_below()
-  {
-    shift_below();
-    return m_factor;
   }
 
 private:
@@ -225,8 +215,7 @@ private:
   void add_random_panel()
   {
     for(Index i = 0; i < m_space.size(); ++i)
-      for(int c = 0; c < panel_width; ++c)
-        m_W.row(i)[c] = random_entry();
+      std::generate_n(m_W.row(i), panel_width, [&] { return random_entry(); });
     m_factor.solve(m_W, m_W, m_options.threads); // smooth vectors are a better start
     orthogonalise();
     orthogonalise();
@@ -300,7 +289,7 @@ private:
   {
     m_link.setIdentity(panel_width, panel_width);
     m_rank = panel_width;
-    m_space.multiply_mass(m_W, m_BW);
+    m_space.multiply_mass(m_W, m_BW); // transform() keeps it up
     for(int pass = 0; pass < 2; ++pass) {
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       const Eigen::MatrixXd R = llt.matrixU();
@@ -514,8 +503,7 @@ private:
       m_Y.col(k) = solver.eigenvectors().col(from);
       negative ? ++low : --high;
     }
-    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, m_K),
-                          link = m_link * bottom;
+    const Eigen::MatrixXd link = links(0, m_K);
     double worst = 0.;
     for(Index k = 0; k < m_K; ++k)
       worst = (std::max)(worst, link.col(k).norm() * weight_of_residual(m_theta(k)));
@@ -526,18 +514,22 @@ private:
   // thousandth, which is about the square of the residual.
   Eigen::VectorXd further_values() const
   {
-    const Index m = dimension();
     std::vector<double> result;
-    for(Index k = m_K; k < m && Index(result.size()) < m_K / 2; ++k) {
+    for(Index k = m_K; k < dimension() && Index(result.size()) < m_K / 2; ++k) {
       if(m_theta(k) < 0.) // of no eigenvalue: those below the shift are among the K
         continue;
-      const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, k, panel_width, 1),
-                            link = m_link * bottom;
-      if(!(link.norm() * weight_of_residual(m_theta(k)) < 0.03))
+      if(!(links(k, 1).norm() * weight_of_residual(m_theta(k)) < 0.03))
         break;
       result.push_back(m_sigma + m_problem.shift() / m_theta(k));
     }
     return Eigen::VectorXd::Map(result.data(), Index(result.size()));
+  }
+
+  // What S times Ritz vectors has outside of the space: W times this.
+  Eigen::MatrixXd links(Index first, Index count) const
+  {
+    const Eigen::MatrixXd bottom = m_Y.block(dimension() - panel_width, first, panel_width, count);
+    return m_link * bottom;
   }
 
   // 1 / |theta|, and for eigenvalues that are smaller than their distance to the shift as much
@@ -561,10 +553,8 @@ private:
   // Thick restart (Wu and Simon 2000): S X = X Theta + W E_bottom.
   void restart()
   {
-    const Index m = dimension(),
-                kept = (std::min)(rounded_up(m_K + 2 * panel_width), m - panel_width);
-    const Eigen::MatrixXd bottom = m_Y.block(m - panel_width, 0, panel_width, kept),
-                          arrow = m_link * bottom;
+    const Index kept = (std::min)(rounded_up(m_K + 2 * panel_width), dimension() - panel_width);
+    const Eigen::MatrixXd arrow = links(0, kept);
     compress(kept);
     m_T.block(kept, 0, panel_width, kept) = arrow;
     m_T.block(0, kept, kept, panel_width) = arrow.transpose();
@@ -583,19 +573,18 @@ private:
   {
     const Eigen::MatrixXd transposed = C.transpose(), product = C * transposed;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(product);
-    const Eigen::VectorXd root = (1. + solver.eigenvalues().cwiseMax(0.).array()).sqrt();
-    const Eigen::VectorXd f =
-        (root.array() * (1. + root.array())).inverse(); // (1 - 1 / root) / (root^2 - 1)
+    const Eigen::ArrayXd root = (1. + solver.eigenvalues().cwiseMax(0.).array()).sqrt();
+    const Eigen::VectorXd f = (root * (1. + root)).inverse(); // (1 - 1 / root) / (root^2 - 1)
     const Eigen::MatrixXd Q = solver.eigenvectors(), FC = Q * f.asDiagonal() * Q.transpose() * C;
     m_Y.leftCols(m_K) -= m_Y.leftCols(m_K) * transposed * FC;
     C -= product * FC;
   }
 
-  static constexpr double place_of_shift =
-      0.6; // among the wanted eigenvalues: with it the space is smallest
+  // Among the wanted eigenvalues: with it the space is smallest.
+  static constexpr double place_of_shift = 0.6;
   static constexpr double rounding = 1e-12; // of S
-  static constexpr double largest_norm =
-      1e4; // of S, 1e-4 of a spacing between the shift and an eigenvalue
+  // That of S where the shift is 1e-4 of a spacing from an eigenvalue.
+  static constexpr double largest_norm = 1e4;
 
   const Eigen_problem& m_problem;
   Index m_K;

@@ -42,6 +42,12 @@ inline double pencil_shift(const Laplace_operator& op)
   return 4. * CGAL_PI / op.mass.sum() * (unit > 1e-3 && unit < 1e3 ? 1. : unit);
 }
 
+/// By how much the diagonal entry of each row exceeds the sum of the magnitudes beside it.
+inline Eigen::VectorXd dominance(const Eigen::SparseMatrix<double>& B)
+{
+  return 2. * B.diagonal() - B.cwiseAbs() * Eigen::VectorXd::Ones(B.cols());
+}
+
 inline std::string in_digits(const double number)
 {
   std::ostringstream out;
@@ -60,17 +66,14 @@ struct Not_converged : std::runtime_error
 class Eigen_problem
 {
 public:
-  explicit Eigen_problem(const Laplace_operator& op, const Run_control& control = {})
-    : Eigen_problem(op, pencil_shift(op), control)
-  {}
-
   /// A part of a larger pencil has a shift of its own, and the residuals that it has in the whole,
   /// whose shift is `scale`.
-  Eigen_problem(const Laplace_operator& op, const double scale, const Run_control& control)
+  explicit Eigen_problem(const Laplace_operator& op, const Run_control& control = {},
+                         const std::optional<double> scale = {})
     : m_op(op)
     , m_control(control)
     , m_shift(pencil_shift(op))
-    , m_scale(scale)
+    , m_scale(scale.value_or(m_shift))
   {}
 
   void check(const Eigen::Index K) const
@@ -102,12 +105,7 @@ public:
   double scale() const { return m_scale; }
 
   // L - sigma B
-  Eigen::SparseMatrix<double> shifted(double sigma) const
-  {
-    Eigen::SparseMatrix<double> result = L() - sigma * B();
-    result.makeCompressed();
-    return result;
-  }
+  Eigen::SparseMatrix<double> shifted(double sigma) const { return L() - sigma * B(); }
 
   // Never goes back, however often an iteration starts again.
   void report(double fraction) const
@@ -118,31 +116,17 @@ public:
 
   Eigen::VectorXd residuals(const Eigenpairs& pairs) const
   {
-    return residuals(pairs, 0, pairs.size());
+    Eigen::VectorXd result(pairs.size());
+    for(Eigen::Index k = 0; k < pairs.size(); ++k)
+      result(k) = residual(pairs, k);
+    return result;
   }
 
-  // Takes the residuals of K pairs.
-  Eigen::VectorXd residuals(const Eigenpairs& pairs, const Eigen::Index first,
-                            const Eigen::Index K) const
+  double residual(const Eigenpairs& pairs, const Eigen::Index k) const
   {
-    // Eight columns by rows: faster than one by one, and no second n x K matrix.
-    using Block =
-        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Eigen::Dynamic, 8>;
-    Eigen::VectorXd result(K);
-    for(Eigen::Index k = 0; k < K; k += 8) {
-      const Eigen::Index columns = (std::min)(Eigen::Index(8), K - k);
-      const Block phi = pairs.vectors.middleCols(first + k, columns);
-      Block r = L() * phi;
-      const Block b = B() * phi;
-      r -= b * pairs.values.segment(first + k, columns).asDiagonal();
-      double squares[8] = {};
-      for(Eigen::Index i = 0; i < size(); ++i)
-        for(Eigen::Index c = 0; c < columns; ++c)
-          squares[c] += r(i, c) * r(i, c) / m_op.mass(i);
-      for(Eigen::Index c = 0; c < columns; ++c)
-        result(k + c) = std::sqrt(squares[c]);
-    }
-    return result.cwiseQuotient((pairs.values.segment(first, K).array() + m_scale).matrix());
+    const auto phi = pairs.vectors.col(k);
+    const Eigen::VectorXd r = L() * phi - pairs.values(k) * (B() * phi);
+    return norm(r) / (pairs.values(k) + m_scale);
   }
 
   // What the residual of a pair can be by rounding alone, in its entries and in L and B.
@@ -151,9 +135,7 @@ public:
     const Eigen::VectorXd phi = pairs.vectors.col(k).cwiseAbs();
     const Eigen::VectorXd terms =
         L().cwiseAbs() * phi + std::abs(pairs.values(k)) * (B().cwiseAbs() * phi);
-    return std::numeric_limits<double>::epsilon() *
-           std::sqrt(terms.cwiseAbs2().cwiseQuotient(m_op.mass).sum()) /
-           (pairs.values(k) + m_scale);
+    return std::numeric_limits<double>::epsilon() * norm(terms) / (pairs.values(k) + m_scale);
   }
 
   // What is left of eigenvalue 0 by rounding in L: beside needles it is larger than low
@@ -164,26 +146,25 @@ public:
   }
 
 private:
+  double norm(const Eigen::VectorXd& r) const
+  {
+    return std::sqrt(r.cwiseAbs2().cwiseQuotient(m_op.mass).sum());
+  }
+
   const Laplace_operator& m_op;
   Run_control m_control;
   double m_shift, m_scale;
   mutable double m_fraction = 0.;
 };
 
-// Says which matrix has the wrong sign, and goes on where none has and only rounding is negative.
+// Says how L is wrong, where B is definite, and goes on where only rounding is negative.
 inline void refuse_indefinite(const Eigen_problem& problem, const int threads)
 {
   const double s = problem.shift();
-  const auto negative = [&](Eigen::SparseMatrix<double> A) {
-    A.makeCompressed();
-    return number_of_negative_eigenvalues(A, threads);
-  };
-  require(negative(problem.B()) == 0,
-          "Eigenpairs: the mass matrix B is not positive definite; pass one that is.");
-  require(negative(s * problem.B() - problem.L()) != 0,
+  require(number_of_negative_eigenvalues(s * problem.B() - problem.L(), threads) != 0,
           "Eigenpairs: L has the opposite sign, as cotmatrix() of libigl has; pass -L.");
-  const Eigen::Index count =
-      negative(problem.shifted(-(std::max)(1e-8 * s, problem.rounding_of_values())));
+  const double rounding = (std::max)(1e-8 * s, problem.rounding_of_values());
+  const Eigen::Index count = number_of_negative_eigenvalues(problem.shifted(-rounding), threads);
   require(count <= 0, "Eigenpairs: L is not positive semidefinite, ", count,
           " of its eigenvalues are negative; add a multiple of B to it.");
 }

@@ -88,12 +88,10 @@ public:
   // W = W T
   void transform(Panel& W, const Eigen::MatrixXd& T) const
   {
-    const Coefficients minus_T = -T;
+    const Coefficients by_rows = T;
     for_each_block(rows_in_cache, [&](Index first, Index rows, int) {
-      alignas(cache_line) double copy[rows_in_cache * panel_width];
-      std::copy_n(W.row(first), rows * panel_width, copy);
-      std::fill_n(W.row(first), rows * panel_width, 0.);
-      subtract_product(W.row(first), copy, rows, minus_T.data());
+      multiply_block(W.row(first), panel_width, panel_width, W.row(first), panel_width,
+                     by_rows.data(), panel_width, rows, false);
     });
   }
 
@@ -104,17 +102,17 @@ public:
     std::vector<Coefficients> minus_Y;
     for(Index q = 0; q < new_count; ++q)
       minus_Y.emplace_back(-Y.middleCols(q * panel_width, panel_width));
-    for_each_block(64,
-                   [&](Index first, Index rows, int) { // all panels' rows in the second level cache
-                     const Index entries = rows * panel_width;
-                     std::vector<double> result(new_count * entries);
-                     for(Index q = 0; q < new_count; ++q)
-                       for(Index p = 0; p < count; ++p)
-                         subtract_product(&result[q * entries], basis[p].row(first), rows,
-                                          minus_Y[q].row(p * panel_width).data());
-                     for(Index q = 0; q < new_count; ++q)
-                       std::copy_n(&result[q * entries], entries, basis[q].row(first));
-                   });
+    // All panels' rows are in the second level cache.
+    for_each_block(64, [&](Index first, Index rows, int) {
+      const Index entries = rows * panel_width;
+      std::vector<double> result(new_count * entries);
+      for(Index q = 0; q < new_count; ++q)
+        for(Index p = 0; p < count; ++p)
+          subtract_product(&result[q * entries], basis[p].row(first), rows,
+                           minus_Y[q].row(p * panel_width).data());
+      for(Index q = 0; q < new_count; ++q)
+        std::copy_n(&result[q * entries], entries, basis[q].row(first));
+    });
   }
 
 private:

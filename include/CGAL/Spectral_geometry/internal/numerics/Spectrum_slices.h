@@ -24,20 +24,18 @@ public:
   Spectrum_slices(const Eigen_problem& problem, Index K, const Eigenpairs_options& options)
     : m_problem(problem)
     , m_options(options)
-    , m_part(problem.op(), problem.scale(),
+    , m_pairs{Eigen::VectorXd(K), Eigen::MatrixXd(problem.size(), K), {}, "block"}
+    , m_part(problem.op(),
              {1,
               [this](const double fraction) {
                 const double end = double((std::min)(m_found + size, m_pairs.size()));
                 m_problem.report((fraction * end + (1. - fraction) * double(m_found)) /
                                  double(m_pairs.size()));
                 return true;
-              }})
+              }},
+             problem.scale())
     , m_lanczos(m_part, largest, options)
-  {
-    m_pairs.values.resize(K);
-    m_pairs.vectors.resize(problem.size(), K);
-    m_pairs.solver = "block";
-  }
+  {}
 
   /// Throws `Not_converged` where a slice has no end, or misses copies.
   Eigenpairs compute()
@@ -51,8 +49,6 @@ public:
     m_pairs.complete = missing == 0;
     return std::move(m_pairs);
   }
-
-  Supernodal_factor& factor_below() { return m_lanczos.factor_below(); }
 
 private:
   void add_slice()
