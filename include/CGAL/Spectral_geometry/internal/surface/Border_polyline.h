@@ -32,8 +32,6 @@ public:
     : m_mesh(mesh)
     , m_segments(boundary_edges(mesh.T))
   {
-    if(is_empty())
-      return;
     m_loop = connected_components(mesh.V.rows(), [this](const auto& join) {
       for(const auto& [i, j] : m_segments)
         join(i, j);
@@ -91,14 +89,13 @@ public:
   /// The pieces whose boxes are no further than this from `p`, ascending.
   std::vector<std::size_t> near(const Eigen::Vector3d& p, const double distance) const
   {
-    std::set<std::size_t> result;
-    if(!is_empty())
-      m_tree.any(Box_tree::Box(p.array() - distance, p.array() + distance),
-                 [&](const std::size_t s) {
-                   result.insert(s);
-                   return false;
-                 });
-    return {result.begin(), result.end()};
+    std::vector<std::size_t> result;
+    m_tree.any(Box_tree::Box(p.array() - distance, p.array() + distance), [&](const std::size_t s) {
+      result.push_back(s);
+      return false;
+    });
+    std::sort(result.begin(), result.end());
+    return result;
   }
 
 private:

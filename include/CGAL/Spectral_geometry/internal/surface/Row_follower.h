@@ -155,10 +155,8 @@ private:
       queue.pop();
       if(distance > m_distance[i])
         continue;
-      if(m_waiting[i] == 1) {
-        m_waiting[i] = 2;
-        --missing;
-      }
+      missing -= m_waiting[i];
+      m_waiting[i] = 0;
       for(const int j : m_fine_rings[i])
         reach(distance + (m_fine.V.row(j) - m_fine.V.row(i)).norm(), j);
     }

@@ -40,26 +40,18 @@ public:
     return within_two_edges(coarse, m_row[fine]);
   }
 
-  /// The closest point on the fine surface of a coarse vertex that is at `p`.
-  Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
-                                               const Eigen::Index v, const Eigen::Vector3d& p) const
-  {
-    const Eigen::Index home = m_home[v].face;
-    return home < 0 ? fine(p) : of_coarse_vertex(fine, v, p, home);
-  }
-
-  /// Begins at a face where it was before, which saves most of the search.
+  /// The closest point on the fine surface of a coarse vertex that is at `p`. Begins at `before`
+  /// where it was on that face before, which saves most of the search.
   Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
                                                const Eigen::Index v, const Eigen::Vector3d& p,
-                                               const Eigen::Index face) const
+                                               const Eigen::Index before = -1) const
   {
-    const int own = m_home[v].row;
-    return fine.among(p, face, [&](const Eigen::Index f) {
-      for(int k = 0; k < 3; ++k) {
-        const int row = m_row[m_fine.T(f, k)];
-        if(own < 0 || row == own || within_two_edges(int(v), row))
+    const Home& home = m_home[v];
+    const Eigen::Index first = before < 0 ? (std::max)(home.face, Eigen::Index(0)) : before;
+    return fine.among(p, first, [&](const Eigen::Index f) {
+      for(const int i : m_fine.T.row(f))
+        if(home.row < 0 || m_row[i] == home.row || within_two_edges(int(v), m_row[i]))
           return true;
-      }
       return false;
     });
   }
@@ -83,8 +75,8 @@ public:
       if(face < 0)
         return coarse(m_fine.V.row(i)); // P says nothing about it
       return coarse.among(m_fine.V.row(i), face, [&](const Eigen::Index f) {
-        for(int k = 0; k < 3; ++k)
-          if(within_two_edges(row, m_coarse.T(f, k)))
+        for(const int v : m_coarse.T.row(f))
+          if(within_two_edges(row, v))
             return true;
         return false;
       });
@@ -104,12 +96,14 @@ private:
   {
     if(v < 0 || w < 0)
       return false;
-    if(v == w || m_rings.has(v, w))
-      return true;
-    if(m_rings.size(v) > m_rings.size(w))
+    if(m_rings[v].size() > m_rings[w].size())
       std::swap(v, w);
-    const Vertex_rings::Ring ring = m_rings[v];
-    return std::any_of(ring.first, ring.last, [&](const int u) { return m_rings.has(w, u); });
+    const auto ring = m_rings[w];
+    const auto is_around_w = [&](const int u) {
+      return std::binary_search(ring.begin(), ring.end(), u);
+    };
+    return v == w || is_around_w(v) ||
+           std::any_of(m_rings[v].begin(), m_rings[v].end(), is_around_w);
   }
 
   // Dijkstra's algorithm along the fine edges, from all entries of P at once.
@@ -152,8 +146,6 @@ private:
     for(int v = 0; v < int(P.rows()); ++v)
       if(m_home[v].face >= 0)
         reached.push_back(v);
-    if(reached.size() == m_home.size())
-      return;
     for(std::size_t k = 0; k < reached.size(); ++k)
       for(const int w : m_rings[reached[k]])
         if(m_home[w].face < 0) {
@@ -191,8 +183,8 @@ public:
     if(!latest.closest || latest.position != p) {
       std::swap(latest, other);
       if(!latest.closest || latest.position != p)
-        latest = {p, other.closest ? m_regions.of_coarse_vertex(m_fine, v, p, other.closest->face)
-                                   : m_regions.of_coarse_vertex(m_fine, v, p)};
+        latest = {
+            p, m_regions.of_coarse_vertex(m_fine, v, p, other.closest ? other.closest->face : -1)};
     }
     return *latest.closest;
   }

@@ -11,23 +11,22 @@
 namespace CGAL::Spectral_geometry::internal {
 
 /// Returns, for a triangle with the edges p, then q from where that ends, and `sum` = p + q, at
-/// each corner the product of the edges that leave it, and |p x q|^2. A `Number` is a double; edges
-/// are whatever has three coordinates.
-template <class Number, class Edge, class Other_edge>
-CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Other_edge& q, const Edge& sum,
-                                            Number& at_start, Number& between, Number& at_end,
-                                            Number& twice_area_squared)
+/// each corner the product of the edges that leave it, and |p x q|^2. Edges are whatever has three
+/// coordinates.
+template <class Edge>
+CGAL_SPECTRAL_INLINE void triangle_products(const Edge& p, const Edge& q, const Edge& sum,
+                                            double& at_start, double& between, double& at_end,
+                                            double& twice_area_squared)
 {
-  const auto dot = [](Number& result, const auto& a, const auto& b) {
-    result = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const auto dot = [](const auto& a, const auto& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  const Number n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
+  const double n[3] = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2],
                        p[0] * q[1] - p[1] * q[0]};
-  dot(twice_area_squared, n, n);
-  dot(at_start, p, sum);
-  dot(between, p, q);
-  between = -between;
-  dot(at_end, q, sum);
+  twice_area_squared = dot(n, n);
+  at_start = dot(p, sum);
+  between = -dot(p, q);
+  at_end = dot(q, sum);
 }
 
 /*!

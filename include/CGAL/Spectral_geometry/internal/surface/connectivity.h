@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/internal/basics.h>
 
 #include <boost/pending/disjoint_sets.hpp>
+#include <boost/range/iterator_range_core.hpp>
 
 #include <numeric>
 
@@ -114,22 +115,10 @@ public:
     return Vertex_rings(T, n, T.rows(), {0}, [](const Eigen::Index f, int) { return int(f); });
   }
 
-  struct Ring
-  {
-    const int *first, *last;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-  };
-
-  Ring operator[](const int v) const
+  boost::iterator_range<const int*> operator[](const int v) const
   {
     const int* const start = m_items.outerIndexPtr() + v;
     return {m_items.innerIndexPtr() + start[0], m_items.innerIndexPtr() + start[1]};
-  }
-  std::size_t size(const int v) const { return std::size_t((*this)[v].last - (*this)[v].first); }
-  bool has(const int v, const int item) const
-  {
-    return std::binary_search((*this)[v].first, (*this)[v].last, item);
   }
 
   /// Whole rings of vertices around v, which comes first, until there are so many; only some
@@ -143,13 +132,13 @@ public:
     for(std::size_t first = 0; first < result.size() && result.size() < wanted;) {
       const std::size_t last = result.size();
       for(; first < last; ++first) {
-        const int* const ring = (*this)[result[first]].first;
-        const std::size_t n = size(result[first]),
+        const auto ring = (*this)[result[first]];
+        const std::size_t n = ring.size(),
                           step = first == 0 ? 1 : (n + most_of_a_hub - 1) / most_of_a_hub;
         for(std::size_t i = 0; i < n; i += step)
-          if(!seen[ring[i]]) {
-            seen[ring[i]] = 1;
-            result.push_back(ring[i]);
+          if(const int w = ring.begin()[i]; !seen[w]) {
+            seen[w] = 1;
+            result.push_back(w);
           }
       }
     }
