@@ -82,8 +82,8 @@ struct Relocation_result
   /// Vertices that a guard stopped short in one step at least, by guard.
   struct Held
   {
-    std::size_t fixed =
-        0; ///< never moved: kept by the caller, or boundary vertices that have to stay
+    /// never moved: kept by the caller, or boundary vertices that have to stay
+    std::size_t fixed = 0;
     std::size_t trust = 0;    ///< by the ball around (P V)_w in which it stays
     std::size_t boundary = 0; ///< by the end of the boundary that they slide along
     std::size_t sheet = 0; ///< because another sheet of the fine surface would have been nearer, or
@@ -98,8 +98,8 @@ struct Relocation_result
   double E_after = 0;          ///< see `E_before`
   double objective_before = 0; ///< what was minimised, at the start
   double objective_after = 0;  ///< and at the end
-  double norm_before =
-      0; ///< |C|_L (Eq. 3), for signals of any kind, with the restriction that was passed
+  /// |C|_L (Eq. 3), for signals of any kind, with the restriction that was passed
+  double norm_before = 0;
   double norm_after = 0;                             ///< and with that of the result, never more
   int steps = 0;                                     ///< of the descent
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended

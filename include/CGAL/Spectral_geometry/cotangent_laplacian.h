@@ -12,7 +12,7 @@
 #include <CGAL/number_utils.h>
 
 #include <CGAL/Spectral_geometry/internal/separate_compilation.h>
-#include <CGAL/Spectral_geometry/local_operator.h>
+#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
 namespace CGAL::Spectral_geometry {
 
@@ -101,24 +101,68 @@ inline bool extent_is_usable(const double extent)
   return extent == 0. || (extent >= smallest_extent && extent <= largest_extent);
 }
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_positions(const Eigen::MatrixXd& V);
+inline void check_positions(const Eigen::MatrixXd& V)
+{
+  require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ",
+          V.cols(), " columns.");
+  for(Eigen::Index v = 0; v < V.rows(); ++v)
+    require(V.row(v).allFinite(), "Laplace operator: ", vertex_name(v),
+            " has a coordinate that is not a finite number; repair or remove it.");
+}
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n);
+inline void check_triangles(const Eigen::MatrixXi& T, const Eigen::Index n)
+{
+  require(T.cols() == 3 && T.rows() != 0,
+          "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T),
+          ".");
+  for(Eigen::Index f = 0; f < T.rows(); ++f) {
+    const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
+    require((std::min)({i, j, k}) >= 0 && (std::max)({i, j, k}) < n,
+            "Laplace operator: ", face_name(f), " refers to a vertex outside 0..", n - 1,
+            "; repair the indices.");
+    require(i != j && j != k && k != i, "Laplace operator: ", face_name(f),
+            " uses one vertex twice; remove the face.");
+  }
+}
 
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_mass(const Eigen::VectorXd& mass,
-                                              const Eigen::MatrixXi& T);
+inline void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
+{
+  for(Eigen::Index v = 0; v < mass.size(); ++v) {
+    require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ",
+            vertex_name(v), " is not a finite number; rescale the mesh.");
+    require(mass(v) > 0. || (T.array() != static_cast<int>(v)).all(),
+            "Laplace operator: ", vertex_name(v),
+            " has no mass because all its faces have zero area; remove these faces.");
+    require(mass(v) > 0., "Laplace operator: ", vertex_name(v),
+            " is isolated, no face uses it; remove it.");
+  }
+}
 
 /// Throws `std::invalid_argument` unless theta is in [0, 1], 0 with Voronoi shares, and
 /// coefficients are none, or one row for each of n vertices, positive (definite) and finite.
-CGAL_SPECTRAL_GEOMETRY_INLINE void check_local_operator(const Local_operator& op, Eigen::Index n);
-
-/// Refuses a face without area; `who` begins the sentence, `mesh` says in a word which one it is.
-inline void check_areas(const char* const who, const char* const mesh, const Eigen::MatrixXd& V,
-                        const Eigen::MatrixXi& T)
+inline void check_local_operator(const Local_operator& op, const Eigen::Index n)
 {
-  for(Eigen::Index f = 0; f < T.rows(); ++f)
-    require(triangle_cotangents(V.row(T(f, 0)), V.row(T(f, 1)), V.row(T(f, 2))).area > 0, who,
-            face_name(f), " of the ", mesh, " mesh has no area; remove it.");
+  require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ",
+          op.theta, ".");
+  require(!op.voronoi || op.theta == 0.,
+          "Local operator: Voronoi shares are those of a lumped mass, but theta is ", op.theta,
+          "; set one of the two to 0.");
+  const Operator_coefficients& c = op.coefficients;
+  require(c.rows() == 0 || c.rows() == n, "Local operator: there are coefficients for ", c.rows(),
+          " vertices, but the mesh has ", n, "; give one row for each.");
+  for(Eigen::Index v = 0; v < c.rows(); ++v) {
+    require(c(v, 0) > 0. && std::isfinite(c(v, 0)), "Local operator: the density of ",
+            vertex_name(v), " is ", c(v, 0), "; use positive numbers.");
+    Eigen::Matrix3d D = conductivity(c.row(v).transpose());
+    D /= D.trace(); // of any unit
+    // Sylvester's criterion, each minor beside what it is a difference of.
+    const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
+    require(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
+                xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz &&
+                D.determinant() > 0.,
+            "Local operator: the conductivity of ", vertex_name(v),
+            " is not positive definite; correct it.");
+  }
 }
 
 /// The positions of a mesh, one in each row. Neither removed elements nor the lack of an internal
@@ -264,7 +308,6 @@ Laplace_operator cotangent_laplacian(const TriangleMesh& tm, Mass mass = Mass::a
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
 
 #include <CGAL/Spectral_geometry/internal/surface/Face_element.h>
-#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 namespace CGAL::Spectral_geometry {
@@ -313,55 +356,6 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
   return result;
 }
 
-void check_positions(const Eigen::MatrixXd& V)
-{
-  require(V.cols() == 3, "Laplace operator: V must have 3 columns, one row per vertex, but has ",
-          V.cols(), " columns.");
-  for(Eigen::Index v = 0; v < V.rows(); ++v)
-    require(V.row(v).allFinite(), "Laplace operator: ", vertex_name(v),
-            " has a coordinate that is not a finite number; repair or remove it.");
-}
-
-void check_triangles(const Eigen::MatrixXi& T, Eigen::Index n)
-{
-  require(T.cols() == 3 && T.rows() != 0,
-          "Laplace operator: T must have 3 columns and at least one row, but is ", size_name(T),
-          ".");
-  for(Eigen::Index f = 0; f < T.rows(); ++f) {
-    const int i = T(f, 0), j = T(f, 1), k = T(f, 2);
-    require((std::min)({i, j, k}) >= 0 && (std::max)({i, j, k}) < n,
-            "Laplace operator: ", face_name(f), " refers to a vertex outside 0..", n - 1,
-            "; repair the indices.");
-    require(i != j && j != k && k != i, "Laplace operator: ", face_name(f),
-            " uses one vertex twice; remove the face.");
-  }
-}
-
-void check_local_operator(const Local_operator& op, const Eigen::Index n)
-{
-  require(op.theta >= 0. && op.theta <= 1., "Local operator: theta must lie in [0, 1], but is ",
-          op.theta, ".");
-  require(!op.voronoi || op.theta == 0.,
-          "Local operator: Voronoi shares are those of a lumped mass, but theta is ", op.theta,
-          "; set one of the two to 0.");
-  const Operator_coefficients& c = op.coefficients;
-  require(c.rows() == 0 || c.rows() == n, "Local operator: there are coefficients for ", c.rows(),
-          " vertices, but the mesh has ", n, "; give one row for each.");
-  for(Eigen::Index v = 0; v < c.rows(); ++v) {
-    require(c(v, 0) > 0. && std::isfinite(c(v, 0)), "Local operator: the density of ",
-            vertex_name(v), " is ", c(v, 0), "; use positive numbers.");
-    Eigen::Matrix3d D = conductivity(c.row(v).transpose());
-    D /= D.trace(); // of any unit
-    // Sylvester's criterion, each minor beside what it is a difference of.
-    const double xy = D(0, 0) * D(1, 1), yz = D(1, 1) * D(2, 2);
-    require(D.allFinite() && D(0, 0) > 0. && D(1, 1) > 0. && D(2, 2) > 0. &&
-                xy - D(0, 1) * D(0, 1) > 1e-14 * xy && yz - D(1, 2) * D(1, 2) > 1e-14 * yz &&
-                D.determinant() > 0.,
-            "Local operator: the conductivity of ", vertex_name(v),
-            " is not positive definite; correct it.");
-  }
-}
-
 inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T,
                                               Eigen::Index f, const Operator_coefficients& c = {})
 {
@@ -379,19 +373,6 @@ inline Triangle_cotangents checked_cotangents(const Eigen::MatrixXd& V, const Ei
           "shortest "
           "edge, remesh it or rescale the mesh.");
   return t;
-}
-
-void check_mass(const Eigen::VectorXd& mass, const Eigen::MatrixXi& T)
-{
-  for(Eigen::Index v = 0; v < mass.size(); ++v) {
-    require(mass(v) <= 0. || std::isfinite(mass(v)), "Laplace operator: the mass of ",
-            vertex_name(v), " is not a finite number; rescale the mesh.");
-    require(mass(v) > 0. || (T.array() != static_cast<int>(v)).all(),
-            "Laplace operator: ", vertex_name(v),
-            " has no mass because all its faces have zero area; remove these faces.");
-    require(mass(v) > 0., "Laplace operator: ", vertex_name(v),
-            " is isolated, no face uses it; remove it.");
-  }
 }
 
 // See `Boundary_condition`.

@@ -6,7 +6,6 @@
 #define CGAL_SPECTRAL_GEOMETRY_OPERATOR_COEFFICIENTS_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/local_operator.h>
 
 namespace CGAL::Spectral_geometry {
 

@@ -77,23 +77,14 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 
 #if !defined(CGAL_SPECTRAL_GEOMETRY_COMPILED) || defined(CGAL_SPECTRAL_COMPILE_GEOMETRY)
 
-#include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
-#include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
-#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
-#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
-#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
-#include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <CGAL/Real_timer.h>
-
-#include <set>
 
 namespace CGAL::Spectral_geometry {
 namespace internal {
@@ -122,17 +113,13 @@ public:
     , m_coarse{V, T}
     , m_regions(m_coarse, fine, P)
     , m_start(on_border(fixed))
-    , m_guards(m_start, T, Positions(P * fine.V), limits, options.threads)
+    , m_guards(m_given, m_start, T, Positions(P * fine.V), limits, options.threads)
     , m_size(T, m_start, fine, limits.size_tolerance)
+    , m_closest(fine)
+    , m_followed(m_closest, m_regions, std::size_t(V.rows()))
+    , m_sampled(fine, m_followed, F, Z, options.threads)
   {
     m_timer.start();
-    m_guards.refer_to(m_given, limits);
-    if(options.signals != Relocation_options::Signals::carried ||
-       std::isfinite(options.largest_distance)) {
-      m_closest = std::make_unique<Closest_point_query>(fine);
-      m_followed =
-          std::make_unique<Followed_closest_points>(*m_closest, m_regions, std::size_t(V.rows()));
-    }
     set_guards(fixed);
     set_objective();
     if(m_options.keep_free_of_self_intersections)
@@ -145,9 +132,9 @@ public:
 
   Positions run(Relocation_result& result)
   {
-    check_areas("relocation: ", "coarse", m_start, m_T);
-    Guarded_descent<Relocation_objective, Relocation_guards> descent(
-        *m_objective, m_guards, 0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
+    check_areas();
+    Descent descent(*m_objective, m_guards,
+                    0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
     result.E_before = m_objective->E(m_given);
     result.norm_before = norm(m_given, m_P);
     const bool nothing_to_gain = result.norm_before == 0;
@@ -155,47 +142,19 @@ public:
     m_guards.admit(m_start, V); // boundary vertices go to the boundary
     descent.start(V);
     result.objective_before = descent.value();
-    double last = descent.value();
-    using Reason = Relocation_result::Stop_reason;
-    for(result.stop_reason = Reason::steps;
-        !nothing_to_gain && result.steps < m_options.maximum_steps;) {
-      report_to(m_options,
-                {Phase::relocation, double(result.steps) / double(m_options.maximum_steps)});
-      if(!(m_timer.time() < m_options.maximum_seconds)) {
-        result.stop_reason = Reason::seconds;
-        break;
-      }
-      if(!descent.step()) {
-        result.stop_reason = Reason::no_descent;
-        break;
-      }
-      if(++result.steps % 10 == 0) {
-        if(descent.value() > (1 - m_limits.relative_decrease) * last) {
-          result.stop_reason = Reason::converged;
-          break;
-        }
-        if(result.steps < m_options.maximum_steps) {
-          const Positions repaired_so_far = repaired(descent.positions());
-          const bool refreshed = m_objective->refresh(repaired_so_far);
-          if(repaired_so_far != descent.positions())
-            descent.go_on_from(repaired_so_far);
-          else if(refreshed)
-            descent.refresh();
-        }
-        last = descent.value();
-      } else if(result.steps % 5 == 0 && m_objective->has_goals() &&
-                m_objective->refresh(descent.positions()))
-        descent.refresh();
-    }
+    if(!nothing_to_gain)
+      result.stop_reason = descend(descent, result.steps);
     result.objective_after = descent.value();
     V = repaired(descent.positions());
-    result.resampled = m_options.signals == Relocation_options::Signals::sampled;
-    result.restriction = result.resampled ? m_regions.restriction(*m_closest, V) : m_P;
-    if(result.resampled)
+    result.resampled = m_options.signals == Signals::sampled;
+    result.restriction = m_P;
+    if(result.resampled) {
+      result.restriction = m_regions.restriction(m_closest, V);
       keep_border_rows_on_border(result.restriction, V);
+    }
     result.norm_after = norm(V, result.restriction);
     if(nothing_to_gain || result.norm_after > result.norm_before) {
-      result.stop_reason = Reason::no_gain;
+      result.stop_reason = Stop_reason::no_gain;
       V = m_start;
       result.norm_after = m_start == m_given ? result.norm_before : norm(V, m_P);
       if(result.norm_after > result.norm_before) {
@@ -216,14 +175,54 @@ public:
   }
 
 private:
+  using Signals = Relocation_options::Signals;
+  using Stop_reason = Relocation_result::Stop_reason;
+  using Descent = Guarded_descent<Relocation_objective, Relocation_guards>;
+
+  void check_areas() const
+  {
+    const Positions& V = m_start;
+    for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
+      const auto t = triangle_cotangents(V.row(m_T(f, 0)), V.row(m_T(f, 1)), V.row(m_T(f, 2)));
+      require(t.area > 0, "relocation: ", face_name(f),
+              " of the coarse mesh has no area; remove it.");
+    }
+  }
+
+  Stop_reason descend(Descent& descent, int& steps)
+  {
+    double last = descent.value();
+    while(steps < m_options.maximum_steps) {
+      report_to(m_options, {Phase::relocation, double(steps) / double(m_options.maximum_steps)});
+      if(!(m_timer.time() < m_options.maximum_seconds))
+        return Stop_reason::seconds;
+      if(!descent.step())
+        return Stop_reason::no_descent;
+      if(++steps % 10 == 0) {
+        if(descent.value() > (1 - m_limits.relative_decrease) * last)
+          return Stop_reason::converged;
+        if(steps < m_options.maximum_steps) {
+          const Positions repaired_so_far = repaired(descent.positions());
+          const bool refreshed = m_objective->refresh(repaired_so_far);
+          if(repaired_so_far != descent.positions())
+            descent.go_on_from(repaired_so_far);
+          else if(refreshed)
+            descent.refresh();
+        }
+        last = descent.value();
+      } else if(steps % 5 == 0 && m_objective->has_goals() &&
+                m_objective->refresh(descent.positions()))
+        descent.refresh();
+    }
+    return Stop_reason::steps;
+  }
+
   // A vertex of the border has its row from the closest point of the border, among the loops that
   // its row in P came from before; where it came from none its row stays.
   void keep_border_rows_on_border(Eigen::SparseMatrix<double>& P, const Positions& V) const
   {
-    if(m_border.is_empty())
-      return;
     std::vector<char> on_border = border_vertices(m_T, V.rows());
-    const std::vector<std::set<Eigen::Index>> own = m_border.loops_of_rows(m_P);
+    const auto own = m_border.loops_of_rows(m_P);
     std::vector<Eigen::Triplet<double>> entries;
     for(std::size_t w = 0; w < own.size(); ++w) {
       on_border[w] = on_border[w] && !own[w].empty();
@@ -240,8 +239,7 @@ private:
     }
     Eigen::SparseMatrix<double> rows(P.rows(), P.cols());
     rows.setFromTriplets(entries.begin(), entries.end());
-    P.prune(
-        [&](const Eigen::Index row, Eigen::Index, double) { return !on_border[std::size_t(row)]; });
+    P.prune([&](const Eigen::Index row, Eigen::Index, double) { return !on_border[row]; });
     P += rows;
   }
 
@@ -295,26 +293,25 @@ private:
       return V;
     const auto loops = m_border.loops_of_rows(m_P);
     for(Eigen::Index v = 0; v < V.rows(); ++v) {
-      if(!on_boundary[std::size_t(v)] || (!fixed.empty() && fixed[std::size_t(v)]))
+      if(!on_boundary[v] || (!fixed.empty() && fixed[v]))
         continue;
       Border_polyline::Point point = m_border.closest(
           V.row(v), [&](const std::size_t s) { return is_near_border(int(v), s); });
       if(!point.exists())
-        point = m_border.closest(V.row(v), [&](const std::size_t s) {
-          return loops[std::size_t(v)].count(m_border.loop(s)) != 0;
-        });
+        point = m_border.closest(
+            V.row(v), [&](const std::size_t s) { return loops[v].count(m_border.loop(s)) != 0; });
       if(point.exists())
         V.row(v) = point.position.transpose();
     }
-    const Relocation_guards shapes(m_given, m_T, m_given, m_limits, m_options.threads);
+    const Relocation_guards shapes(m_given, m_given, m_T, m_given, m_limits, m_options.threads);
     Face_pairs crossing;
     if(m_options.keep_free_of_self_intersections)
       crossing = self_intersecting_faces(m_given, m_T);
     for(bool back = true; back;) { // fewer vertices are elsewhere in each round
       back = false;
       const auto go_back = [&](const Eigen::Index f) {
-        for(int k = 0; k < 3; ++k)
-          if(const int v = m_T(f, k); V.row(v) != m_given.row(v)) {
+        for(const int v : m_T.row(f))
+          if(V.row(v) != m_given.row(v)) {
             V.row(v) = m_given.row(v);
             back = true;
           }
@@ -334,34 +331,26 @@ private:
 
   void set_guards(const std::vector<bool>& fixed)
   {
-    for(std::size_t v = 0; v < fixed.size(); ++v)
-      if(fixed[v])
-        m_guards.fix(Eigen::Index(v));
     const std::vector<char> on_boundary = border_vertices(m_T, m_start.rows());
-    for(std::size_t v = 0; v < on_boundary.size(); ++v)
-      if(on_boundary[v] && m_options.fix_boundary)
-        m_guards.fix(Eigen::Index(v));
-      else if(on_boundary[v] && !m_guards.is_fixed(Eigen::Index(v))) {
-        std::vector<Boundary_segment> own;
-        for(const std::size_t s :
-            m_border.near(m_guards.anchor(Eigen::Index(v)), 2 * m_guards.radius(Eigen::Index(v))))
-          if(is_near_border(int(v), s))
-            own.push_back({m_border.end(s, 0), m_border.end(s, 1)});
-        m_guards.keep_on(Eigen::Index(v), own);
-      }
-    if(m_options.signals != Relocation_options::Signals::carried) {
+    for(Eigen::Index v = 0; v < m_start.rows(); ++v)
+      if((!fixed.empty() && fixed[v]) || (on_boundary[v] && m_options.fix_boundary))
+        m_guards.fix(v);
+      else if(on_boundary[v])
+        m_guards.keep_on(v, m_border,
+                         [&](const std::size_t s) { return is_near_border(int(v), s); });
+    if(m_options.signals != Signals::carried) {
       std::vector<char> beside(std::size_t(m_start.rows()));
       for(Eigen::Index v = 0; v < m_start.rows(); ++v)
-        beside[std::size_t(v)] = m_followed->is_beside_another_part(v, m_start.row(v));
+        beside[v] = m_followed.is_beside_another_part(v, m_start.row(v));
       m_guards.set_leaps([this, beside](const Eigen::Index v, const Eigen::Vector3d& from,
                                         const Eigen::Vector3d& to) {
-        return m_followed->leaps(v, from, to) ||
-               (!beside[std::size_t(v)] && m_followed->is_beside_another_part(v, to));
+        return m_followed.leaps(v, from, to) ||
+               (!beside[v] && m_followed.is_beside_another_part(v, to));
       });
     }
     if(std::isfinite(m_options.largest_distance))
       m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
-        return ((*m_followed)(v, p).point - p).norm() <= m_options.largest_distance;
+        return (m_followed(v, p).point - p).norm() <= m_options.largest_distance;
       });
   }
 
@@ -371,15 +360,13 @@ private:
         std::sqrt((m_Z.colwise().squaredNorm().array() /
                    m_F.colwise().squaredNorm().array().max((std::numeric_limits<double>::min)()))
                       .maxCoeff());
-    if(m_options.signals != Relocation_options::Signals::carried)
-      m_sampled =
-          std::make_unique<Surface_signals>(m_fine, *m_followed, m_F, m_Z, m_options.threads);
     const double tau = largest > 0 ? m_options.smoothing / largest : 0.;
+    Surface_signals* const sampled = m_options.signals == Signals::carried ? nullptr : &m_sampled;
     m_objective = std::make_unique<Relocation_objective>(
-        m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, m_sampled.get(),
-        m_options.signals != Relocation_options::Signals::sampled, tau, m_options, m_limits);
+        m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, sampled,
+        m_options.signals != Signals::sampled, tau, m_options, m_limits);
     m_keeps_inner_products =
-        m_limits.keep_inner_products && m_sampled && tau > 0 && m_op.coefficients.rows() == 0;
+        m_limits.keep_inner_products && sampled && tau > 0 && m_op.coefficients.rows() == 0;
     if(m_keeps_inner_products)
       m_objective->keep_inner_products(mass_of_fine(), m_F, m_Z);
   }
@@ -388,12 +375,9 @@ private:
   Eigen::VectorXd mass_of_fine() const
   {
     Eigen::VectorXd mass = Eigen::VectorXd::Zero(m_fine.V.rows());
-    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f) {
-      const Eigen::Vector3d p = m_fine.V.row(m_fine.T(f, 0)), q = m_fine.V.row(m_fine.T(f, 1)),
-                            r = m_fine.V.row(m_fine.T(f, 2));
-      for(int k = 0; k < 3; ++k)
-        mass(m_fine.T(f, k)) += (q - p).cross(r - p).norm() / 6;
-    }
+    for(Eigen::Index f = 0; f < m_fine.T.rows(); ++f)
+      for(const int v : m_fine.T.row(f))
+        mass(v) += face_normal(m_fine.V, m_fine.T, f).norm() / 6;
     return mass;
   }
 
@@ -407,8 +391,7 @@ private:
       if(m_options.keep_free_of_self_intersections)
         for(const auto& pair : self_intersecting_faces(V, m_T))
           if(!std::binary_search(m_crossing.begin(), m_crossing.end(), pair))
-            for(const Eigen::Index f : {pair.first, pair.second})
-              mark_face(f, back);
+            mark_faces({pair.first, pair.second}, back);
       if(m_options.keep_hausdorff_distance)
         mark_left_behind(V, back);
       const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
@@ -419,12 +402,12 @@ private:
         V = m_start;
       }
       for(Eigen::Index v = 0; v < V.rows(); ++v) {
-        if(too_large || back[std::size_t(v)]) {
+        if(too_large || back[v]) {
           // Half way back a vertex of the boundary would lie beside it.
           const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
         }
-        if(back[std::size_t(v)] && !m_guards.is_fixed(v)) {
+        if(back[v] && !m_guards.is_fixed(v)) {
           ++m_reverted;
           m_guards.fix(v);
         }
@@ -436,10 +419,11 @@ private:
     return V;
   }
 
-  void mark_face(const Eigen::Index f, std::vector<char>& marks) const
+  void mark_faces(const std::initializer_list<Eigen::Index> faces, std::vector<char>& marks) const
   {
-    for(int k = 0; k < 3; ++k)
-      marks[std::size_t(m_T(f, k))] = 1;
+    for(const Eigen::Index f : faces)
+      for(const int v : m_T.row(f))
+        marks[v] = 1;
   }
 
   // Where the fine vertices lie at the start.
@@ -451,8 +435,8 @@ private:
     const auto measure = [&](const Eigen::Index i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
       const Closest_point_query::Answer answer = closest(point);
-      m_nearest[std::size_t(i)] = answer.face;
-      distances[std::size_t(i)] = (answer.point - point).norm();
+      m_nearest[i] = answer.face;
+      distances[i] = (answer.point - point).norm();
     };
     for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
     m_furthest = *std::max_element(distances.begin(), distances.end());
@@ -467,20 +451,17 @@ private:
     std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
     const auto look = [&](const Eigen::Index i) {
       const Eigen::Vector3d point = m_fine.V.row(i);
-      const Eigen::Index nearest = m_nearest[std::size_t(i)];
-      if(std::sqrt(closest_point_of_triangle(point, closest.corners(nearest)).squared_distance) <=
-         m_furthest)
+      const auto before = closest_point_of_triangle(point, closest.corners(m_nearest[i]));
+      if(std::sqrt(before.squared_distance) <= m_furthest)
         return;
       const Closest_point_query::Answer answer = closest(point);
       if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
-        left_behind[std::size_t(i)] = answer.face;
+        left_behind[i] = answer.face;
     };
     for_each_task(m_fine.V.rows(), m_options.threads, look, 64);
     for(std::size_t i = 0; i < m_nearest.size(); ++i)
-      if(left_behind[i] >= 0) {
-        mark_face(left_behind[i], marks);
-        mark_face(m_nearest[i], marks); // once that is back, the distance is what it was
-      }
+      if(left_behind[i] >= 0) // once the nearest is back, the distance is what it was
+        mark_faces({left_behind[i], m_nearest[i]}, marks);
   }
 
   Relocation_options m_options;
@@ -498,9 +479,9 @@ private:
   Positions m_start; // where the descent begins
   Relocation_guards m_guards;
   Size_bounds m_size;
-  std::unique_ptr<Closest_point_query> m_closest;
-  std::unique_ptr<Followed_closest_points> m_followed;
-  std::unique_ptr<Surface_signals> m_sampled;
+  Closest_point_query m_closest; // on the fine mesh
+  Followed_closest_points m_followed;
+  Surface_signals m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
   Face_pairs m_crossing;               // at the start
   std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start

@@ -7,7 +7,6 @@
 
 #include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
-#include <CGAL/Spectral_geometry/internal/numerics/vector_units.h>
 
 #include <Eigen/SparseCholesky>
 

@@ -38,10 +38,8 @@ public:
   /// starts at legal positions.
   void start(const Positions& V)
   {
-    m_V = V;
-    refresh();
     m_history.clear();
-    set_scales();
+    go_on_from(V);
   }
 
   /// goes on where some vertices were put back. Pairs keep their rows of the others, which is about
@@ -101,7 +99,7 @@ private:
   // lengths below 1, one half at the median.
   void set_scales()
   {
-    Eigen::VectorXd lengths = m_gradient.rowwise().norm();
+    const Eigen::VectorXd lengths = m_gradient.rowwise().norm();
     std::vector<double> sorted;
     for(const double l : lengths)
       if(l > 0)

@@ -7,6 +7,7 @@
 
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
 namespace CGAL::Spectral_geometry::internal {
@@ -35,8 +36,9 @@ class Relocation_guards
 public:
   using Positions = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  Relocation_guards(const Positions& V, const Eigen::MatrixXi& T, const Positions& anchors,
-                    const Relocation_limits& limits, const int threads)
+  /// Triangles are compared with what they are at `given`; vertices start at `V`.
+  Relocation_guards(const Positions& given, const Positions& V, const Eigen::MatrixXi& T,
+                    const Positions& anchors, const Relocation_limits& limits, const int threads)
     : m_T(T)
     // The rounding of what is legal only just must not make the start illegal; nor below.
     , m_largest_turn_cosine((std::min)(std::cos(limits.largest_turn), 1 - 1e-12))
@@ -60,40 +62,33 @@ public:
           count(v) += 1;
         }
       }
-    refer_to(V, limits);
     for(Eigen::Index v = 0; v < V.rows(); ++v)
       m_radius(v) = (std::max)(limits.trust_radius * length(v) / (std::max)(count(v), 1.),
                                (V.row(v) - m_anchors.row(v)).norm());
-  }
-
-  /// Compares triangles with what they are at `V`, which may be elsewhere.
-  void refer_to(const Positions& V, const Relocation_limits& limits)
-  {
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      m_normal[std::size_t(f)] = face_normal(V, m_T, f).normalized();
-      m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, V);
+      m_normal[f] = face_normal(given, m_T, f).normalized();
+      m_smallest_angle(f) = (limits.smallest_angle_ratio - 1e-9) * smallest_angle(f, given);
     }
   }
 
-  void fix(const Eigen::Index v) { m_fixed[std::size_t(v)] = true; }
-  bool is_fixed(const Eigen::Index v) const { return m_fixed[std::size_t(v)]; }
+  void fix(const Eigen::Index v) { m_fixed[v] = true; }
+  bool is_fixed(const Eigen::Index v) const { return m_fixed[v]; }
 
-  /// Lets a vertex move along the pieces of a boundary only. Far ones are dropped.
-  void keep_on(const Eigen::Index v, const std::vector<Boundary_segment>& segments)
+  /// Lets a vertex move along those pieces of a border only that are allowed. Far ones are dropped.
+  template <class Allowed_piece>
+  void keep_on(const Eigen::Index v, const Border_polyline& border, const Allowed_piece& allowed)
   {
     const Eigen::Vector3d anchor = m_anchors.row(v);
-    for(const Boundary_segment& s : segments)
-      if((s.closest(anchor) - anchor).norm() <= 2 * m_radius(v))
-        m_boundary[std::size_t(v)].push_back(s);
-    if(m_boundary[std::size_t(v)].empty())
+    for(const std::size_t s : border.near(anchor, 2 * m_radius(v))) {
+      const Boundary_segment piece{border.end(s, 0), border.end(s, 1)};
+      if(allowed(s) && (piece.closest(anchor) - anchor).norm() <= 2 * m_radius(v))
+        m_boundary[v].push_back(piece);
+    }
+    if(!is_on_boundary(v))
       fix(v);
   }
 
-  /// The middle and the radius of the ball in which a vertex stays.
-  Eigen::Vector3d anchor(const Eigen::Index v) const { return m_anchors.row(v); }
-  double radius(const Eigen::Index v) const { return m_radius(v); }
-
-  bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[std::size_t(v)].empty(); }
+  bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[v].empty(); }
 
   /// A further condition on the position of a vertex: a distance to a surface.
   using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
@@ -122,7 +117,7 @@ public:
   void tangential(const Positions& at, Positions& direction) const
   {
     for(Eigen::Index v = 0; v < at.rows(); ++v)
-      if(m_fixed[std::size_t(v)])
+      if(m_fixed[v])
         direction.row(v).setZero();
       else if(is_on_boundary(v)) {
         const Boundary_segment& s = closest_segment(v, at.row(v));
@@ -148,9 +143,9 @@ public:
     std::vector<char> offends(std::size_t(to.rows()), 0);
     for(int round = 0; mark_offenders(to, offends); ++round)
       for(Eigen::Index v = 0; v < to.rows(); ++v)
-        if(offends[std::size_t(v)]) {
-          offends[std::size_t(v)] = 0;
-          m_held_by[std::size_t(v)].triangles = 1;
+        if(offends[v]) {
+          offends[v] = 0;
+          m_held_by[v].triangles = 1;
           if(round >= 4)
             to.row(v) = from.row(v);
           else
@@ -163,7 +158,7 @@ public:
   bool legal(const Eigen::Index f, const Positions& V) const
   {
     const Eigen::Vector3d normal = face_normal(V, m_T, f);
-    if(!(normal.dot(m_normal[std::size_t(f)]) >= m_largest_turn_cosine * normal.norm()))
+    if(!(normal.dot(m_normal[f]) >= m_largest_turn_cosine * normal.norm()))
       return false;
     return smallest_angle(f, V) >= m_smallest_angle(f);
   }
@@ -173,7 +168,7 @@ private:
   void stay_on_sheet(const Eigen::Index v, const Positions& from, Positions& to) const
   {
     for(int cut = 0; m_leaps(v, from.row(v), to.row(v)); ++cut) {
-      m_held_by[std::size_t(v)].sheet = 1;
+      m_held_by[v].sheet = 1;
       if(cut == 3) {
         to.row(v) = from.row(v);
         return;
@@ -195,7 +190,7 @@ private:
 
   const Boundary_segment& closest_segment(const Eigen::Index v, const Eigen::Vector3d& p) const
   {
-    const std::vector<Boundary_segment>& segments = m_boundary[std::size_t(v)];
+    const std::vector<Boundary_segment>& segments = m_boundary[v];
     return *std::min_element(segments.begin(), segments.end(), [&](const auto& s, const auto& t) {
       return (s.closest(p) - p).squaredNorm() < (t.closest(p) - p).squaredNorm();
     });
@@ -204,11 +199,11 @@ private:
   Eigen::Vector3d nearest_allowed(const Eigen::Index v, const Eigen::Vector3d& from,
                                   Eigen::Vector3d to) const
   {
-    if(m_fixed[std::size_t(v)] || !to.allFinite())
+    if(m_fixed[v] || !to.allFinite())
       return from;
     const Eigen::Vector3d anchor = m_anchors.row(v);
     const double distance = (to - anchor).norm();
-    Held& held = m_held_by[std::size_t(v)];
+    Held& held = m_held_by[v];
     if(distance > m_radius(v)) {
       held.trust = 1;
       to = anchor + m_radius(v) / distance * (to - anchor);
@@ -234,7 +229,7 @@ private:
       if(!legal(f, V)) {
         any = true;
         for(int k = 0; k < 3; ++k)
-          offends[std::size_t(m_T(f, k))] = 1;
+          offends[m_T(f, k)] = 1;
       }
     return any;
   }

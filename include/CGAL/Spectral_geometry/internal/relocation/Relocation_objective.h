@@ -5,17 +5,14 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 
-#include <CGAL/Spectral_geometry/Relocation_options.h>
-#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_term.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
-#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
 
 namespace CGAL::Spectral_geometry::internal {
 
 /// Signals of the fine mesh, read off at the closest points of the coarse vertices. The rows of F
-/// and Z that are read lie side by side in a copy: on a large mesh they are few.
+/// and Z that are read are copied once: on a large mesh they are few, and far apart in memory.
 class Surface_signals : public Position_dependent_signals
 {
 public:
@@ -27,7 +24,7 @@ public:
     , m_F(F)
     , m_Z(Z)
     , m_threads(threads)
-    , m_place(std::size_t(fine.V.rows()), -1)
+    , m_rows(std::size_t(fine.V.rows()))
   {}
 
   void evaluate(const Positions& V, Rows& F, Rows& Z) override
@@ -35,13 +32,11 @@ public:
     F.resize(V.rows(), m_F.cols());
     Z.resize(V.rows(), m_F.cols());
     m_answers.resize(std::size_t(V.rows()));
-    const auto find = [&](const Eigen::Index w) {
-      m_answers[std::size_t(w)] = m_closest(w, V.row(w));
-    };
+    const auto find = [&](const Eigen::Index w) { m_answers[w] = m_closest(w, V.row(w)); };
     for_each_task(V.rows(), m_threads, find, 16);
-    read_new_rows();
+    copy_new_rows();
     const auto read_off = [&](const Eigen::Index w) {
-      const Eigen::Vector3d& weights = m_answers[std::size_t(w)].weights;
+      const Eigen::Vector3d& weights = m_answers[w].weights;
       const auto t = corners(w);
       F.row(w) = weights(0) * f(t(0)) + weights(1) * f(t(1)) + weights(2) * f(t(2));
       Z.row(w) = weights(0) * z(t(0)) + weights(1) * z(t(1)) + weights(2) * z(t(2));
@@ -54,27 +49,24 @@ public:
   void add_gradient(const Rows& by_F, const Rows& by_Z, Positions& gradient) const override
   {
     const auto add = [&](const Eigen::Index w) {
-      const Closest_point_query::Answer& a = m_answers[std::size_t(w)];
+      const Closest_point_query::Answer& a = m_answers[w];
       const auto t = corners(w);
       Eigen::Matrix3d p;
       for(int k = 0; k < 3; ++k)
         p.col(k) = m_fine.V.row(t(k));
-      const Eigen::Vector3d normal = (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0));
+      const Eigen::Vector3d normal = face_normal(m_fine.V, m_fine.T, a.face);
       const double size2 = normal.squaredNorm();
-      int zeros = 0, zero = 0;
-      for(int k = 0; k < 3; ++k)
-        if(!(a.weights(k) > 0)) {
-          ++zeros;
-          zero = k;
-        }
-      if(zeros == 2 || !(size2 > 0))
+      Eigen::Index zero;
+      a.weights.minCoeff(&zero);
+      const Eigen::Index positive = (a.weights.array() > 0).count();
+      if(positive == 1 || !(size2 > 0))
         return;
       Eigen::Vector3d g = Eigen::Vector3d::Zero();
       for(int k = 0; k < 3; ++k) {
         const double slope = by_F.row(w).dot(f(t(k))) + by_Z.row(w).dot(z(t(k)));
         g += slope / size2 * normal.cross(p.col((k + 2) % 3) - p.col((k + 1) % 3));
       }
-      if(zeros == 1) {
+      if(positive == 2) {
         const Eigen::Vector3d edge = (p.col((zero + 2) % 3) - p.col((zero + 1) % 3)).normalized();
         g = edge.dot(g) * edge;
       }
@@ -85,36 +77,20 @@ public:
 
 private:
   // The corners of the face that the closest point of w lies in.
-  Eigen::RowVector3i corners(const Eigen::Index w) const
-  {
-    return m_fine.T.row(m_answers[std::size_t(w)].face);
-  }
+  Eigen::RowVector3i corners(const Eigen::Index w) const { return m_fine.T.row(m_answers[w].face); }
 
   using Row = Eigen::Map<const Eigen::RowVectorXd>;
+  Row f(const int v) const { return {m_rows[v].data(), m_F.cols()}; }
+  Row z(const int v) const { return {m_rows[v].data() + m_F.cols(), m_F.cols()}; }
 
-  Row f(const int v) const
+  void copy_new_rows()
   {
-    return {m_rows.data() + m_place[std::size_t(v)] * 2 * m_F.cols(), m_F.cols()};
-  }
-  Row z(const int v) const { return {f(v).data() + m_F.cols(), m_F.cols()}; }
-
-  void read_new_rows()
-  {
-    const Eigen::Index K = m_F.cols(), first = Eigen::Index(m_rows.size()) / (2 * K);
-    std::vector<int> added;
-    for(Eigen::Index w = 0; w < Eigen::Index(m_answers.size()); ++w)
-      for(const int v : corners(w))
-        if(Eigen::Index& place = m_place[std::size_t(v)]; place < 0) {
-          place = first + Eigen::Index(added.size());
-          added.push_back(v);
+    for(std::size_t w = 0; w < m_answers.size(); ++w)
+      for(const int v : corners(Eigen::Index(w)))
+        if(m_rows[v].size() == 0) {
+          m_rows[v].resize(2 * m_F.cols());
+          m_rows[v] << m_F.row(v), m_Z.row(v);
         }
-    m_rows.resize(m_rows.size() + 2 * std::size_t(K) * added.size());
-    double* const rows = m_rows.data() + 2 * K * first;
-    for(Eigen::Index k = 0; k < K; ++k)
-      for(std::size_t i = 0; i < added.size(); ++i) {
-        rows[2 * K * Eigen::Index(i) + k] = m_F(added[i], k);
-        rows[2 * K * Eigen::Index(i) + K + k] = m_Z(added[i], k);
-      }
   }
 
   const Mesh_matrices& m_fine;
@@ -122,8 +98,7 @@ private:
   const Eigen::MatrixXd &m_F, &m_Z;
   int m_threads;
   std::vector<Closest_point_query::Answer> m_answers;
-  std::vector<Eigen::Index> m_place; // of a fine vertex in m_rows, or -1
-  std::vector<double> m_rows;        // of F, of Z beside each
+  std::vector<Eigen::RowVectorXd> m_rows; // of a fine vertex, once read: that of F, then of Z
 };
 
 /// Keeps area and volume between those of the coarse mesh and of the fine one, give or take a
@@ -173,12 +148,9 @@ public:
     if(by_area == 0 && by_volume == 0)
       return 0;
     for(Eigen::Index f = 0; f < m_T.rows(); ++f) {
-      Eigen::Vector3d p[3];
-      for(int k = 0; k < 3; ++k)
-        p[k] = V.row(m_T(f, k));
-      const Eigen::Vector3d unit = (p[1] - p[0]).cross(p[2] - p[0]).normalized();
+      const Eigen::Vector3d unit = face_normal(V, m_T, f).normalized();
       for(int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
+        const Eigen::Vector3d q = V.row(m_T(f, (k + 1) % 3)), r = V.row(m_T(f, (k + 2) % 3));
         const Eigen::Vector3d g = by_area / m_area.from / 2 * unit.cross(r - q) +
                                   by_volume / (m_closed ? m_volume.from : 1.) / 6 * q.cross(r);
         gradient.row(m_T(f, k)) += weight * g.transpose();

@@ -10,8 +10,6 @@
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
 
-#include <CGAL/number_type_config.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 
@@ -28,12 +26,10 @@ E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as m
 as a sixth of the vertices: linear elements hardly have the others. With more than ten vertices for
 each of the K modes they err less, and epsilon falls with the root of K / N.
 
-The modes after these, up to 1.5 K, would fall: a coarse mode i beyond K meets only signals with
-\f$ \lambda_j < \widetilde\lambda_i \f$, so that each of its terms \f$ (\lambda_j -
-\widetilde\lambda_i)^2 C_{ij}^2 \f$ in E becomes smaller when \f$ \widetilde\lambda_i \f$ does. They
-are too low already: with the averaged mass the leading error of the elements is \f$ -x^2 / 461 \f$
-of the eigenvalue, see `commutativity_floor()`. Their mean is to rise as far as it is below that of
-the fine mesh, where some of its eigenvalues there are known; otherwise it is not to fall.
+The modes after these, up to 1.5 K, would fall, see `relocate_positions()`. They are too low
+already: with the averaged mass the leading error of the elements is \f$ -x^2 / 461 \f$ of the
+eigenvalue, see `commutativity_floor()`. Their mean is to rise as far as it is below that of the
+fine mesh, where some of its eigenvalues there are known; otherwise it is not to fall.
 
 Between two calls of `refresh()` the eigenvectors stay, and an eigenvalue is their Rayleigh
 quotient: right to the first order in the movement, and never below by its sum over all modes up to

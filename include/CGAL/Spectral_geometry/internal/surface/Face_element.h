@@ -6,20 +6,15 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_FACE_ELEMENT_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 
 namespace CGAL::Spectral_geometry::internal {
 
 /// The cotangents and the area of a triangle whose edges were divided by 2 to the `exponent`.
 inline Triangle_cotangents cotangents_of(const Triangle_element& t, const int exponent)
 {
-  Triangle_cotangents result{Eigen::Vector3d::Zero(), 0.};
   if(t.is_degenerate())
-    return result;
-  for(int k = 0; k < 3; ++k)
-    result.cot(k) = t.dot[k] / t.twice_area;
-  result.area = std::scalbn(0.5 * t.twice_area, 2 * exponent);
-  return result;
+    return {Eigen::Vector3d::Zero(), 0.};
+  return {Eigen::Vector3d(t.dot) / t.twice_area, std::scalbn(0.5 * t.twice_area, 2 * exponent)};
 }
 
 /// What a face adds: cotangents, area, and the lumped mass of its corners.

@@ -6,7 +6,6 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_OPERATOR_GEOMETRY_H
 
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
-#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
 namespace CGAL::Spectral_geometry::internal {

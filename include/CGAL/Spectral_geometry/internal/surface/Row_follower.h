@@ -5,9 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_ROW_FOLLOWER_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_ROW_FOLLOWER_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
-#include <CGAL/Spectral_geometry/internal/surface/Triangle_element.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
 #include <queue>

@@ -5,7 +5,6 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SURFACE_REGIONS_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_SURFACE_SURFACE_REGIONS_H
 
-#include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/internal/surface/closest_point_search.h>
 
