@@ -248,9 +248,7 @@ Laplace_operator intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V, const Ei
   mesh.make_delaunay();
   const Eigen::MatrixXi& corners = mesh.triangles();
   const double theta = mass_blend(mass);
-  const auto is_loop = [&](const Eigen::Index f, const int k) {
-    return corners(f, (k + 1) % 3) == corners(f, (k + 2) % 3);
-  };
+  std::vector<std::pair<int, double>> loops; // vertex and area of the triangle
 
   Laplace_operator result = internal::assemble(corners, V.rows(), theta, [&](const Eigen::Index f) {
     const Triangle_cotangents t = mesh.cotangents(f);
@@ -262,20 +260,18 @@ Laplace_operator intrinsic_delaunay_laplacian(const Eigen::MatrixXd& V, const Ei
         "matrix; collapse its shortest edge, remesh there or rescale the mesh.");
     internal::Face_element element = internal::lumped_element(t, mass == Mass::voronoi);
     for(int k = 0; k < 3; ++k)
-      if(is_loop(f, k)) // its difference of values is 0
-        element.t.cot(k) = 0.;
+      if(const int v = corners(f, (k + 1) % 3); v == corners(f, (k + 2) % 3)) {
+        element.t.cot(k) = 0.; // its difference of values is 0
+        loops.emplace_back(v, t.area);
+      }
     return element;
   });
   result.voronoi = mass == Mass::voronoi;
 
   // Both of a loop's entries A/12 lie on the diagonal, where assembling by upper triangles leaves
   // one of them.
-  for(Eigen::Index f = 0; f < corners.rows() && theta > 0.; ++f)
-    for(int k = 0; k < 3; ++k)
-      if(is_loop(f, k)) {
-        const int v = corners(f, (k + 1) % 3);
-        result.B.coeffRef(v, v) += theta * mesh.cotangents(f).area / 12.;
-      }
+  for(const auto& [v, area] : loops)
+    result.B.coeffRef(v, v) += theta * area / 12.;
   return result;
 }
 
