@@ -108,6 +108,9 @@ target_to_source_points(const Eigen::MatrixXd& C, const Eigen::MatrixXd& source_
 #include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 
+#include <map>
+#include <set>
+
 namespace CGAL::Spectral_geometry {
 
 std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points,
@@ -130,7 +133,7 @@ std::vector<Eigen::Index> nearest_rows(const Eigen::MatrixXd& points,
   constexpr Eigen::Index share = 256;
   internal::for_each_task(
       static_cast<int>((queries.rows() + share - 1) / share), control.threads, [&](const int k) {
-        std::size_t place = 0;
+        Eigen::Index place = 0;
         for(Eigen::Index i = k * share; i < (std::min)((k + 1) * share, queries.rows()); ++i) {
           internal::report_to(control, {Phase::matching, double(i) / double(queries.rows())});
           result[i] = tree.nearest(query_columns.col(i), place);
@@ -158,8 +161,7 @@ Eigen::MatrixXd functional_map_of_vertex_map(const Eigen::MatrixXd& source_vecto
   Eigen::MatrixXd pulled_back(target_vectors.rows(), source_vectors.cols());
   for(Eigen::Index y = 0; y < pulled_back.rows(); ++y)
     pulled_back.row(y) = source_vectors.row(target_to_source[y]);
-  const Eigen::MatrixXd weighted = target_B * pulled_back;
-  return target_vectors.transpose() * weighted;
+  return target_vectors.transpose() * (target_B * pulled_back);
 }
 
 std::vector<Eigen::Index> target_to_source_map(const Eigen::MatrixXd& C,
@@ -193,38 +195,24 @@ Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
       lengths(c, t) =
           (points.col(source_T(t, (c + 1) % 3)) - points.col(source_T(t, c))).squaredNorm();
 
-  const auto sort_unique = [](std::vector<int>& numbers) {
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-  };
-  struct Found
-  {
-    Eigen::RowVector3i corners;
-    Eigen::Vector3d weights;
-  };
-  std::vector<Found> found(nearest.size());
+  Eigen::Matrix3Xi corners(3, queries.cols()); // of the face, for each query
+  Eigen::Matrix3Xd weights(3, queries.cols());
   const auto look = [&](const Eigen::Index y) {
-    std::vector<int> faces, vertices; // within one edge of the nearest vertex, each once
-    std::vector<double> distances;    // of these vertices, squared
-    const std::size_t i = static_cast<std::size_t>(y);
-    const int near = int(nearest[i]);
+    const int near = int(nearest[y]);
+    std::set<int> faces; // within one edge of the nearest vertex
     for(const int around : star[near])
-      for(int c = 0; c < 3; ++c)
-        for(const int t : star[source_T(around, c)])
-          faces.push_back(t);
-    sort_unique(faces);
-    for(const int t : faces)
-      for(int c = 0; c < 3; ++c)
-        vertices.push_back(source_T(t, c));
-    sort_unique(vertices);
-    const auto query = queries.col(y);
-    for(const int v : vertices)
-      distances.push_back((points.col(v) - query).squaredNorm());
+      for(const int v : source_T.row(around))
+        faces.insert(star[v].begin(), star[v].end());
+    std::map<int, double> distances; // of their vertices, squared
     const auto distance = [&](const int v) {
-      return distances[std::lower_bound(vertices.begin(), vertices.end(), v) - vertices.begin()];
+      const auto [place, is_new] = distances.try_emplace(v);
+      if(is_new)
+        place->second = (points.col(v) - queries.col(y)).squaredNorm();
+      return place->second;
     };
-    double best = (points.col(nearest[i]) - query).squaredNorm();
-    found[i] = {Eigen::RowVector3i::Constant(int(nearest[i])), Eigen::Vector3d::UnitX()};
+    double best = distance(near);
+    corners.col(y).setConstant(near);
+    weights.col(y) = Eigen::Vector3d::UnitX();
     for(const int t : faces) {
       const Eigen::Vector3d d(distance(source_T(t, 0)), distance(source_T(t, 1)),
                               distance(source_T(t, 2)));
@@ -232,16 +220,17 @@ Eigen::SparseMatrix<double> target_to_source_points(const Eigen::MatrixXd& C,
           internal::closest_point_of_triangle_by_distances(d, lengths.col(t));
       if(candidate.squared_distance < best) {
         best = candidate.squared_distance;
-        found[i] = {source_T.row(t), candidate.weights};
+        corners.col(y) = source_T.row(t);
+        weights.col(y) = candidate.weights;
       }
     }
   };
   internal::for_each_task(queries.cols(), control.threads, look, 64);
   std::vector<Eigen::Triplet<double>> entries;
-  for(std::size_t y = 0; y < found.size(); ++y)
+  for(Eigen::Index y = 0; y < queries.cols(); ++y)
     for(int c = 0; c < 3; ++c)
-      if(found[y].weights(c) != 0)
-        entries.emplace_back(static_cast<int>(y), found[y].corners(c), found[y].weights(c));
+      if(weights(c, y) != 0)
+        entries.emplace_back(int(y), corners(c, y), weights(c, y));
   Eigen::SparseMatrix<double> result(target_vectors.rows(), source_vectors.rows());
   result.setFromTriplets(entries.begin(), entries.end());
   return result;

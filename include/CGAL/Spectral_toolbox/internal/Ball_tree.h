@@ -21,54 +21,54 @@ public:
   /// `points`: one in each column, a column at least.
   explicit Ball_tree(const Eigen::MatrixXd& points)
     : m_leading((std::min)(points.rows(), Eigen::Index(32)))
-    , m_order(static_cast<std::size_t>(points.cols()))
+    , m_order(std::size_t(points.cols()))
   {
     std::iota(m_order.begin(), m_order.end(), Eigen::Index(0));
-    std::size_t nodes = 1;
-    for(std::size_t part = m_order.size(); part > leaf_size; part = (part + 1) / 2)
+    Eigen::Index nodes = 1;
+    for(Eigen::Index part = points.cols(); part > leaf_size; part = (part + 1) / 2)
       nodes = 2 * nodes + 1;
-    m_centers.resize(m_leading, static_cast<Eigen::Index>(nodes));
-    m_radii.resize(nodes);
-    build(points.topRows(m_leading), 0, 0, m_order.size());
+    m_centers.resize(m_leading, nodes);
+    m_radii.resize(std::size_t(nodes));
+    build(points.topRows(m_leading), 0, 0, points.cols());
     m_points.resize(points.rows(), points.cols());
-    for(std::size_t i = 0; i < m_order.size(); ++i)
-      m_points.col(static_cast<Eigen::Index>(i)) = points.col(m_order[i]);
+    for(Eigen::Index i = 0; i < points.cols(); ++i)
+      m_points.col(i) = points.col(m_order[i]);
   }
 
   /// The column nearest to `query`, the first of them where several are. `place` is where the
   /// answer was found and where, in the next call, to look first: after a query nearby that saves
   /// much of the search. May be called from several threads.
   template <class Vector>
-  Eigen::Index nearest(const Vector& query, std::size_t& place) const
+  Eigen::Index nearest(const Vector& query, Eigen::Index& place) const
   {
     Nearest best;
     try_point(query, place, best);
-    search(query, 0, 0, m_order.size(), distance(query, 0), best);
+    search(query, 0, 0, m_points.cols(), distance(query, 0), best);
     place = best.place;
     return m_order[place];
   }
 
 private:
-  static constexpr std::size_t leaf_size = 8;
+  using Index = Eigen::Index;
+  static constexpr Index leaf_size = 8;
 
   struct Nearest
   {
     double squared = (std::numeric_limits<double>::infinity)(), distance = squared;
-    std::size_t place = 0;
+    Index place = 0;
   };
 
   // Node k has the points [begin, end), its halves are nodes 2 k + 1 and 2 k + 2.
-  void build(const Eigen::MatrixXd& points, const std::size_t node, const std::size_t begin,
-             const std::size_t end)
+  void build(const Eigen::MatrixXd& points, const Index node, const Index begin, const Index end)
   {
-    auto center = m_centers.col(static_cast<Eigen::Index>(node));
+    auto center = m_centers.col(node);
     center.setZero();
-    for(std::size_t i = begin; i < end; ++i)
+    for(Index i = begin; i < end; ++i)
       center += points.col(m_order[i]);
-    center /= static_cast<double>(end - begin);
-    Eigen::Index tip = m_order[begin]; // the furthest from the center
+    center /= double(end - begin);
+    Index tip = m_order[begin]; // the furthest from the center
     double furthest = 0;
-    for(std::size_t i = begin; i < end; ++i) {
+    for(Index i = begin; i < end; ++i) {
       const double squared = (points.col(m_order[i]) - center).squaredNorm();
       if(squared > furthest) {
         furthest = squared;
@@ -80,14 +80,13 @@ private:
       return;
     // Halves along the longest extent, or nearly so.
     const Eigen::VectorXd direction = points.col(tip) - center;
-    std::vector<std::pair<double, Eigen::Index>> places;
-    places.reserve(end - begin);
-    for(std::size_t i = begin; i < end; ++i)
+    std::vector<std::pair<double, Index>> places;
+    places.reserve(std::size_t(end - begin));
+    for(Index i = begin; i < end; ++i)
       places.emplace_back(direction.dot(points.col(m_order[i])), m_order[i]);
-    const std::size_t middle = begin + (end - begin + 1) / 2;
-    std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(middle - begin),
-                     places.end());
-    for(std::size_t i = begin; i < end; ++i)
+    const Index middle = begin + (end - begin + 1) / 2;
+    std::nth_element(places.begin(), places.begin() + (middle - begin), places.end());
+    for(Index i = begin; i < end; ++i)
       m_order[i] = places[i - begin].second;
     build(points, 2 * node + 1, begin, middle);
     build(points, 2 * node + 2, middle, end);
@@ -95,37 +94,36 @@ private:
 
   // Measures how far the query is from a ball in the leading dimensions, negative inside of it.
   template <class Vector>
-  double distance(const Vector& query, const std::size_t node) const
+  double distance(const Vector& query, const Index node) const
   {
-    return (m_centers.col(static_cast<Eigen::Index>(node)) - query.head(m_leading)).norm() -
-           m_radii[node];
+    return (m_centers.col(node) - query.head(m_leading)).norm() - m_radii[node];
   }
 
   template <class Vector>
-  void try_point(const Vector& query, const std::size_t place, Nearest& best) const
+  void try_point(const Vector& query, const Index place, Nearest& best) const
   {
-    const auto point = m_points.col(static_cast<Eigen::Index>(place));
+    const auto point = m_points.col(place);
     double squared = (point.head(m_leading) - query.head(m_leading)).squaredNorm();
     if(squared > best.squared)
       return;
-    const Eigen::Index rest = point.size() - m_leading;
+    const Index rest = point.size() - m_leading;
     squared += (point.tail(rest) - query.tail(rest)).squaredNorm();
     if(squared < best.squared || (squared == best.squared && m_order[place] < m_order[best.place]))
       best = {squared, std::sqrt(squared) * (1 + 1e-12), place};
   }
 
   template <class Vector>
-  void search(const Vector& query, const std::size_t node, const std::size_t begin,
-              const std::size_t end, const double bound, Nearest& best) const
+  void search(const Vector& query, const Index node, const Index begin, const Index end,
+              const double bound, Nearest& best) const
   {
     if(bound > best.distance)
       return;
     if(end - begin <= leaf_size) {
-      for(std::size_t i = begin; i < end; ++i)
+      for(Index i = begin; i < end; ++i)
         try_point(query, i, best);
       return;
     }
-    const std::size_t middle = begin + (end - begin + 1) / 2, left = 2 * node + 1, right = left + 1;
+    const Index middle = begin + (end - begin + 1) / 2, left = 2 * node + 1, right = left + 1;
     const double to_left = distance(query, left), to_right = distance(query, right);
     if(to_left <= to_right)
       search(query, left, begin, middle, to_left, best);
@@ -134,10 +132,10 @@ private:
       search(query, left, begin, middle, to_left, best);
   }
 
-  Eigen::Index m_leading;            // dimensions
-  std::vector<Eigen::Index> m_order; // of the columns, so that each node has a range
-  Eigen::MatrixXd m_points;          // in that order
-  Eigen::MatrixXd m_centers;         // of the balls, by node
+  Index m_leading;            // dimensions
+  std::vector<Index> m_order; // of the columns, so that each node has a range
+  Eigen::MatrixXd m_points;   // in that order
+  Eigen::MatrixXd m_centers;  // of the balls, by node
   std::vector<double> m_radii;
 };
 
