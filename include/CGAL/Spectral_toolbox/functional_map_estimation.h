@@ -220,9 +220,6 @@ Eigen::MatrixXd functional_map_of_descriptors(const Spectral_shape& X, const Spe
     if(weights.orientation > 0)
       add_scaled(orientation_operator(X.T, phi, fi), orientation_operator(Y.T, psi, gi),
                  weights.orientation);
-  }
-
-  for(Eigen::Index i = 0; i < f.cols(); ++i) {
     const double scale = std::hypot(a.col(i).norm(), b.col(i).norm()) * std::sqrt(d / 2);
     if(scale > 0) {
       a.col(i) /= scale;

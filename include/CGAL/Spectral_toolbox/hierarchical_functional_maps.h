@@ -89,19 +89,17 @@ Lifted_functional_map lift_functional_map(const Eigen::MatrixXd& source_restrict
         "functional map: a map is empty or has an entry that is not finite, check the "
         "eigenvectors and restrictions.");
 
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction,
-                                              Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(target_restriction,
+                                        Eigen::ComputeThinU | Eigen::ComputeThinV);
+  svd.setThreshold((std::max)(tolerance, 1e-14));
   const Eigen::VectorXd& sigma = svd.singularValues();
   const Eigen::MatrixXd right = coarse * source_restriction;
   Lifted_functional_map result;
-  const double threshold = (std::max)(tolerance, 1e-14) * sigma(0);
-  Eigen::VectorXd inverse = Eigen::VectorXd::Zero(sigma.size());
-  for(; result.rank < sigma.size() && sigma(result.rank) > threshold; ++result.rank)
-    inverse(result.rank) = 1 / sigma(result.rank);
-  result.C = svd.matrixV() * (inverse.asDiagonal() * (svd.matrixU().transpose() * right));
+  result.rank = svd.rank();
+  result.C = svd.solve(right);
   const double smallest = target_restriction.cols() <= sigma.size() ? sigma(sigma.size() - 1) : 0.;
-  result.condition =
-      smallest > 1e-14 * sigma(0) ? sigma(0) / smallest : std::numeric_limits<double>::infinity();
+  if(smallest > 1e-14 * sigma(0)) // else infinite
+    result.condition = sigma(0) / smallest;
   const double norm = right.norm();
   if(norm > 0)
     result.relative_residual = (target_restriction * result.C - right).norm() / norm;
