@@ -149,7 +149,25 @@ fit_operators(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>&
 namespace internal {
 
 /// Throws `std::invalid_argument` for an option out of range.
-CGAL_SPECTRAL_TOOLBOX_INLINE void check_operator_fit_options(const Operator_fit_options& options);
+inline void check_operator_fit_options(const Operator_fit_options& o)
+{
+  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
+          ".");
+  require(o.orthonormality >= 0. && o.whole_residual >= 0. &&
+              std::isfinite(o.orthonormality + o.whole_residual),
+          "operator fit: orthonormality and whole_residual must be numbers from 0.");
+  require(o.low_modes >= 0. && o.low_modes <= 20.,
+          "operator fit: low_modes must be a number from 0 to 20.");
+  require(o.regularization > 0. && std::isfinite(o.regularization),
+          "operator fit: regularization must be a positive number.");
+  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. &&
+              o.smallest_mass <= 1.,
+          "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
+  require(o.tolerance > 0. && o.tolerance < 1.,
+          "operator fit: tolerance must lie between 0 and 1.");
+  require(o.maximum_iterations >= 0, "operator fit: maximum_iterations must not be negative.");
+  require(o.threads >= 1, "operator fit: threads must be at least 1.");
+}
 
 } // namespace internal
 } // namespace CGAL::Spectral_geometry
@@ -314,8 +332,6 @@ private:
     const double median_size = median(Vector::Map(sizes.data(), Index(sizes.size()))),
                  scale = median_size > 0. ? median_size : 1.;
     const double largest = 1e3 * scale;
-    for(auto& ring : rings)
-      std::sort(ring.begin(), ring.end());
     const auto edge = [&](Index a, Index b) { // or null
       const auto found =
           std::lower_bound(rings[a].begin(), rings[a].end(), std::make_pair(b, Index(0)));
@@ -441,14 +457,16 @@ private:
     const Index nL = m_stiffness.size(), nB = m_mass.size(), K = m_lambda.size(),
                 panels = m_G.panels();
     const Sparse_matrix L = m_stiffness.matrix(x.head(nL)), B = m_mass.matrix(x.tail(nB));
-    Tall_matrix R(m_row_mass.size(), K);
+    Panel_matrix R(m_row_mass.size(), K), lambda(m_lambda.transpose()),
+        weight(m_weight.transpose());
     struct Sums
     {
-      Panel_blocks GBG, GLG;
+      Panel_matrix GBG, GLG;
       double f;
     };
-    std::vector<Sums> sums(number_of_ranges(), {Panel_blocks(panels), Panel_blocks(panels), 0.});
-    for_each_block([&](Index range, Index first, Index rows, Tall_matrix& BG, Tall_matrix& LG) {
+    const Panel_matrix zeros(panels * panel_width, K);
+    std::vector<Sums> sums(number_of_ranges(), {zeros, zeros, 0.});
+    for_each_block([&](Index range, Index first, Index rows, Panel_matrix& BG, Panel_matrix& LG) {
       Sums& sum = sums[range];
       for(Index q = 0; q < panels; ++q) {
         for(const auto& product : {std::make_pair(&B, &BG), std::make_pair(&L, &LG)})
@@ -459,8 +477,8 @@ private:
           gram(m_G.row(p, first), LG.row(q, 0), rows, sum.GLG.block(p, q));
         }
         auto E = R.rows(q, first, rows);
-        E = BG.rows(q, 0, rows).rowwise() * of_panel(m_lambda, q) - LG.rows(q, 0, rows);
-        const Panel_numbers W = of_panel(m_weight, q);
+        E = BG.rows(q, 0, rows).rowwise() * lambda.numbers(q) - LG.rows(q, 0, rows);
+        const auto W = weight.numbers(q);
         const auto row_weight = m_options.whole_residual / m_row_mass.segment(first, rows).array();
         if(affine)
           sum.f += ((E.square().rowwise() * W).rowwise().sum() * row_weight).sum();
@@ -470,10 +488,12 @@ private:
     Matrix T = Matrix::Zero(K, K), S = T;
     double f = 0.;
     for(Sums& sum : sums) {
-      sum.GBG.add_to(T);
-      sum.GLG.add_to(S);
+      sum.GBG.add_upper_to(T);
+      sum.GLG.add_upper_to(S);
       f += sum.f;
     }
+    for(Matrix* symmetric : {&T, &S})
+      symmetric->triangularView<Eigen::StrictlyLower>() = symmetric->transpose();
     const Matrix X = T * m_lambda.asDiagonal() - S;
     if(affine)
       T.diagonal().array() -= 1.;
@@ -482,45 +502,29 @@ private:
     if(affine)
       f += (X.cwiseAbs2() * m_weight).sum() + m_options.orthonormality * T.squaredNorm() +
            penalty * total.cwiseAbs2().dot(m_share) + change.cwiseAbs2().dot(m_regularization);
-    const Panel_blocks of_L(-X * m_weight.asDiagonal()), of_B(-m_options.orthonormality * T);
+    Panel_matrix of_L(-X * m_weight.asDiagonal()), of_B(-m_options.orthonormality * T);
     Vector by_L(L.nonZeros()), by_B(B.nonZeros());
-    for_each_block([&](Index, Index first, Index rows, Tall_matrix& A, Tall_matrix&) {
-      const auto add_product_of_G = [&](const Panel_blocks& minus_M, Index q) {
+    for_each_block([&](Index, Index first, Index rows, Panel_matrix& A, Panel_matrix&) {
+      const auto add_product_of_G = [&](Panel_matrix& minus_M, Index q) {
         for(Index p = 0; p < panels; ++p)
           subtract_product(A.row(q, 0), m_G.row(p, first), rows, minus_M.block(p, q));
-      };
-      const auto sample = [&](const Sparse_matrix& pattern, Vector& result) {
-        sampled_product(pattern.outerIndexPtr() + first, pattern.innerIndexPtr(), A.row(0, 0),
-                        A.panel_size(), m_G.row(0, 0), m_G.panel_size(), panels, result.data(),
-                        rows);
       };
       for(Index q = 0; q < panels; ++q) {
         A.rows(q, 0, rows) = R.rows(q, first, rows);
         add_product_of_G(of_L, q);
       }
-      sample(L, by_L);
+      sampled_product(L, first, rows, A, m_G, by_L.data());
       for(Index q = 0; q < panels; ++q) {
-        A.rows(q, 0, rows).rowwise() *= of_panel(m_lambda, q);
+        A.rows(q, 0, rows).rowwise() *= lambda.numbers(q);
         add_product_of_G(of_B, q);
       }
-      sample(B, by_B);
+      sampled_product(B, first, rows, A, m_G, by_B.data());
     });
     g.resize(x.size());
     g.head(nL) = -m_stiffness.derivatives(by_L);
     g.tail(nB) = m_mass.derivatives(by_B);
     g += penalty * m_total.cwiseProduct(spread(total)) + m_regularization.cwiseProduct(change);
     return f;
-  }
-
-  using Panel_numbers = Eigen::Array<double, 1, panel_width>;
-
-  // The numbers of the signals of panel q.
-  static Panel_numbers of_panel(const Vector& v, Index q)
-  {
-    const Index begin = q * panel_width, width = (std::min)(Index(panel_width), v.size() - begin);
-    Panel_numbers result = Panel_numbers::Zero();
-    result.head(width) = v.segment(begin, width).transpose().array();
-    return result;
   }
 
   // Ranges of rows whose sums are formed apart, however many threads there are.
@@ -534,7 +538,7 @@ private:
     const Index N = m_row_mass.size(), ranges = number_of_ranges();
     for_each_task(ranges, m_options.threads, [&](const Index range) {
       const Index end = N * (range + 1) / ranges;
-      Tall_matrix first_scratch(rows_of_block, m_lambda.size()), second_scratch = first_scratch;
+      Panel_matrix first_scratch(rows_of_block, m_lambda.size()), second_scratch = first_scratch;
       for(Index first = N * range / ranges; first < end; first += rows_of_block)
         f(range, first, (std::min)(rows_of_block, end - first), first_scratch, second_scratch);
     });
@@ -589,10 +593,10 @@ private:
   // out, a block of more unknowns of the preconditioner is diagonal.
   static constexpr Index largest_star = 64, largest_block = 256;
   static constexpr Index rows_of_block = 128;
-  static constexpr double penalty =
-      1e4; // of the totals of the mass; the other terms are about 1 or less
+  // of the totals of the mass; the other terms are about 1 or less
+  static constexpr double penalty = 1e4;
   const Operator_fit_options& m_options;
-  Tall_matrix m_G;
+  Panel_matrix m_G;
   const Vector m_lambda;
   const double m_area;
   const Vector m_row_mass;
@@ -614,46 +618,20 @@ private:
 inline void settle_remote_vertices(const Laplace_operator& own, const Eigen::VectorXd& lambda,
                                    Eigen::MatrixXd& G)
 {
-  const double area = own.mass.sum();
-  const Eigen::VectorXd mode = area * own.L.diagonal().cwiseQuotient(own.mass);
+  const Eigen::RowVectorXd scaled = lambda.transpose() / own.mass.sum();
+  const Eigen::VectorXd mode = own.mass.sum() * own.L.diagonal().cwiseQuotient(own.mass);
   const double remote = 8. * (std::max)(lambda.maxCoeff(), median(mode));
   for(int sweep = 0; sweep < 10; ++sweep)
     for(Eigen::Index v = 0; v < mode.size(); ++v) {
       if(!(mode(v) > remote))
         continue;
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(lambda.size()), diagonal = sum;
-      const auto add = [&](const Eigen::SparseMatrix<double>& A, const Eigen::RowVectorXd& factor) {
-        for(Eigen::SparseMatrix<double>::InnerIterator it(A, v); it; ++it)
-          if(it.row() == v)
-            diagonal += it.value() * factor;
-          else
-            sum -= it.value() * factor.cwiseProduct(G.row(it.row()));
-      };
-      add(own.L, Eigen::RowVectorXd::Ones(lambda.size()));
-      add(own.B, -lambda.transpose() / area);
-      if(diagonal.minCoeff() > 0.)
-        G.row(v) = sum.cwiseQuotient(diagonal);
+      const Eigen::RowVectorXd diagonal = own.L.coeff(v, v) - own.B.coeff(v, v) * scaled.array();
+      if(!(diagonal.minCoeff() > 0.))
+        continue;
+      G.row(v).setZero(); // what is left are its neighbours
+      const Eigen::RowVectorXd L = own.L.col(v).transpose() * G, B = own.B.col(v).transpose() * G;
+      G.row(v) = (B.cwiseProduct(scaled) - L).cwiseQuotient(diagonal);
     }
-}
-
-void check_operator_fit_options(const Operator_fit_options& o)
-{
-  require(o.rings == 1 || o.rings == 2, "operator fit: rings must be 1 or 2, but is ", o.rings,
-          ".");
-  require(o.orthonormality >= 0. && o.whole_residual >= 0. &&
-              std::isfinite(o.orthonormality + o.whole_residual),
-          "operator fit: orthonormality and whole_residual must be numbers from 0.");
-  require(o.low_modes >= 0. && o.low_modes <= 20.,
-          "operator fit: low_modes must be a number from 0 to 20.");
-  require(o.regularization > 0. && std::isfinite(o.regularization),
-          "operator fit: regularization must be a positive number.");
-  require(o.smallest_weight > 0. && o.smallest_weight <= 1. && o.smallest_mass > 0. &&
-              o.smallest_mass <= 1.,
-          "operator fit: smallest_weight and smallest_mass must lie in ]0, 1].");
-  require(o.tolerance > 0. && o.tolerance < 1.,
-          "operator fit: tolerance must lie between 0 and 1.");
-  require(o.maximum_iterations >= 0, "operator fit: maximum_iterations must not be negative.");
-  require(o.threads >= 1, "operator fit: threads must be at least 1.");
 }
 
 inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::SparseMatrix<double>& P,
@@ -672,8 +650,7 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   require(coarse.boundary == Boundary_condition::neumann &&
               fine.boundary == Boundary_condition::neumann,
           "operator fit: the rows of a fitted Laplacian sum to zero, which those of the Dirichlet "
-          "condition "
-          "do not; pass operators without it.");
+          "condition do not; pass operators without it.");
   for(Eigen::Index v = 0; v < N; ++v)
     require(coarse.mass(v) > 0. && std::isfinite(coarse.mass(v)), "operator fit: the mass of ",
             vertex_name(v), " of the coarse mesh is not a positive number.");

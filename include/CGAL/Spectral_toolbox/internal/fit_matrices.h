@@ -11,98 +11,62 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// A tall matrix, panel by panel of eight columns; the last one is filled up with zeros.
-class Tall_matrix
+/// A matrix panel by panel, of eight columns each. The last one is filled up with zeros, and so are
+/// the last eight rows of a copy: rows 8 p .. 8 p + 7 of a panel are a block for the kernels.
+class Panel_matrix
 {
 public:
   // Eight columns of some rows.
   using Rows = Eigen::Map<Eigen::Array<double, Eigen::Dynamic, panel_width, Eigen::RowMajor>>;
 
-  Tall_matrix(Index rows, Index columns)
+  Panel_matrix(Index rows, Index columns)
     : m_rows(rows)
-    , m_panels((columns + panel_width - 1) / panel_width)
+    , m_panels(whole_panels(columns))
     , m_storage(std::size_t(m_rows * m_panels * panel_width))
   {}
-  explicit Tall_matrix(const Eigen::MatrixXd& A)
-    : Tall_matrix(A.rows(), A.cols())
+  explicit Panel_matrix(const Eigen::MatrixXd& A)
+    : Panel_matrix(whole_panels(A.rows()) * panel_width, A.cols())
   {
     for(Index k = 0; k < A.cols(); ++k)
-      rows(k / panel_width, 0, m_rows).col(k % panel_width) = A.col(k).array();
+      rows(k / panel_width, 0, A.rows()).col(k % panel_width) = A.col(k).array();
   }
 
   Index panels() const { return m_panels; }
   Index panel_size() const { return m_rows * panel_width; }
   double* row(Index p, Index i) { return m_storage.data() + (p * m_rows + i) * panel_width; }
-  const double* row(Index p, Index i) const
-  {
-    return m_storage.data() + (p * m_rows + i) * panel_width;
-  }
+  double* block(Index p, Index q) { return row(q, p * panel_width); }
   Rows rows(Index p, Index first, Index count) { return Rows(row(p, first), count, panel_width); }
+  Eigen::Array<double, 1, panel_width> numbers(Index p) { return rows(p, 0, 1).row(0); }
+
+  /// Adds what is not below the diagonal to that of a smaller square matrix.
+  void add_upper_to(Eigen::MatrixXd& M)
+  {
+    for(Index k = 0; k < M.cols(); ++k)
+      M.col(k).head(k + 1) += rows(k / panel_width, 0, k + 1).col(k % panel_width).matrix();
+  }
 
 private:
+  static Index whole_panels(Index columns) { return (columns + panel_width - 1) / panel_width; }
+
   Index m_rows, m_panels;
   Aligned_buffer m_storage;
 };
 
-/// A small square matrix in blocks of 8 x 8, as the kernels for panels have it.
-class Panel_blocks
+/// y_p = the inner product of rows i of A and column[p] of G, for each entry p of row first + i of
+/// a sparse matrix.
+inline void sampled_product(const Sparse_matrix& pattern, Index first, Index rows, Panel_matrix& A,
+                            Panel_matrix& G, double* y)
 {
-public:
-  explicit Panel_blocks(Index panels)
-    : m_panels(panels)
-    , m_storage(std::size_t(panels * panels * panel_width * panel_width))
-  {}
-  explicit Panel_blocks(const Eigen::MatrixXd& M)
-    : Panel_blocks((M.cols() + panel_width - 1) / panel_width)
-  {
-    for(Index j = 0; j < M.cols(); ++j)
-      for(Index i = 0; i < M.rows(); ++i)
-        entry(i, j) = M(i, j);
-  }
-
-  double* block(Index p, Index q)
-  {
-    return m_storage.data() + (p * m_panels + q) * panel_width * panel_width;
-  }
-  const double* block(Index p, Index q) const
-  {
-    return const_cast<Panel_blocks&>(*this).block(p, q);
-  }
-
-  // adds the first rows and columns of a symmetric matrix, of which there are the blocks from the
-  // diagonal on
-  void add_to(Eigen::MatrixXd& M)
-  {
-    for(Index j = 0; j < M.cols(); ++j)
-      for(Index i = 0; i <= j; ++i) {
-        M(i, j) += entry(i, j);
-        M(j, i) = M(i, j);
-      }
-  }
-
-private:
-  double& entry(Index i, Index j)
-  {
-    return block(i / panel_width, j / panel_width)[i % panel_width * panel_width + j % panel_width];
-  }
-
-  Index m_panels;
-  Aligned_buffer m_storage;
-};
-
-/// y_p = the inner product of row i of A and row column[p] of G, for each entry p of the first rows
-/// of a sparse matrix. Two panels of a matrix lie `A_panel` and `G_panel` numbers apart.
-inline void sampled_product(const int* start, const int* column, const double* A,
-                            std::ptrdiff_t A_panel, const double* G, std::ptrdiff_t G_panel,
-                            std::ptrdiff_t panels, double* y, std::ptrdiff_t rows)
-{
+  const int *start = pattern.outerIndexPtr() + first, *column = pattern.innerIndexPtr();
+  const double *of_A = A.row(0, 0), *of_G = G.row(0, 0);
+  const Index panels = G.panels(), A_panel = A.panel_size(), G_panel = G.panel_size();
   on_rows([=](const auto& kind) CGAL_SPECTRAL_INLINE_LAMBDA {
     using Row = std::decay_t<decltype(kind)>;
-    for(std::ptrdiff_t i = 0; i < rows; ++i)
+    for(Index i = 0; i < rows; ++i)
       for(int p = start[i]; p < start[i + 1]; ++p) {
-        const double *a = A + i * panel_width, *g = G + std::ptrdiff_t(column[p]) * panel_width;
+        const double *a = of_A + i * panel_width, *g = of_G + Index(column[p]) * panel_width;
         Row sum{}, r, s;
-        for(std::ptrdiff_t q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
+        for(Index q = 0; q < panels; ++q, a += A_panel, g += G_panel) {
           load(r, a);
           load(s, g);
           add(sum, r, s);
@@ -119,9 +83,7 @@ inline void sampled_product(const int* start, const int* column, const double* A
 class Rank_one_terms
 {
 public:
-  using Index = Eigen::Index;
   using Vector = Eigen::VectorXd;
-  using Row = Eigen::RowVectorXd;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Sparse_rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
   using Entries = std::vector<std::pair<Index, double>>;
@@ -145,14 +107,11 @@ public:
     m_D.setFromTriplets(m_entries.begin(), m_entries.end());
     m_entries.clear();
     m_pattern = m_D.transpose() * m_D; // where entries are
-    const int *start = m_pattern.outerIndexPtr(), *rows = m_pattern.innerIndexPtr();
     for(Index a = 0; a < size(); ++a)
       for(Sparse_rows::InnerIterator j(m_D, a); j; ++j)
         for(Sparse_rows::InnerIterator i(m_D, a); i; ++i) {
-          const int* p =
-              std::lower_bound(rows + start[j.col()], rows + start[j.col() + 1], i.col());
-          m_entries.emplace_back(static_cast<int>(p - rows), static_cast<int>(a),
-                                 i.value() * j.value());
+          const auto entry = &m_pattern.coeffRef(i.col(), j.col()) - m_pattern.valuePtr();
+          m_entries.emplace_back(int(entry), int(a), i.value() * j.value());
         }
     m_map.resize(m_pattern.nonZeros(), size());
     m_map.setFromTriplets(m_entries.begin(), m_entries.end());
@@ -160,7 +119,7 @@ public:
   }
 
   // d_a^T G
-  Row row(Index a, const Rows& G) const { return m_D.row(a) * G; }
+  Eigen::RowVectorXd row(Index a, const Rows& G) const { return m_D.row(a) * G; }
 
   Sparse_matrix matrix(const Vector& x) const
   {
