@@ -20,6 +20,11 @@ namespace CGAL::Surface_mesh_simplification {
 
 namespace internal {
 
+/// Whether one of these named parameters is given.
+template <class NamedParameters, class... Parameter>
+constexpr bool is_given =
+    !(parameters::is_default_parameter<NamedParameters, Parameter>::value && ...);
+
 /// The merge that was announced, given the slot that has gone on. The loop keeps v1 in every
 /// version tried; should it keep v0, the weights change places.
 inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept,
@@ -50,8 +55,8 @@ inline Spectral_geometry::Merge_forest::Merge merge_into(const Eigen::Index kept
  * const auto result = SMS::spectral_edge_collapse(mesh, 600, options);
  * SMS::Collapse_replay<Mesh> replay(copy, result.log);
  * for(const std::size_t N : {5000, 2000, 1000}) {
- *   replay.collapse_to(N); // `copy` is what spectral_edge_collapse(copy, N, options) would have
- *   made of it const Eigen::SparseMatrix<double> P = replay.restriction();
+ *   replay.collapse_to(N); // as spectral_edge_collapse(copy, N, options) would
+ *   const Eigen::SparseMatrix<double> P = replay.restriction();
  * }
  * \endcode
  *
@@ -78,17 +83,6 @@ public:
   explicit Collapse_log(const Index n)
     : m_forest(n)
   {}
-
-  /// The merges, and for each where its vertex was put. Throws `std::invalid_argument` if their
-  /// numbers differ.
-  Collapse_log(Spectral_geometry::Merge_forest forest, std::vector<Eigen::Vector3d> points)
-    : m_forest(std::move(forest))
-    , m_points(std::move(points))
-  {
-    internal::require(m_forest.merges().size() == m_points.size(), "Collapse_log: there are ",
-                      m_points.size(), " points for ", m_forest.merges().size(),
-                      " merges; give one for each.");
-  }
 
   /// Makes room for so many merges in all.
   void reserve(const std::size_t number_of_merges)
@@ -315,8 +309,7 @@ private:
 
   vertex_descriptor collapse(const halfedge_descriptor h)
   {
-    if constexpr(!parameters::is_default_parameter<NamedParameters,
-                                                   internal_np::edge_is_constrained_t>::value)
+    if constexpr(internal::is_given<NamedParameters, internal_np::edge_is_constrained_t>)
       return Euler::collapse_edge(
           edge(h, *m_mesh), *m_mesh,
           parameters::get_parameter(m_np, internal_np::edge_is_constrained));

@@ -5,7 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_FEATURE_VERTICES_MAP_H
 #define CGAL_SURFACE_MESH_SIMPLIFICATION_POLICIES_EDGE_COLLAPSE_FEATURE_VERTICES_MAP_H
 
-#include <CGAL/Spectral_geometry/internal/basics.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/Fine_vertex_slots.h>
 
 #include <CGAL/license/Surface_mesh_simplification.h>
 
@@ -71,22 +71,18 @@ public:
     : m_flags(get(CGAL::dynamic_vertex_property_t<bool>(), mesh))
   {
     const double angle = degrees.value_or(180);
-    Spectral_geometry::internal::require(
-        angle > 0 && angle <= 180,
-        "Feature_vertices_map: the angle must be above 0 and up to 180 degrees, not ", angle);
+    internal::require(angle > 0 && angle <= 180,
+                      "Feature_vertices_map: the angle must be above 0 and up to 180 degrees, not ",
+                      angle);
     for(const Vertex v : vertices(mesh))
       put(m_flags, v, false);
     const auto points =
         parameters::choose_parameter(parameters::get_parameter(np, internal_np::vertex_point),
                                      get_const_property_map(vertex_point, mesh));
-    const auto position = [&](const Vertex v) {
-      const auto& p = get(points, v);
-      return Eigen::Vector3d(CGAL::to_double(p.x()), CGAL::to_double(p.y()),
-                             CGAL::to_double(p.z()));
-    };
     const auto along = [&](const auto h) {
-      return Eigen::Vector3d(
-          (position(target(h, mesh)) - position(source(h, mesh))).stableNormalized());
+      const Eigen::Vector3d edge = internal::to_vector(get(points, target(h, mesh))) -
+                                   internal::to_vector(get(points, source(h, mesh)));
+      return Eigen::Vector3d(edge.stableNormalized());
     };
     const auto normal = [&](const auto h) {
       return Eigen::Vector3d(along(h).cross(along(next(h, mesh))).stableNormalized());

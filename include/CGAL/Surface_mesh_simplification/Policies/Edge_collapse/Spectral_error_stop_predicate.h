@@ -64,8 +64,7 @@ public:
     : Spectral_error_stop_predicate(policies, maximum_error, policies.get_placement())
   {}
 
-  /// Takes a placement that wraps that of the policies, `Constrained_placement` for
-  /// instance.
+  /// Takes a placement that wraps that of the policies, `Constrained_placement` for instance.
   Spectral_error_stop_predicate(const Policies& policies, const double maximum_error,
                                 const GetPlacement& placement)
     : m_state(policies.shared_state())

@@ -40,8 +40,7 @@ public:
     : Spectral_stop_predicate(policies, number_of_vertices, maximum_error, policies.get_placement())
   {}
 
-  /// Takes a placement that wraps that of the policies, `Constrained_placement` for
-  /// instance.
+  /// Takes a placement that wraps that of the policies, `Constrained_placement` for instance.
   Spectral_stop_predicate(const Policies& policies, const std::size_t number_of_vertices,
                           const double maximum_error, const GetPlacement& placement)
     : m_state(policies.shared_state())

@@ -51,13 +51,11 @@ public:
   bool operator()(const Cost&, const Profile&, const std::size_t initial_edge_count,
                   const std::size_t current_edge_count) const
   {
-    const bool same_run = m_counted && initial_edge_count == m_initial_edges;
+    const bool same_run = initial_edge_count == m_initial_edges;
     if(same_run && current_edge_count < m_edges && m_edges - current_edge_count <= 3)
       --m_vertices; // one collapse
-    else if(!same_run || current_edge_count != m_edges) {
+    else if(!same_run || current_edge_count != m_edges)
       m_vertices = std::size_t(std::distance(vertices(*m_mesh).begin(), vertices(*m_mesh).end()));
-      m_counted = true;
-    }
     m_initial_edges = initial_edge_count;
     m_edges = current_edge_count;
     return m_vertices <= m_target;
@@ -66,8 +64,8 @@ public:
 private:
   std::size_t m_target;
   const Triangle_mesh* m_mesh;
-  mutable bool m_counted = false;
-  mutable std::size_t m_vertices = 0, m_edges = 0, m_initial_edges = 0;
+  mutable std::size_t m_vertices = 0, m_edges = 0;
+  mutable std::size_t m_initial_edges = (std::numeric_limits<std::size_t>::max)(); // no run so far
 };
 
 /// @}
