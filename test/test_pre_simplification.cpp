@@ -335,8 +335,10 @@ TEST_CASE("The mesh after quadrics is the one that a replay of their log leaves"
   const auto check = [apart](auto input, const std::size_t N, const std::vector<char>& kept) {
     using Any_mesh = decltype(input);
     Any_mesh mesh = input;
+    SMS::Spectral_options options;
+    options.preserve_border = apart;
     const auto [log, slots] = SMS::internal::collapse_by_quadrics(
-        mesh, N, kept, apart, false, true, [](std::size_t) {}, CGAL::parameters::default_values());
+        mesh, N, kept, options, CGAL::parameters::default_values());
     SMS::Collapse_replay<Any_mesh> replay(input, log);
     replay.collapse_to(log.number_of_vertices_left());
     REQUIRE(log.number_of_vertices_left() == N);
@@ -421,8 +423,8 @@ TEST_CASE("Quadrics of the shape and slots follow, on meshes whose vertices are 
   SMS::Spectral_policies<Polyhedron, Kernel> policies(mesh, options);
   SMS::Collapse_log log;
   policies.state().collapse_by_others([&] {
-    auto done = SMS::internal::collapse_by_quadrics(mesh, std::size_t(input.V.rows()), 300, {},
-                                                    options, CGAL::parameters::default_values());
+    auto done = SMS::internal::collapse_by_quadrics(mesh, 300, {}, options,
+                                                    CGAL::parameters::default_values());
     log = done.first;
     return done;
   });

@@ -18,7 +18,6 @@
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
-#include <algorithm>
 #include <iterator>
 #include <numeric>
 
@@ -29,12 +28,9 @@ namespace internal {
 /// no use for.
 template <class NamedParameters>
 constexpr bool overrides_policies =
-    !parameters::is_default_parameter<NamedParameters, internal_np::get_cost_policy_t>::value ||
-    !parameters::is_default_parameter<NamedParameters,
-                                      internal_np::get_placement_policy_t>::value ||
-    !parameters::is_default_parameter<NamedParameters, internal_np::use_relaxed_order_t>::value ||
-    !parameters::is_default_parameter<NamedParameters, internal_np::vertex_index_t>::value ||
-    !parameters::is_default_parameter<NamedParameters, internal_np::halfedge_index_t>::value;
+    is_given<NamedParameters, internal_np::get_cost_policy_t, internal_np::get_placement_policy_t,
+             internal_np::use_relaxed_order_t, internal_np::vertex_index_t,
+             internal_np::halfedge_index_t>;
 
 inline void check_target(const char* const caller, const std::size_t target, const std::size_t n)
 {
@@ -107,44 +103,36 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
     for(const auto h : halfedges_around_face(next(halfedge(f, mesh), mesh), mesh))
       halfedges.push_back(h);
 
-  // For each slot its vertex, and the input vertex that has its point, or ~ the merge that has.
-  std::vector<int> vertex(input.size());
+  std::vector<int> vertex(input.size()); // of each slot
   std::iota(vertex.begin(), vertex.end(), 0);
-  std::vector<int> place = vertex;
   const auto& merges = run.log.forest().merges();
   for(std::size_t i = 0; i < merges.size(); ++i) {
-    const auto [corner, point] = run.collapsed[i];
-    const auto h = corner < 0 ? opposite(halfedges[~corner], mesh) : halfedges[corner];
-    const auto [removed, kept, weight] = merges[i];
+    const int c = run.collapsed[i];
+    const auto h = c < 0 ? opposite(halfedges[~c], mesh) : halfedges[c];
     if(halfedge(edge(h, mesh), mesh) != h) // an edge that knows no direction
-      vertex[kept] = vertex[removed];
-    if(point == Quadric_collapses::Edge::removed)
-      place[kept] = place[removed];
-    else if(point == Quadric_collapses::Edge::neither)
-      place[kept] = ~int(i);
+      vertex[merges[i].kept] = vertex[merges[i].removed];
   }
   std::vector<Eigen::Index> slots(input.size(), -1);
   for(const Eigen::Index slot : run.log.forest().kept_slots(Eigen::Index(merges.size()))) {
     slots[vertex[slot]] = slot;
-    if(place[slot] < 0) {
-      const Eigen::Vector3d& x = run.log.points()[~place[slot]];
+    const int place = run.place[slot];
+    if(place < 0) {
+      const Eigen::Vector3d& x = run.log.points()[~place];
       put(points, input[vertex[slot]], Point(FT(x.x()), FT(x.y()), FT(x.z())));
-    } else if(place[slot] != vertex[slot])
-      put(points, input[vertex[slot]], Point(get(points, input[place[slot]])));
+    } else if(place != vertex[slot])
+      put(points, input[vertex[slot]], Point(get(points, input[place])));
   }
 
-  std::vector<typename Traits::edge_descriptor> removed;
-  removed.reserve(run.collapsed.size() + run.joined.size());
-  for(const auto& [c, point] : run.collapsed)
-    removed.push_back(edge(halfedges[c < 0 ? ~c : c], mesh));
-  for(const int c : run.joined)
-    removed.push_back(edge(halfedges[c], mesh));
-  const auto is_removed = get(CGAL::dynamic_edge_property_t<char>(), mesh); // OpenMesh: no bool
-  for(const auto e : removed)
-    put(is_removed, e, char(true));
-  const auto is_gone = [&](const auto h) { return get(is_removed, edge(h, mesh)); };
-
   const auto halfedge_of = [&](const int c) { return halfedges[corners[c].halfedge]; };
+  const std::vector<typename Traits::edge_descriptor> sides(edges(mesh).begin(), edges(mesh).end());
+  const auto is_left = get(CGAL::dynamic_edge_property_t<char>(), mesh); // OpenMesh: no bool
+  for(const auto e : sides)
+    put(is_left, e, char(false));
+  for(int c = 0; c < int(corners.size()); ++c)
+    if(corners[c].vertex >= 0)
+      put(is_left, edge(halfedge_of(c), mesh), char(true));
+  const auto is_gone = [&](const auto h) { return !get(is_left, edge(h, mesh)); };
+
   const auto vertex_of = [&](const int c) { return input[vertex[corners[c].vertex]]; };
   for(int c = 0; c < int(corners.size()); ++c) {
     const auto f = triangles[c / 3];
@@ -172,8 +160,9 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
       set_target(h, vertex_of(c), mesh);
       set_next(h, opposite(halfedge_of(last), mesh), mesh);
     }
-  for(const auto e : removed)
-    remove_edge(e, mesh);
+  for(const auto e : sides)
+    if(!get(is_left, e))
+      remove_edge(e, mesh);
   for(std::size_t v = 0; v < input.size(); ++v)
     if(slots[v] < 0)
       remove_vertex(input[v], mesh);
@@ -181,15 +170,13 @@ std::vector<Eigen::Index> set_collapsed(TriangleMesh& mesh, const Quadric_collap
   return slots;
 }
 
-/// `quadric_collapses()` on arrays, then the mesh that they leave. `kept`: by positions in
-/// `vertices(mesh)`, or empty. `report(left)` may throw before the mesh changes. Returns the log
-/// and the slots of the vertices that are left.
-template <class TriangleMesh, class Report, class NamedParameters>
+/// `quadric_collapses()` on arrays as the options have it, then the mesh that they leave. `kept`:
+/// by positions in `vertices(mesh)`, or empty. Until the mesh changes it can be cancelled, and
+/// nothing has happened then. Returns the log and the slots of the vertices that are left.
+template <class TriangleMesh, class NamedParameters>
 std::pair<Collapse_log, std::vector<Eigen::Index>>
-collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
-                     const std::vector<char>& kept, const bool border_is_apart, const bool binary,
-                     const bool keep_free_of_self_intersections, const Report& report,
-                     const NamedParameters& np)
+collapse_by_quadrics(TriangleMesh& mesh, const std::size_t target, const std::vector<char>& kept,
+                     const Spectral_options& options, const NamedParameters& np)
 {
   using Point = typename boost::property_traits<
       typename GetVertexPointMap<TriangleMesh, NamedParameters>::type>::value_type;
@@ -202,19 +189,26 @@ collapse_by_quadrics(TriangleMesh& mesh, const std::size_t number_of_vertices,
   Triangle_arrays arrays = triangle_arrays(mesh, std::move(matrices));
   arrays.single_precision = std::is_same<typename Kernel_traits<Point>::Kernel::FT, float>::value;
   arrays.fixed = fixed_vertex_flags(mesh, kept, np);
-  arrays.border_is_apart = border_is_apart;
-  arrays.binary = binary;
-  report(std::size_t(arrays.V.rows()));
-  Quadric_collapses run = quadric_collapses(std::move(arrays), keep_free_of_self_intersections,
-                                            number_of_vertices, report);
-  if constexpr(parameters::is_default_parameter<NamedParameters,
-                                                internal_np::edge_is_constrained_t>::value) {
-    std::vector<Eigen::Index> slots = set_collapsed(mesh, run, np);
-    return {std::move(run.log), std::move(slots)};
-  } else { // of two edges that become one, a constrained one stays
+  arrays.border_is_apart = options.preserve_border ||
+                           options.boundary == Spectral_geometry::Boundary_condition::dirichlet;
+  arrays.binary = options.binary;
+  const std::size_t n = std::size_t(arrays.V.rows());
+  const auto report = [&](const std::size_t left) {
+    const double fraction = double(n - left) / double((std::max)(n - target, std::size_t(1)));
+    Spectral_geometry::internal::report_to(
+        options, {Spectral_geometry::Phase::pre_simplification, fraction, left});
+  };
+  report(n);
+  Quadric_collapses run =
+      quadric_collapses(std::move(arrays), options.keep_free_of_self_intersections, target, report);
+  if constexpr(is_given<NamedParameters, internal_np::edge_is_constrained_t>) {
+    // Where two edges become one, a constrained one stays.
     Collapse_replay<TriangleMesh, NamedParameters> replay(mesh, run.log, np);
     replay.collapse_to(run.log.number_of_vertices_left());
     return {std::move(run.log), replay.slots()};
+  } else {
+    std::vector<Eigen::Index> slots = set_collapsed(mesh, run, np);
+    return {std::move(run.log), std::move(slots)};
   }
 }
 
@@ -300,22 +294,16 @@ quadric_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
 {
   static_assert(
       !internal::overrides_policies<NamedParameters> &&
-          parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
-          parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
+          !internal::is_given<NamedParameters, internal_np::filter_t, internal_np::visitor_t>,
       "quadric_edge_collapse() takes no get_cost, get_placement, use_relaxed_order, index map, "
       "filter or visitor");
   const std::size_t n = std::size_t(std::distance(vertices(mesh).begin(), vertices(mesh).end()));
   internal::check_target("quadric_edge_collapse", number_of_vertices, n);
-  const auto report = [&](const std::size_t left) {
-    const double fraction =
-        double(n - left) / double((std::max)(n - number_of_vertices, std::size_t(1)));
-    Spectral_geometry::internal::report_to(
-        {1, progress}, {Spectral_geometry::Phase::pre_simplification, fraction, left});
-  };
+  Spectral_options options;
+  options.progress = progress;
   Quadric_edge_collapse_result result;
-  auto [log, slots] = internal::collapse_by_quadrics(mesh, number_of_vertices,
-                                                     internal::kept_vertex_flags(mesh, {}, np),
-                                                     false, false, true, report, np);
+  auto [log, slots] = internal::collapse_by_quadrics(
+      mesh, number_of_vertices, internal::kept_vertex_flags(mesh, {}, np), options, np);
   internal::set_restriction(result, std::move(log), slots);
   return result;
 }

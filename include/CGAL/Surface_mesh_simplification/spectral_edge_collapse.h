@@ -152,7 +152,7 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
   Real_timer timer;
   timer.start();
   state.collapse_by_others([&] {
-    return collapse_by_quadrics(mesh, n, std::size_t(end), state.core().fields().kept, options, np);
+    return collapse_by_quadrics(mesh, std::size_t(end), state.core().fields().kept, options, np);
   });
   result.quadric_collapses += n - state.number_of_vertices();
   result.seconds_pre_simplification += timer.time();

@@ -41,19 +41,8 @@ inline double area(const Spectral_geometry::Mesh_matrices& mesh)
   return result;
 }
 
-/// Flags, of as many or no vertices before, those as well that named parameters want to stay.
-template <class TriangleMesh, class NamedParameters>
-void add_fixed_vertices(std::vector<bool>& fixed, const TriangleMesh& mesh,
-                        const NamedParameters& np)
-{
-  const std::vector<char> further = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
-  fixed.resize((std::max)(fixed.size(), further.size()), false);
-  for(std::size_t v = 0; v < further.size(); ++v)
-    fixed[v] = fixed[v] || further[v];
-}
-
-/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: further vertices
-/// that stay, or empty.
+/// `spectral_relocation()` for signals: F and Z = B^-1 L F are fine x K. `fixed`: vertices that
+/// stay beside those of the named parameters, or empty.
 template <class TriangleMesh, class NamedParameters>
 Spectral_geometry::Relocation_result
 relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
@@ -69,7 +58,10 @@ relocate_mesh(TriangleMesh& mesh, const Eigen::SparseMatrix<double>& P,
   using Point = typename Geom_traits::Point_3;
   Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(mesh, np);
   const Eigen::MatrixXd before = coarse.V;
-  add_fixed_vertices(fixed, mesh, np);
+  const std::vector<char> further = fixed_vertex_flags(mesh, kept_vertex_flags(mesh, {}, np), np);
+  fixed.resize((std::max)(fixed.size(), further.size()), false);
+  for(std::size_t v = 0; v < further.size(); ++v)
+    fixed[v] = fixed[v] || further[v];
   Spectral_geometry::Relocation_result result =
       Spectral_geometry::relocate_positions(coarse.V, coarse.T, P, fine, F, Z, op, fixed, options);
   const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
@@ -121,13 +113,12 @@ judging_eigenpairs(const State& state, const Spectral_options& options, const Ei
 }
 
 /// Relocation after the collapses of a run, whose P leads to `mesh`: signals, mass, operator and
-/// what must stay are those of the run. `coefficients`: of the operator of `mesh`, or none.
+/// what must stay are those of the run.
 template <class TriangleMesh, class State, class NamedParameters>
 Spectral_geometry::Relocation_result
 relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_options& options,
                          const Eigen::SparseMatrix<double>& P,
-                         const Spectral_geometry::Operator_coefficients& coefficients,
-                         Spectral_geometry::Relocation_options relocation, std::vector<bool> fixed,
+                         Spectral_geometry::Relocation_options relocation,
                          const NamedParameters& np)
 {
   const Run_signals signals(state.basis(), state.fine(), options);
@@ -141,14 +132,14 @@ relocate_after_collapses(TriangleMesh& mesh, const State& state, const Spectral_
           : state.basis().eigenpairs;
   if(relocation.eigenpairs == nullptr)
     relocation.eigenpairs = pairs.get();
-  const Spectral_geometry::Local_operator op(options.mass, coefficients, options.boundary);
+  const Spectral_geometry::Local_operator op = local_operator(options).restricted(P);
   if(pairs && relocation.eigenvalues.size() == 0 && has_reachable_eigenvalues(op))
     relocation.eigenvalues = state.basis().area * pairs->all_values();
   const Spectral_geometry::Filtered_signals* const filtered = state.basis().filtered.get();
   const auto mixtures = filtered ? decltype(signals.mixtures())() : signals.mixtures();
-  Spectral_geometry::Relocation_result result =
-      relocate_mesh(mesh, P, state.fine(), filtered ? filtered->F : mixtures.first,
-                    filtered ? filtered->Z : mixtures.second, op, relocation, std::move(fixed), np);
+  Spectral_geometry::Relocation_result result = relocate_mesh(
+      mesh, P, state.fine(), filtered ? filtered->F : mixtures.first,
+      filtered ? filtered->Z : mixtures.second, op, relocation, state.fixed_vertices(), np);
   if(!result.resampled)
     return result;
   // Where the input has several points in one place, the closest may be another's.
@@ -287,7 +278,7 @@ spectral_relocation(TriangleMesh& mesh,
   internal::require(&mesh == &state.mesh(), "spectral_relocation: the policies are those of "
                                             "another mesh; pass the mesh that they were made for.");
   constexpr bool has_constraints =
-      !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
+      internal::is_given<NamedParameters, internal_np::edge_is_constrained_t>;
   internal::require(
       has_constraints || state.knows_constraints() || !state.has_foreign_points(),
       "spectral_relocation: a wrapper of the placement has chosen points, and the policies know of "
@@ -302,15 +293,9 @@ spectral_relocation(TriangleMesh& mesh,
     relocation.progress = [&state](const double fraction) {
       return state.report(Spectral_geometry::Phase::relocation, fraction);
     };
-  std::vector<bool> fixed = state.fixed_vertices();
-  internal::add_fixed_vertices(fixed, mesh, np);
-  const Eigen::SparseMatrix<double> P = policies.restriction();
-  Spectral_geometry::Operator_coefficients coefficients;
-  if(state.options().coefficients.rows() != 0)
-    coefficients = P * state.options().coefficients;
   return internal::relocate_after_collapses(
-      mesh, state, state.options(), P, coefficients, relocation, std::move(fixed),
-      parameters::vertex_point_map(state.vertex_point_map()).geom_traits(state.geom_traits()));
+      mesh, state, state.options(), policies.restriction(), relocation,
+      np.vertex_point_map(state.vertex_point_map()).geom_traits(state.geom_traits()));
 }
 
 /// @}

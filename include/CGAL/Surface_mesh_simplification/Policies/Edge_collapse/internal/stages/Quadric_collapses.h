@@ -28,9 +28,8 @@ struct Triangle_arrays
   std::vector<Corner> corners;
   bool single_precision = false; ///< whether the mesh holds positions as `float`
   std::vector<char> fixed;       ///< a flag for each vertex that stays where it is, or nothing
-  bool border_is_apart =
-      false; ///< whether a vertex of the border stays on it, with values of the border alone
-  bool binary = false; ///< whether a merged vertex has the values of one of both ends
+  bool border_is_apart = false;  ///< whether a vertex of the border stays on it, with its values
+  bool binary = false;           ///< whether a merged vertex has the values of one of both ends
 };
 
 inline int next_corner(const int c)
@@ -45,15 +44,11 @@ inline int previous_corner(const int c)
 /// What `quadric_collapses()` has done.
 struct Quadric_collapses
 {
-  struct Edge
-  {
-    int halfedge; ///< that leads to the vertex that is kept, or ~ of the one that leads back
-    enum : char { neither, kept, removed } point; ///< which end it lies on
-  };
-
   Collapse_log log;
-  std::vector<Edge> collapsed;                  ///< of each merge
-  std::vector<int> joined;                      ///< halfedges of edges that others stand for
+  /// for each merge the halfedge that leads to the vertex that is kept, or ~ of the one back
+  std::vector<int> collapsed;
+  /// for each vertex that is left the one of the input that lay there, or ~ of the merge
+  std::vector<int> place;
   std::vector<Triangle_arrays::Corner> corners; ///< in the end: the vertex is -1 of faces gone
 };
 
@@ -68,16 +63,12 @@ struct Quadric_collapses
  * and costs are computed anew when they come up, in the order that recomputing all of them would
  * give (to single precision).
  *
- * A collapse keeps the mesh a manifold (link condition), turns no face by more than 78 degrees, and
- * makes no needle (the height of a face below a thousandth of its longest side) where there was
- * none. Edges without length come first, those between vertices of many neighbours last.
+ * What is kept of the mesh `quadric_edge_collapse()` says; a needle is a face whose height is below
+ * a thousandth of its longest side. Edges without length come first, those between vertices of many
+ * neighbours last. O(n log n), deterministic.
  *
- * O(n log n), a few microseconds for each collapse, twice as many where faces would intersect;
- * deterministic.
- *
- * @param keep_free_of_self_intersections whether no collapse may put a face through another, see
- *        `Spectral_crossing_guard`: where faces intersect in the end, all is done once more with an
- *        eye on the vertices of these faces
+ * @param keep_free_of_self_intersections whether no face may go through another in the end, see
+ *        `Spectral_crossing_guard`
  * @param progress is called with the number of vertices left, each time a hundredth of the
  *        collapses is done and before refused edges are looked at again; what it throws comes
  *        through
@@ -98,6 +89,8 @@ quadric_collapses(Triangle_arrays mesh, bool keep_free_of_self_intersections, st
 #include <CGAL/Spectral_geometry/internal/surface/triangles_intersect.h>
 
 #include <cstring>
+#include <numeric>
+#include <queue>
 
 #ifdef __GNUC__
 #define CGAL_SPECTRAL_PREFETCH(address) __builtin_prefetch(address)
@@ -149,7 +142,7 @@ public:
       m_sorted = std::exchange(m_buckets[m_first], {});
       std::sort(m_sorted.begin(), m_sorted.end());
     }
-    return added_is_next() ? m_added.front() : m_sorted.back();
+    return added_is_next() ? m_added.top() : m_sorted.back();
   }
 
   /// The halfedge that comes after so many others, those added lately aside, or -1.
@@ -164,27 +157,24 @@ public:
     ++m_size;
     if(b > m_first)
       m_buckets[b].push_back(entry);
-    else {
-      m_added.push_back(entry);
-      std::push_heap(m_added.begin(), m_added.end());
-    }
+    else
+      m_added.push(entry);
   }
 
   /// Removes what top() has returned.
   void pop()
   {
     --m_size;
-    if(added_is_next()) {
-      std::pop_heap(m_added.begin(), m_added.end());
-      m_added.pop_back();
-    } else
+    if(added_is_next())
+      m_added.pop();
+    else
       m_sorted.pop_back();
   }
 
 private:
   bool added_is_next() const
   {
-    return m_sorted.empty() || (!m_added.empty() && m_sorted.back() < m_added.front());
+    return m_sorted.empty() || (!m_added.empty() && m_sorted.back() < m_added.top());
   }
 
   // Numbers that are not negative are in the order of their bits: the exponent and six more.
@@ -200,8 +190,9 @@ private:
   using Buckets = std::vector<std::vector<Entry>>;
 
   Buckets m_buckets = Buckets(2 + (0x7fffffff >> 17));
-  std::vector<Entry> m_sorted, m_added; // of the buckets up to m_first
   std::size_t m_first = 0, m_size = 0;
+  std::vector<Entry> m_sorted; // of the buckets up to m_first, as what has been added there since
+  std::priority_queue<Entry> m_added;
 };
 
 /// The run of `quadric_collapses()`. Halfedge c leads from the vertex of corner c to that of the
@@ -226,6 +217,8 @@ public:
     m_mesh.V.resize(0, 3);
     m_quadrics.resize(n);
     m_vertices.resize(n);
+    m_place.resize(n);
+    std::iota(m_place.begin(), m_place.end(), 0);
     for(int c = 0; c < number_of_corners(); ++c)
       add_corner(c);
     if(!m_watched.empty())
@@ -237,12 +230,11 @@ public:
     for(int c = 0; c < number_of_corners(); ++c)
       if(opposite(c) < c)
         push(c);
-    const std::size_t n = m_log.number_of_vertices();
-    m_log.reserve(n - (std::min)(n, target));
-    m_collapsed.reserve(n - (std::min)(n, target));
-    m_joined.reserve(2 * m_collapsed.capacity());
-    const std::size_t step = (std::max)((n - (std::min)(n, target)) / 100, std::size_t(1));
-    std::size_t next_report = n - (std::min)(n, step), before = n;
+    const std::size_t n = m_log.number_of_vertices(), most = n - (std::min)(n, target);
+    m_log.reserve(most);
+    m_collapsed.reserve(most);
+    const std::size_t step = (std::max)(most / 100, std::size_t(1));
+    std::size_t reported = n, before = n;
     while(m_log.number_of_vertices_left() > target) {
       if(m_queue.empty()) { // once more for those that were refused, while that leads on
         const bool stuck = m_log.number_of_vertices_left() == before;
@@ -260,17 +252,14 @@ public:
       m_queue.pop();
       prefetch_next();
       handle(entry);
-      if(m_log.number_of_vertices_left() <= next_report) {
-        progress(m_log.number_of_vertices_left());
-        next_report =
-            m_log.number_of_vertices_left() - (std::min)(m_log.number_of_vertices_left(), step);
-      }
+      if(const std::size_t left = m_log.number_of_vertices_left(); left + step <= reported)
+        progress(reported = left);
     }
   }
 
   Quadric_collapses take_result()
   {
-    return {std::move(m_log), std::move(m_collapsed), std::move(m_joined),
+    return {std::move(m_log), std::move(m_collapsed), std::move(m_place),
             std::move(m_mesh.corners)};
   }
 
@@ -555,11 +544,9 @@ private:
       weight = is_border_vertex(kept) ? 0. : 1.;
     if(m_mesh.binary)
       weight = weight <= 0.5 ? 0. : 1.;
-    using Edge = Quadric_collapses::Edge;
-    m_collapsed.push_back(
-        {gone == source(c) ? halfedge(c) : ~halfedge(c), x == m_points[kept]   ? Edge::kept
-                                                         : x == m_points[gone] ? Edge::removed
-                                                                               : Edge::neither});
+    m_collapsed.push_back(gone == source(c) ? halfedge(c) : ~halfedge(c));
+    if(x != m_points[kept])
+      m_place[kept] = x == m_points[gone] ? m_place[gone] : ~number_of_collapses();
     m_log.merge(gone, kept, weight, x + m_origin);
 
     std::vector<int>& ring = m_ring; // what is left of both
@@ -590,12 +577,8 @@ private:
       reconsider(h);
       reconsider(previous_corner(h));
     }
-    if(!m_watched.empty())
-      follow_crossings(gone, kept);
-  }
-
-  void follow_crossings(const int gone, const int kept)
-  {
+    if(m_watched.empty())
+      return;
     m_watched[kept] = m_watched[kept] || m_watched[gone];
     bool near = m_watched[kept];
     for_neighbours(kept, [&](const int w) { near = near || m_watched[w]; });
@@ -616,7 +599,6 @@ private:
       m_mesh.corners[b].opposite = a;
       m_mesh.corners[b].halfedge = halfedge(next_corner(side));
     }
-    m_joined.push_back(halfedge(previous_corner(side)));
     if(m_vertices[apex].outgoing == previous_corner(side))
       m_vertices[apex].outgoing = a;
     --m_vertices[apex].degree;
@@ -640,8 +622,7 @@ private:
   Eigen::Vector3d m_origin;
   double m_cost_scale; // costs are fourth powers of lengths
   Collapse_log m_log;
-  std::vector<Quadric_collapses::Edge> m_collapsed;
-  std::vector<int> m_joined;
+  std::vector<int> m_collapsed, m_place;
   Triangle_arrays m_mesh;                // but for positions
   std::vector<Eigen::Vector3d> m_points; // of each vertex, as what follows, from the origin
   std::vector<Spectral_quadric> m_quadrics;
@@ -660,8 +641,8 @@ Quadric_collapses quadric_collapses(Triangle_arrays mesh,
                                     const std::size_t target,
                                     const std::function<void(std::size_t)>& progress)
 {
-  // To look for intersections at each collapse takes five times as long as the collapses: only
-  // around those that are left in the end, until there are no others.
+  // To look for intersections at each collapse takes five times as long as the collapses: all is
+  // done once more, with an eye on those that are left in the end, until there are no others.
   const std::size_t n = std::size_t(mesh.V.rows());
   std::size_t least = n;
   const auto report = [&](const std::size_t left) {

@@ -15,7 +15,6 @@
 #include <CGAL/Surface_mesh_simplification/spectral_relocation.h>
 
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
 #include <CGAL/Spectral_geometry/Run_control.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 
@@ -33,47 +32,8 @@ struct Pre_simplification
   std::vector<std::size_t> kept_vertices; ///< where those to be kept are in it
 };
 
-/// Throws for what would otherwise be found out after the mesh has changed.
-inline void check_pre_simplification(const Spectral_edge_collapse_options& options,
-                                     const std::size_t target)
-{
-  require(options.pre_simplify >= target, "Spectral_edge_collapse_options: pre_simplify is ",
-          options.pre_simplify, ", less than the target of ", target,
-          " vertices; use a number between the target and the size of the mesh.");
-  require(options.signals.size() == 0 && !options.eigenpairs,
-          "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that "
-          "are given "
-          "belong to the mesh before it; use one of the two.");
-  require(options.number_of_eigenvectors < Eigen::Index(options.pre_simplify),
-          "Spectral_edge_collapse_options: pre_simplify is ", options.pre_simplify, ", but ",
-          options.number_of_eigenvectors,
-          " eigenvectors are asked for; use a number of vertices above that.");
-  spectral_weights(options, options.number_of_eigenvectors);
-  Spectral_geometry::internal::check_eigenpairs_options(options.eigenpairs_options,
-                                                        options.number_of_eigenvectors);
-}
-
-/// `collapse_by_quadrics()` of n vertices to `target` as the options have it. Until the mesh
-/// changes it can be cancelled, and nothing has happened then.
-template <class TriangleMesh, class NamedParameters>
-std::pair<Collapse_log, std::vector<Eigen::Index>>
-collapse_by_quadrics(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
-                     const std::vector<char>& kept, const Spectral_edge_collapse_options& options,
-                     const NamedParameters& np)
-{
-  const auto report = [&](const std::size_t left) {
-    const double fraction = double(n - left) / double(n - target);
-    Spectral_geometry::internal::report_to(
-        options, {Spectral_geometry::Phase::pre_simplification, fraction, left});
-  };
-  return collapse_by_quadrics(mesh, target, kept,
-                              options.preserve_border ||
-                                  options.boundary ==
-                                      Spectral_geometry::Boundary_condition::dirichlet,
-                              options.binary, options.keep_free_of_self_intersections, report, np);
-}
-
 /// The first stage of `Spectral_edge_collapse_options::pre_simplify` on a mesh of n vertices.
+/// Refuses what would otherwise be found out after the mesh has changed.
 template <class TriangleMesh, class NamedParameters>
 Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const std::size_t target,
                                 const Spectral_edge_collapse_options& options,
@@ -82,16 +42,26 @@ Pre_simplification pre_simplify(TriangleMesh& mesh, const std::size_t n, const s
   Pre_simplification result;
   if(options.pre_simplify == 0 || n <= options.pre_simplify)
     return result;
-  require(parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value &&
-              parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value,
+  require(!is_given<NamedParameters, internal_np::filter_t, internal_np::visitor_t>,
           "Spectral_edge_collapse_options: pre_simplify calls no filter and no visitor, but one is "
-          "given; "
-          "leave one of the two out, or simplify by edge_collapse() with a cheap cost and a "
+          "given; leave one of the two out, or simplify by edge_collapse() with a cheap cost and a "
           "Restriction_visitor first.");
-  check_pre_simplification(options, target);
+  require(options.pre_simplify >= target, "Spectral_edge_collapse_options: pre_simplify is ",
+          options.pre_simplify, ", less than the target of ", target,
+          " vertices; use a number between the target and the size of the mesh.");
+  require(options.signals.size() == 0 && !options.eigenpairs,
+          "Spectral_edge_collapse_options: pre_simplify is set, but the signals or eigenpairs that "
+          "are given belong to the mesh before it; use one of the two.");
+  require(options.number_of_eigenvectors < Eigen::Index(options.pre_simplify),
+          "Spectral_edge_collapse_options: pre_simplify is ", options.pre_simplify, ", but ",
+          options.number_of_eigenvectors,
+          " eigenvectors are asked for; use a number of vertices above that.");
+  spectral_weights(options, options.number_of_eigenvectors);
+  Spectral_geometry::internal::check_eigenpairs_options(options.eigenpairs_options,
+                                                        options.number_of_eigenvectors);
   const std::vector<char> kept = kept_vertex_flags(mesh, options.kept_vertices, np);
   std::tie(result.log, result.slots) =
-      collapse_by_quadrics(mesh, n, options.pre_simplify, kept, options, np);
+      collapse_by_quadrics(mesh, options.pre_simplify, kept, options, np);
   for(std::size_t i = 0; i < result.slots.size(); ++i)
     if(!kept.empty() && kept[result.slots[i]])
       result.kept_vertices.push_back(i);
@@ -164,34 +134,6 @@ private:
     }
   }
 
-  Spectral_geometry::Progress_callback reporting(const Spectral_geometry::Phase phase) const
-  {
-    return [this, phase](const double fraction) {
-      m_thrown_by_callback = true;
-      const bool goes_on = m_state.report(phase, fraction);
-      m_thrown_by_callback = false;
-      return goes_on;
-    };
-  }
-
-  Spectral_geometry::Mesh_matrices coarse() const
-  {
-    return Spectral_geometry::mesh_matrices(m_mesh, m_np);
-  }
-
-  // With the coefficients that the collapses have merged.
-  Spectral_geometry::Local_operator local_operator() const
-  {
-    return {m_options.mass, m_result.coefficients, m_options.boundary};
-  }
-
-  // The operator of the mesh as it is now.
-  Spectral_geometry::Laplace_operator coarse_operator() const
-  {
-    const Spectral_geometry::Mesh_matrices mesh = coarse();
-    return Spectral_geometry::laplace_operator(mesh.V, mesh.T, local_operator());
-  }
-
   void relocate()
   {
     if(m_options.mass != Spectral_geometry::Mass::averaged)
@@ -200,15 +142,19 @@ private:
                    Spectral_geometry::mass_name(m_options.mass),
                    " one it bends the shape to cancel the error of the elements."));
     Spectral_geometry::Relocation_options relocation = m_options.relocation;
-    relocation.progress = reporting(Spectral_geometry::Phase::relocation);
+    relocation.progress = [this](const double fraction) {
+      m_thrown_by_callback = true;
+      const bool goes_on = m_state.report(Spectral_geometry::Phase::relocation, fraction);
+      m_thrown_by_callback = false;
+      return goes_on;
+    };
     const auto points = m_state.vertex_point_map();
     std::vector<typename Policies::State::Point> before;
     for(const auto v : vertices(m_mesh))
       before.push_back(get(points, v));
     try {
       m_result.relocation =
-          relocate_after_collapses(m_mesh, m_state, m_options, m_P, m_result.coefficients,
-                                   relocation, m_state.fixed_vertices(), m_np);
+          relocate_after_collapses(m_mesh, m_state, m_options, m_P, relocation, m_np);
       set_error(m_result.relocation.restriction);
     } catch(...) {
       m_result.relocation = Spectral_geometry::Relocation_result();
@@ -228,8 +174,11 @@ private:
     const double area = m_state.basis().area;
     const Run_signals signals(m_state.basis(), m_state.fine(), m_options);
     const auto [PF, PZ] = signals.restricted(P);
+    const Spectral_geometry::Mesh_matrices coarse = Spectral_geometry::mesh_matrices(m_mesh, m_np);
+    const Spectral_geometry::Laplace_operator op = Spectral_geometry::laplace_operator(
+        coarse.V, coarse.T, local_operator(m_options).restricted(m_P));
     m_result.E = area * (m_options.signals.size() != 0 ? 1. : area) *
-                 Spectral_geometry::internal::residual_energy(coarse_operator(), PF, PZ);
+                 Spectral_geometry::internal::residual_energy(op, PF, PZ);
     m_result.relative_error =
         m_state.basis().sum_of_squares > 0 ? std::sqrt(m_result.E / signals.sum_of_squares()) : 0.;
   }
@@ -240,7 +189,7 @@ private:
   const NamedParameters& m_np;
   Result& m_result;
   SpMat m_P; // from the mesh of the eigenpairs to that of the collapses
-  mutable bool m_thrown_by_callback = false;
+  bool m_thrown_by_callback = false;
 };
 
 } // namespace CGAL::Surface_mesh_simplification::internal
