@@ -30,8 +30,7 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// `best()` for large inputs: collapses by quadrics reduce a mesh first to 30 times the target,
   /// but not below 500,000 vertices, and the eigenpairs are those of that mesh. A terrain of 1.44
   /// million vertices took half of the time and 0.4 of the memory. |C|_L was no larger, and
-  /// eigenvalues were a tenth further off. Where this stage takes part, signals and eigenpairs are
-  /// refused, and so are a filter and a visitor.
+  /// eigenvalues were a tenth further off. See `pre_simplify` for what cannot be given with it.
   static Spectral_edge_collapse_options best(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
@@ -44,8 +43,8 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// Relocation sees 64 of the signals and takes 28 steps at most. With 30 times and 40 steps a
   /// run from 50,000 vertices took 1.5 times as long and |C|_L was 0.93 times as large in the mean,
   /// on human figures 0.8 times. Where K is at most 32, or N below 2 K, eigenpairs judge the
-  /// relocation: noise alone would let |C|_L rise there. E and the relative error are estimates;
-  /// signals or eigenpairs cannot be given, and it takes neither filter nor visitor.
+  /// relocation: noise alone would let |C|_L rise there. E and the relative error are estimates.
+  /// See `pre_simplify` for what cannot be given with it.
   static Spectral_edge_collapse_options fast(const std::size_t number_of_vertices)
   {
     Spectral_edge_collapse_options options;
@@ -77,7 +76,8 @@ struct Spectral_edge_collapse_options : Spectral_options
   /// Garland and P. Heckbert, *Surface Simplification Using Quadric Error Metrics*, SIGGRAPH 1997),
   /// and goes on with the spectral cost; at least 30 times the target is advised. Takes
   /// three to nine microseconds for each vertex, twice as much where faces would go through
-  /// others. P spans both stages. Kept vertices and the ends of constrained edges stay. 0: never.
+  /// others. P spans both stages. Kept vertices and the ends of constrained edges stay. Signals,
+  /// eigenpairs, a filter and a visitor are refused where this stage takes part. 0: never.
   std::size_t pre_simplify = 0;
 
   /// While the mesh has more than this many times the target's vertices, edges are collapsed by the
@@ -122,8 +122,7 @@ inline void check_edge_collapse_options(const Spectral_edge_collapse_options& op
           options.quadrics_above, ", use a number from 1.");
   require(!std::isfinite(options.maximum_error) || !is_filtered(options),
           "Spectral_edge_collapse_options: maximum_error is a bound for eigenvectors, of which "
-          "filtered noise "
-          "only estimates the error; set source to eigenpairs.");
+          "filtered noise only estimates the error; set source to eigenpairs.");
   require(options.maximum_error >= 0, "Spectral_edge_collapse_options: maximum_error is ",
           options.maximum_error, ", use a number from 0.");
   if(!options.relocate)

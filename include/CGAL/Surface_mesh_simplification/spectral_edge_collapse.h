@@ -9,7 +9,6 @@
 
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Constrained_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_policies.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/around_collapses.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/internal/stages/run_explanations.h>
 #include <CGAL/Surface_mesh_simplification/Spectral_edge_collapse_options.h>
@@ -17,7 +16,6 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <CGAL/Named_function_parameters.h>
-#include <CGAL/boost/graph/helpers.h>
 #include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/boost/graph/properties.h>
 
@@ -27,48 +25,25 @@ namespace internal {
 
 using Stop_reason = Spectral_edge_collapse_result::Stop_reason;
 
-/// Nobody who would have to know what the loop does.
-struct No_follower
+/// Keeps the state in step in one of several runs of the loop. The user's visitor sees them as one:
+/// it is told elsewhere that they begin and end.
+template <class State, class UserVisitor>
+struct Visitor_of_runs : Spectral_visitor<State, UserVisitor>
 {
-  void on_finished() const {}
-  void on_stop_condition_reached() const {}
-  void on_selected() const {}
-  void on_non_collapsable() const {}
-  template <class... T>
-  void on_collapsing(const T&...) const
-  {}
-  template <class... T>
-  void on_collapsed(const T&...) const
-  {}
-};
-
-/// A visitor of the user's over several runs of the loop, which it sees as one.
-template <class UserVisitor>
-class Visitor_of_runs : public Following_visitor<No_follower, UserVisitor>
-{
-public:
-  explicit Visitor_of_runs(const UserVisitor& user)
-    : Following_visitor<No_follower, UserVisitor>(std::make_shared<No_follower>(), user)
-  {}
+  using Spectral_visitor<State, UserVisitor>::Spectral_visitor;
 
   template <class TriangleMesh>
   void OnStarted(TriangleMesh& mesh)
   {
-    if(!std::exchange(m_started, true))
-      this->user().OnStarted(mesh);
-  }
-  template <class TriangleMesh>
-  void OnFinished(TriangleMesh&)
-  {}
-  /// After the last run.
-  template <class TriangleMesh>
-  void finish(TriangleMesh& mesh)
-  {
-    this->user().OnFinished(mesh);
+    this->m_run = this->m_follower->on_started(mesh);
   }
 
-private:
-  bool m_started = false;
+  template <class TriangleMesh>
+  void OnFinished(TriangleMesh&)
+  {
+    this->m_follower->on_finished();
+    this->m_run.reset();
+  }
 };
 
 /// Runs the loop with the constraint map and filter that the user gave, if any. Returns what has
@@ -80,18 +55,17 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
 {
   using parameters::choose_parameter;
   using parameters::get_parameter;
-  constexpr bool has_constraints =
-      !parameters::is_default_parameter<NamedParameters, internal_np::edge_is_constrained_t>::value;
+  constexpr bool has_constraints = is_given<NamedParameters, internal_np::edge_is_constrained_t>;
 
-  const auto visitor = policies.visitor(std::ref(user));
+  const Visitor_of_runs<typename Policies::State, std::reference_wrapper<Visitor>> visitor(
+      policies.shared_state(), user);
   const auto common = parameters::visitor(visitor)
                           .vertex_point_map(policies.state().vertex_point_map())
                           .geom_traits(policies.state().geom_traits());
   const auto run = [&](const auto& placement, const auto& with_placement) {
     const Spectral_stop_predicate stop(policies, target, maximum_error, placement);
     const auto with_cost = with_placement.get_cost(policies.get_cost()).get_placement(placement);
-    if constexpr(has_constraints ||
-                 !parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value)
+    if constexpr(has_constraints || is_given<NamedParameters, internal_np::filter_t>)
       edge_collapse(mesh, stop,
                     with_cost.filter(policies.filter(
                         choose_parameter(get_parameter(np, internal_np::filter), Dummy_filter()))));
@@ -111,17 +85,25 @@ Stop_reason run_spectral_edge_collapse(TriangleMesh& mesh, const Policies& polic
     return run(policies.get_placement(), common);
 }
 
-/// The policies of the second stage. What they refuse here is the mesh that the first one has left:
-/// an input that is refused as `std::invalid_argument` has not been changed.
+/// The policies of the spectral stage. What they refuse after the first stage is the mesh that it
+/// has left: an input that is refused as `std::invalid_argument` has not been changed.
 template <class Policies, class TriangleMesh, class NamedParameters>
 Policies policies_of_stage(TriangleMesh& mesh, const Spectral_options& options,
                            const NamedParameters& np, const Pre_simplification& first)
 {
-  try {
+  if(!first.done)
     return Policies(mesh, options, np);
+  // The vertices to keep may go on under other handles now: they are known by index, no longer by
+  // the user's map.
+  using parameters::choose_parameter;
+  using parameters::get_parameter;
+  const auto points = choose_parameter(get_parameter(np, internal_np::vertex_point),
+                                       get_property_map(vertex_point, mesh));
+  const auto traits =
+      choose_parameter<typename Policies::Geom_traits>(get_parameter(np, internal_np::geom_traits));
+  try {
+    return Policies(mesh, options, parameters::vertex_point_map(points).geom_traits(traits));
   } catch(const std::invalid_argument& error) {
-    if(!first.done)
-      throw;
     throw std::runtime_error(
         sentence("spectral_edge_collapse: the mesh of ", first.slots.size(),
                  " vertices that the first stage has left cannot be used, choose another "
@@ -140,8 +122,7 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
 {
   auto& state = policies.state();
   const std::size_t n = state.number_of_vertices();
-  if(!parameters::is_default_parameter<NamedParameters, internal_np::filter_t>::value ||
-     !parameters::is_default_parameter<NamedParameters, internal_np::visitor_t>::value ||
+  if(is_given<NamedParameters, internal_np::filter_t, internal_np::visitor_t> ||
      !quadrics_come_first(options))
     return;
   // One collapse at least is left to the loop: a run that is cancelled before it ends above the
@@ -158,12 +139,10 @@ void collapse_ahead_by_quadrics(TriangleMesh& mesh, const Policies& policies,
   result.seconds_pre_simplification += timer.time();
 }
 
-/// The stage of the spectral cost. The policies get the named parameters `policies_np`, the loop
-/// `np`.
-template <class TriangleMesh, class PoliciesNamedParameters, class NamedParameters>
+/// The stage of the spectral cost.
+template <class TriangleMesh, class NamedParameters>
 void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
-                        const Spectral_edge_collapse_options& given,
-                        const PoliciesNamedParameters& policies_np, const NamedParameters& np,
+                        const Spectral_edge_collapse_options& given, const NamedParameters& np,
                         Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
   using Vertex_point_map = typename GetVertexPointMap<TriangleMesh, NamedParameters>::type;
@@ -189,7 +168,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
     narrowed->weights = weights();
   }
   const Spectral_edge_collapse_options& options = narrowed ? *narrowed : given;
-  const Policies policies = policies_of_stage<Policies>(mesh, options, policies_np, first);
+  const Policies policies = policies_of_stage<Policies>(mesh, options, np, first);
   auto& state = policies.state();
   result.pre_simplified_vertices = std::size_t(state.fine().V.rows());
   result.signals = std::size_t(options.weights.size() == 0 ? number_of_signals(options)
@@ -205,10 +184,10 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
   // An edge that was given up because of another sheet is not asked for again when that sheet
   // changes: once more, while that removes a hundredth of the vertices.
   bool again = true;
-  Visitor_of_runs user(std::decay_t<decltype(parameters::choose_parameter(
-                           parameters::get_parameter(np, internal_np::visitor), Dummy_visitor()))>(
-      parameters::choose_parameter(parameters::get_parameter(np, internal_np::visitor),
-                                   Dummy_visitor())));
+  auto given_visitor = parameters::choose_parameter(
+      parameters::get_parameter(np, internal_np::visitor), Dummy_visitor());
+  auto& user = std::ref(given_visitor).get(); // what a reference_wrapper refers to
+  user.OnStarted(mesh);
   try {
     for(std::size_t before = (std::numeric_limits<std::size_t>::max)(); again;
         before = state.number_of_vertices()) {
@@ -222,7 +201,7 @@ void run_spectral_stage(TriangleMesh& mesh, const std::size_t target,
       throw;
     end = Stop_reason::cancelled; // while first costs were evaluated, after collapses
   }
-  user.finish(mesh);
+  user.OnFinished(mesh);
   result.seconds_collapse = timer.time();
   result.evaluations = state.core().number_of_evaluations();
   result.seconds_eigenpairs = state.seconds_basis();
@@ -262,20 +241,11 @@ void run_after_first_stage(TriangleMesh& mesh, const std::size_t target,
                            Spectral_edge_collapse_options options, const NamedParameters& np,
                            Pre_simplification& first, Spectral_edge_collapse_result& result)
 {
-  using Geom_traits = typename GetGeomTraits<TriangleMesh, NamedParameters>::type;
-  using parameters::choose_parameter;
-  using parameters::get_parameter;
-  // The vertices to keep may go on under other handles now: they are known by index, no longer by
-  // the user's map.
   options.kept_vertices = first.kept_vertices;
   if(options.coefficients.rows() != 0)
     options.coefficients = first.log.forest().restriction(first.slots) * options.coefficients;
-  const auto policies_np =
-      parameters::vertex_point_map(choose_parameter(get_parameter(np, internal_np::vertex_point),
-                                                    get_property_map(vertex_point, mesh)))
-          .geom_traits(choose_parameter<Geom_traits>(get_parameter(np, internal_np::geom_traits)));
   try {
-    run_spectral_stage(mesh, target, options, policies_np, np, first, result);
+    run_spectral_stage(mesh, target, options, np, first, result);
   } catch(const Spectral_geometry::Cancelled&) {
     if(first.log.number_of_vertices() == 0) // it has gone into the result
       throw;
@@ -384,7 +354,7 @@ spectral_edge_collapse(TriangleMesh& mesh, const std::size_t number_of_vertices,
   if(first.done)
     internal::run_after_first_stage(mesh, number_of_vertices, options, np, first, result);
   else
-    internal::run_spectral_stage(mesh, number_of_vertices, options, np, np, first, result);
+    internal::run_spectral_stage(mesh, number_of_vertices, options, np, first, result);
   result.seconds_total = timer.time();
   return result;
 }
