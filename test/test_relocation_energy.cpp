@@ -184,7 +184,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     Positions W = V;
     for(Eigen::Index i = 0; i < W.size(); ++i)
       W.data()[i] += 0.004 * std::sin(12.9898 * double(i));
-    SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {}, {});
+    SG::internal::Spectrum_term guard(s->coarse.T, V, 0.5, 20, {}, {}, {});
     REQUIRE(guard.is_active());
     CHECK(std::abs(guard.changes(V).mean()) < 1e-4);
     const double before = guard.changes(W).mean(); // with the eigenvectors of V
@@ -216,14 +216,14 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     CHECK(penalty.value(W) > 0);
     SG::internal::Relocation_limits limits;
     limits.beyond = 0;
-    CHECK(!SG::internal::Spectrum_term(s->coarse.T, V, 0.5, 20, {}, limits).is_active());
+    CHECK(!SG::internal::Spectrum_term(s->coarse.T, V, 0.5, 20, {}, {}, limits).is_active());
     // Goals of all but the constant, and four eigenvalues after them, that say how far the others
     // are to rise.
     limits.beyond = 1;
     const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
     Eigen::VectorXd eigenvalues = op.mass.sum() * SG::eigenpairs(op, 12).values;
     eigenvalues.tail(11) *= 1.01;
-    SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 8, eigenvalues, limits);
+    SG::internal::Spectrum_term goals(s->coarse.T, V, 0.5, 8, eigenvalues, {}, limits);
     REQUIRE(goals.has_goals());
     const Eigen::ArrayXd errors = goals.changes(V).transpose();
     REQUIRE(errors.size() == 15);
@@ -236,6 +236,68 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     CHECK(to_goals.value(V) ==
           Catch::Approx(3. * (std::pow(0.01 / 1.01 / epsilon, 2) + std::pow(0.01 / 0.03, 2)))
               .epsilon(0.05));
+  }
+}
+
+TEST_CASE("the term of low modes is the angle by which they are turned, and its gradient is right")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
+    const Positions V = s->coarse.V;
+    const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
+    const SG::Eigenpairs pairs = SG::eigenpairs(op, 30);
+    const Eigen::VectorXd values = op.mass.sum() * pairs.values;
+    SG::internal::Relocation_limits limits;
+    limits.beyond = 0;
+    const Eigen::Index K = 8, i = 2, j = 5;
+    const double epsilon =
+        limits.eigenvalue_error * std::sqrt((std::min)(1., 10. * K / double(V.rows())));
+    const auto value_of_turned = [&](const double angle) {
+      const auto turned = [&](const Positions&, const Eigen::Index count) {
+        Eigen::MatrixXd result = 2 * pairs.vectors.leftCols(count); // of another scale
+        const Eigen::VectorXd x = result.col(i), y = result.col(j);
+        result.col(i) = std::cos(angle) * x + std::sin(angle) * y;
+        result.col(j) = std::cos(angle) * y - std::sin(angle) * x;
+        return result;
+      };
+      SG::internal::Spectrum_term term(s->coarse.T, V, 0.5, K, values, turned, limits);
+      Positions gradient = Positions::Zero(V.rows(), 3);
+      return term.penalty(V, 3., gradient);
+    };
+    CHECK(value_of_turned(0) < 1e-4);
+    const double angle = 0.1, h = (values(j) - values(i)) * std::sin(2 * angle) / 2 /
+                                  std::sqrt(values(i) * values(j));
+    double weights = 0; // of pairs, each counted twice
+    for(Eigen::Index k = 1; k < K; ++k)
+      for(Eigen::Index l = 1; l < K; ++l)
+        weights += k == l ? 0. : 1 / (values(k) * values(l));
+    CHECK(value_of_turned(angle) ==
+          Catch::Approx(3. * 2 * h * h / (values(i) * values(j)) / weights / (epsilon * epsilon))
+              .epsilon(0.01));
+    // At positions where all of it changes.
+    Positions W = V;
+    for(Eigen::Index k = 0; k < W.size(); ++k)
+      W.data()[k] += 0.004 * std::sin(12.9898 * double(k));
+    const auto moved = [&](const Positions&, const Eigen::Index count) {
+      return Eigen::MatrixXd(s->P * s->pairs.vectors.leftCols(count));
+    };
+    struct Penalty
+    {
+      SG::internal::Spectrum_term term;
+      double value(const Positions& at)
+      {
+        Positions gradient = Positions::Zero(at.rows(), 3);
+        return term.penalty(at, 3., gradient);
+      }
+      double value_and_gradient(const Positions& at, Positions& gradient)
+      {
+        gradient.setZero(at.rows(), 3);
+        return term.penalty(at, 3., gradient);
+      }
+    };
+    Penalty with{{s->coarse.T, V, 0.5, 20, values, moved, limits}},
+        without{{s->coarse.T, V, 0.5, 20, values, {}, limits}};
+    CHECK(with.value(W) > 1.01 * without.value(W));
+    CHECK(gradient_error(with, W) < 1e-6);
   }
 }
 
@@ -258,7 +320,7 @@ TEST_CASE("the term of the spectrum compares with the start, also where it has t
       Positions W = V;
       W.col(2).head(n) *= 1.3;
       W.row(n + 3) << 0.5 * size, -height * size, height * size;
-      SG::internal::Spectrum_term guard(T, V, 0.5, 20, {}, {});
+      SG::internal::Spectrum_term guard(T, V, 0.5, 20, {}, {}, {});
       guard.refresh(W);
       CHECK(guard.changes(W).mean() > 0.001);
     }

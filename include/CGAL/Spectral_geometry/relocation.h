@@ -33,6 +33,10 @@ The term of the spectrum therefore holds the mean of the next K / 2 where it was
 lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and
 nothing of the fine one.
 
+Nor does it say in which directions the low eigenvectors lie, which biharmonic distances see first.
+Where signals are `sampled` and the eigenpairs and eigenvalues of the fine mesh are at hand, the
+first twelve are kept from turning towards each other.
+
 Nor does the residual speak for how area is spread over the mesh, which distances and heat kernels
 depend on. Inner products of signals that are `sampled` are therefore drawn to those on the fine
 mesh, `Relocation_energy::keep_inner_products()`; without coefficients alone, since the density of
@@ -362,9 +366,16 @@ private:
                       .maxCoeff());
     const double tau = largest > 0 ? m_options.smoothing / largest : 0.;
     Surface_signals* const sampled = m_options.signals == Signals::carried ? nullptr : &m_sampled;
+    Spectrum_term::Fine_modes fine_modes;
+    if(sampled && m_options.eigenpairs != nullptr)
+      fine_modes = [this](const Positions& V, const Eigen::Index count) -> Eigen::MatrixXd {
+        const Eigen::MatrixXd& vectors = m_options.eigenpairs->vectors;
+        return m_regions.restriction(m_closest, V) *
+               vectors.leftCols((std::min)(count, vectors.cols()));
+      };
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, sampled,
-        m_options.signals != Signals::sampled, tau, m_options, m_limits);
+        m_options.signals != Signals::sampled, tau, fine_modes, m_options, m_limits);
     m_keeps_inner_products =
         m_limits.keep_inner_products && sampled && tau > 0 && m_op.coefficients.rows() == 0;
     if(m_keeps_inner_products)

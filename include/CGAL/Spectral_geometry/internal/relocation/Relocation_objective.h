@@ -219,17 +219,18 @@ public:
   using Positions = Operator_geometry::Positions;
 
   /// F and Z: the signals that P carries, whether S sees them (`carried`) or not; `sampled`: others
-  /// that it sees, or null.
+  /// that it sees, or null; `fine_modes` as of `Spectrum_term`.
   Relocation_objective(const Eigen::MatrixXi& T, const Eigen::MatrixXd& F, const Eigen::MatrixXd& Z,
                        const Local_operator& op, const Size_bounds& size, const Positions& start,
                        Position_dependent_signals* sampled, const bool carried, const double tau,
+                       const Spectrum_term::Fine_modes& fine_modes,
                        const Relocation_options& options, const Relocation_limits& limits)
     : m_E(T, F, Z, op)
     , m_S(T, F.leftCols(carried ? F.cols() : 0), Z.leftCols(carried ? F.cols() : 0), op, tau,
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
     , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options.eigenvalues,
-                 limits)
+                 fine_modes, limits)
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);

@@ -8,7 +8,7 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
-#include <CGAL/Spectral_geometry/internal/surface/Operator_geometry.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Low_mode_term.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
@@ -41,18 +41,21 @@ class Spectrum_term
 public:
   using Positions = Operator_geometry::Positions;
   using Index = Eigen::Index;
-  using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
+  using Row = Low_mode_term::Row;
+  /// Returns the first eigenvectors of the fine mesh, as many or fewer, at coarse vertices.
+  using Fine_modes = std::function<Eigen::MatrixXd(const Positions&, Index)>;
 
-  /// `modes`: K; `eigenvalues`: of the fine mesh at unit area, or none. Without modes, or where a
-  /// vertex has no face, it does nothing.
+  /// `modes`: K; `eigenvalues`: of the fine mesh at unit area, or none; `fine_modes`: or empty.
+  /// Without modes, or where a vertex has no face, it does nothing.
   Spectrum_term(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op,
-                const Index modes, const Eigen::VectorXd& eigenvalues,
+                const Index modes, const Eigen::VectorXd& eigenvalues, Fine_modes fine_modes,
                 const Relocation_limits& limits)
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_modes(V.rows() - 1)
     , m_first(modes)
     , m_error(limits.eigenvalue_error)
+    , m_fine_modes(std::move(fine_modes))
   {
     bool all_have_faces = true;
     for(Index v = 0; v < V.rows(); ++v) {
@@ -92,6 +95,14 @@ public:
     if(m_vectors.size() == 0 || !iterate(op))
       find(op);
     m_phi = m_vectors.middleCols(m_first, m_last - m_first);
+    if(!has_goals() || !m_fine_modes)
+      return;
+    const Index wanted = (std::min)(m_goals.size(), Low_mode_term::largest_number);
+    const Eigen::MatrixXd fine = m_fine_modes(V, m_first + wanted);
+    const Index m = (std::max)(fine.cols() - m_first, Index(0)),
+                coarse = (std::min)(m + Low_mode_term::spare, m_vectors.cols() - m_first);
+    if(m > 1)
+      m_low_modes.refresh(op, m_vectors.middleCols(m_first, coarse), fine.rightCols(m), m_goals);
   }
 
   /// The relative errors of the eigenvalues that have a goal, then the relative changes of the
@@ -129,8 +140,12 @@ public:
       slope.tail(others).setConstant(-2 * weight * missing / (width * width) / double(others));
       result += weight * missing * missing / (width * width);
     }
-    if(matched != 0 || missing > 0)
-      add_gradient(slope, V, gradient);
+    if(matched != 0 || missing > 0) {
+      Operator_geometry::Entries derivatives = derivatives_of_changes(slope);
+      result +=
+          m_low_modes.penalty(m_geometry, m_entries, weight / (m_error * m_error), derivatives);
+      m_geometry.add_gradient(derivatives, V, gradient);
+    }
     return result;
   }
 
@@ -211,9 +226,9 @@ private:
     return true;
   }
 
-  // The gradient of sum_i slope_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change
-  // was taken last.
-  void add_gradient(const Row& slope, const Positions& V, Positions& gradient) const
+  // Those of sum_i slope_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was
+  // taken last.
+  Operator_geometry::Entries derivatives_of_changes(const Row& slope) const
   {
     Operator_geometry::Entries d = m_geometry.zero_entries();
     const Row quotient = m_stiffness / m_norm;
@@ -227,7 +242,7 @@ private:
       d.L(Index(e)) = -(by_stiffness * (m_phi.row(i) - m_phi.row(j)).square()).sum();
       d.B(Index(e)) = 2 * (by_norm * m_phi.row(i) * m_phi.row(j)).sum();
     }
-    m_geometry.add_gradient(d, V, gradient);
+    return d;
   }
 
   Eigen::MatrixXi m_T;
@@ -236,6 +251,8 @@ private:
   Index m_modes;         // that the coarse mesh has
   Index m_first, m_last; // the modes that are looked at; those with goals come first
   double m_error;
+  Fine_modes m_fine_modes;
+  Low_mode_term m_low_modes;
   Row m_goals, m_weights; // at unit area; empty: none
   Row m_after_goals;      // eigenvalues that follow, as far as they are known
   double m_aim = smallest_aim;
