@@ -191,6 +191,7 @@ TEST_CASE("The log says what it cannot do")
   SMS::Collapse_log first(4), second(2);
   first.merge(0, 1, 0.5, Eigen::Vector3d::Zero());
   CHECK_THROWS_WITH(first.append(second, {2, 3}), ContainsSubstring("3 are left"));
+  CHECK_THROWS_AS(SMS::Collapse_log(first.forest(), {}), std::invalid_argument);
 }
 
 } // namespace test_levels

@@ -226,8 +226,8 @@ private:
     return true;
   }
 
-  // Those of sum_i slope_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the change was
-  // taken last.
+  // What the entries do to sum_i slope_i A q_i / reference_i, q_i = stiffness_i / norm_i, where the
+  // change was taken last.
   Operator_geometry::Entries derivatives_of_changes(const Row& slope) const
   {
     Operator_geometry::Entries d = m_geometry.zero_entries();

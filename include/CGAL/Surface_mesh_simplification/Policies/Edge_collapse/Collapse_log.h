@@ -84,6 +84,17 @@ public:
     : m_forest(n)
   {}
 
+  /// The merges, and for each where its vertex was put. Throws `std::invalid_argument` if their
+  /// numbers differ.
+  Collapse_log(Spectral_geometry::Merge_forest forest, std::vector<Eigen::Vector3d> points)
+    : m_forest(std::move(forest))
+    , m_points(std::move(points))
+  {
+    internal::require(m_forest.merges().size() == m_points.size(), "Collapse_log: there are ",
+                      m_points.size(), " points for ", m_forest.merges().size(),
+                      " merges; give one for each.");
+  }
+
   /// Makes room for so many merges in all.
   void reserve(const std::size_t number_of_merges)
   {
