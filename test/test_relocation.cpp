@@ -250,6 +250,35 @@ TEST_CASE("with sampled signals the closest-point restriction comes back and fit
   CHECK(broken_guard(s, W) == "");
 }
 
+TEST_CASE(
+    "low eigenvectors turn towards each other less where eigenpairs of the fine mesh are known")
+{
+  for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
+    const auto turned = [&](const SG::Eigenpairs* const eigenpairs) {
+      SG::Relocation_options options;
+      options.eigenvalues = s->op.mass.sum() * s->pairs.values;
+      options.eigenpairs = eigenpairs;
+      SG::Relocation_result result;
+      const Eigen::MatrixXd V = relocated(*s, result, options);
+      const SG::Laplace_operator op = SG::laplace_operator(V, s->coarse.T, 0.5);
+      const Eigen::Index m = 7; // modes, the constant among them
+      const SG::Eigenpairs pairs = SG::eigenpairs(op, m);
+      const Eigen::MatrixXd C =
+          pairs.vectors.transpose() * op.B * result.restriction * s->pairs.vectors.leftCols(m);
+      double sum = 0; // C commutes with the operators where nothing is turned
+      for(Eigen::Index j = 1; j < m; ++j)
+        for(Eigen::Index k = 1; k < m; ++k)
+          if(j != k)
+            sum += std::pow(C(j, k) * (pairs.values(j) - s->pairs.values(k)), 2) /
+                   (s->pairs.values(j) * s->pairs.values(k));
+      return std::sqrt(sum);
+    };
+    const double with = turned(&s->pairs), without = turned(nullptr);
+    CAPTURE(with, without);
+    CHECK(with < 0.8 * without);
+  }
+}
+
 TEST_CASE("inner products of the signals come nearer to those of the fine mesh")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()}) {
