@@ -28,8 +28,7 @@ namespace CGAL::Surface_mesh_simplification {
  * @param output the mesh that it has left
  * @param options of the run, not with `signals` or the Dirichlet condition
  * @param result of the run
- * @param how they are chosen; its progress callback is told of the solve by the first half.
- * Default: with the mass on the edges, or for a lumped run on the diagonal alone
+ * @param fit how they are chosen; its progress callback is told of the solve by the first half
  * @return the operators, rows in the order of those of `result.restriction`
  *
  * Throws as `Spectral_geometry::eigenpairs()` and `Spectral_geometry::fit_operators()` do,
@@ -38,10 +37,9 @@ namespace CGAL::Surface_mesh_simplification {
 inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
     const Spectral_geometry::Mesh_matrices& input, const Spectral_geometry::Mesh_matrices& output,
     const Spectral_edge_collapse_options& options, const Spectral_edge_collapse_result& result,
-    const std::optional<Spectral_geometry::Operator_fit_options>& how = {})
+    Spectral_geometry::Operator_fit_options fit)
 {
   using namespace Spectral_geometry;
-  Operator_fit_options fit = how.value_or(Operator_fit_options::for_mass(mass_blend(options.mass)));
   Spectral_geometry::internal::check_operator_fit_options(fit);
   internal::require(options.signals.size() == 0,
                     "fit_operators_of_run: operators are fitted to eigenvectors, but the run kept "
@@ -72,6 +70,16 @@ inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
   return fit_operators(
       laplace_operator(output.V, output.T, {options.mass, result.coefficients, options.boundary}),
       result.restriction, fine, *pairs, fit);
+}
+
+/// Fits with the mass on the edges, or for a lumped run on the diagonal alone.
+inline Spectral_geometry::Operator_fit_result fit_operators_of_run(
+    const Spectral_geometry::Mesh_matrices& input, const Spectral_geometry::Mesh_matrices& output,
+    const Spectral_edge_collapse_options& options, const Spectral_edge_collapse_result& result)
+{
+  return fit_operators_of_run(input, output, options, result,
+                              Spectral_geometry::Operator_fit_options::for_mass(
+                                  Spectral_geometry::mass_blend(options.mass)));
 }
 
 /// @}
