@@ -298,6 +298,17 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
         without{{s->coarse.T, V, 0.5, 20, values, {}, limits}};
     CHECK(with.value(W) > 1.01 * without.value(W));
     CHECK(gradient_error(with, W) < 1e-6);
+    // No coarse mode is near a fine one that P takes to 0, or there are too few: there is no term.
+    const auto lost = [&](const Positions& at, const Eigen::Index count) {
+      Eigen::MatrixXd result = moved(at, count);
+      result.col(3).setZero();
+      return result;
+    };
+    const auto constant = [&](const Positions& at, Eigen::Index) { return moved(at, 1); };
+    Penalty without_one{{s->coarse.T, V, 0.5, 20, values, lost, limits}},
+        without_all{{s->coarse.T, V, 0.5, 20, values, constant, limits}};
+    CHECK(without_one.value(W) == without.value(W));
+    CHECK(without_all.value(W) == without.value(W));
   }
 }
 

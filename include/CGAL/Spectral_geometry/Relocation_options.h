@@ -44,8 +44,8 @@ struct Relocation_options : Run_control
   /// K, where F holds mixtures of the first K eigenvectors; 0: the number of columns of F. Not
   /// negative.
   Eigen::Index modes = 0;
-  /// Eigenpairs of the fine mesh, which judge the result: |C|_L before and after is that of all of
-  /// them, or of as many as there are coarse vertices, as in `evaluate_spectrum()`. Not owned.
+  /// Eigenpairs of the fine mesh, ascending, which judge the result: |C|_L before and after is that
+  /// of all, or of as many as there are coarse vertices. With `eigenvalues` they steer. Not owned.
   /// Null: those that `spectral_relocation()` has, otherwise F and Z judge it.
   const Eigenpairs* eigenpairs = nullptr;
   /// The eigenvalues of the fine mesh at unit area, in any order: each times the sum of M. The

@@ -33,9 +33,9 @@ The term of the spectrum therefore holds the mean of the next K / 2 where it was
 lowest 1.5 K eigenpairs of the coarse mesh and 16 more, found once and followed every ten steps, and
 nothing of the fine one.
 
-Nor does it say in which directions the low eigenvectors lie, which biharmonic distances see first.
-Where signals are `sampled` and the eigenpairs and eigenvalues of the fine mesh are at hand, the
-first twelve are kept from turning towards each other.
+Nor does the residual say in which directions low eigenvectors lie, which biharmonic distances see
+first. Where signals are sampled and eigenpairs and eigenvalues of the fine mesh are given, at most
+twelve of them are kept from turning towards each other.
 
 Nor does the residual speak for how area is spread over the mesh, which distances and heat kernels
 depend on. Inner products of signals that are `sampled` are therefore drawn to those on the fine
@@ -113,6 +113,7 @@ public:
     , m_F(F)
     , m_Z(Z)
     , m_op(op)
+    , m_timer(started())
     , m_border(fine)
     , m_coarse{V, T}
     , m_regions(m_coarse, fine, P)
@@ -123,7 +124,6 @@ public:
     , m_followed(m_closest, m_regions, std::size_t(V.rows()))
     , m_sampled(fine, m_followed, F, Z, options.threads)
   {
-    m_timer.start();
     set_guards(fixed);
     set_objective();
     if(m_options.keep_free_of_self_intersections)
@@ -179,6 +179,13 @@ public:
   }
 
 private:
+  static Real_timer started()
+  {
+    Real_timer timer;
+    timer.start();
+    return timer;
+  }
+
   using Signals = Relocation_options::Signals;
   using Stop_reason = Relocation_result::Stop_reason;
   using Descent = Guarded_descent<Relocation_objective, Relocation_guards>;
@@ -368,10 +375,17 @@ private:
     Surface_signals* const sampled = m_options.signals == Signals::carried ? nullptr : &m_sampled;
     Spectrum_term::Fine_modes fine_modes;
     if(sampled && m_options.eigenpairs != nullptr)
-      fine_modes = [this](const Positions& V, const Eigen::Index count) -> Eigen::MatrixXd {
-        const Eigen::MatrixXd& vectors = m_options.eigenpairs->vectors;
-        return m_regions.restriction(m_closest, V) *
-               vectors.leftCols((std::min)(count, vectors.cols()));
+      fine_modes = [this](const Positions& V, const Eigen::Index count) {
+        const Eigen::MatrixXd& Phi = m_options.eigenpairs->vectors;
+        Eigen::MatrixXd result(V.rows(), (std::min)(count, Phi.cols()));
+        for(Eigen::Index w = 0; w < V.rows(); ++w) {
+          const Closest_point_query::Answer closest = m_followed(w, V.row(w));
+          result.row(w).setZero();
+          for(int k = 0; k < 3; ++k)
+            result.row(w) +=
+                closest.weights(k) * Phi.row(m_fine.T(closest.face, k)).leftCols(result.cols());
+        }
+        return result;
       };
     m_objective = std::make_unique<Relocation_objective>(
         m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, sampled,

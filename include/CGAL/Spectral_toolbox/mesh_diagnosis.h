@@ -160,6 +160,8 @@ Mesh_diagnosis diagnose_mesh(const PolygonMesh& pm,
 
 #include <boost/pending/disjoint_sets.hpp>
 
+#include <numeric>
+
 namespace CGAL::Spectral_geometry {
 
 namespace internal {

@@ -15,19 +15,20 @@ namespace CGAL::Spectral_geometry::internal {
 Keeps low coarse eigenvectors from turning towards each other.
 
 Their eigenvalues may be right and they may be turned all the same, which biharmonic and diffusion
-distances see at once. Let U be the coarse eigenvectors of the first m modes with a goal and of
-eight more, and \f$ Y = U C (C^T C)^{-1/2} \f$ with \f$ C = U^T \widetilde B P \Phi \f$: what is
-nearest to the fine eigenvectors among orthonormal functions that U spans. In Y the coarse operator
-is diagonal, as in Phi, if nothing is turned. The mean square of what is beside its diagonal,
-\f[ \frac{1}{\epsilon^2} \sum_{j \ne k} w_{jk} h_{jk}^2 \Big/ \sum_{j \ne k} w_{jk}, \qquad
-   h_{jk} = \frac{Y_j^T \widetilde L Y_k}{\sqrt{\lambda_j \lambda_k}}, \qquad
-   w_{jk} = \frac{\lambda_2^2}{\lambda_j \lambda_k}, \f]
-all at unit area, divides by no difference of eigenvalues. Modes of one eigenvalue may turn as they
-like, which no distance sees.
+distances see at once. U holds the coarse eigenvectors of the first m modes with a goal, and of
+eight more. \f$ Y = U C (C^T C)^{-1/2} \f$ with \f$ C = U^T \widetilde B P \Phi \f$ are the
+orthonormal functions in the span of U that are nearest to the m fine eigenvectors. If nothing is
+turned, the coarse operator is diagonal in Y. The term is the mean square of what is beside the
+diagonal, \f[ \frac{1}{\epsilon^2} \sum_{j \ne k} w_{jk} h_{jk}^2 \Big/ \sum_{j \ne k} w_{jk},
+\qquad h_{jk} = \frac{Y_j^T \widetilde L Y_k}{\sqrt{\lambda_j \lambda_k}}, \qquad w_{jk} =
+\frac{\lambda_2^2}{\lambda_j \lambda_k}, \f] all at unit area, with the epsilon of `Spectrum_term`.
+It divides by no difference of eigenvalues: modes of one eigenvalue may turn as they like, which no
+distance sees. Where the second eigenvalue is far below the others, beyond a thin neck, the pairs
+with it have nearly all of the weight.
 
-Between two calls of `refresh()` Y stays. Its inner products then change as well:
-\f$ \lambda_{jk} Y_j^T \widetilde B Y_k \f$ is subtracted, with the mean of both Rayleigh quotients,
-so that h is right to the first order in the movement.
+Between two calls of `refresh()` Y stays. To the first order in the movement the changes of L and of
+B turn it: \f$ \lambda_{jk} Y_j^T \widetilde B Y_k \f$ is subtracted from the product in h, with the
+mean of both Rayleigh quotients. That P Phi moves as well is seen at the next call.
 */
 class Low_mode_term
 {
@@ -35,8 +36,8 @@ public:
   using Index = Eigen::Index;
   using Row = Eigen::Array<double, 1, Eigen::Dynamic>;
 
-  /// So many modes are followed: with six biharmonic distances are 1.16 times as far off, with
-  /// twenty as far.
+  /// At most so many modes are followed. With six modes errors of biharmonic distances are 1.16
+  /// times as large, with twenty they are the same.
   static constexpr Index largest_number = 12;
   /// Coarse modes beyond these among which their directions are sought.
   static constexpr Index spare = 8;
@@ -48,10 +49,11 @@ public:
   {
     const Eigen::MatrixXd C = U.transpose() * (op.B * fine);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> squares(C.transpose() * C);
-    // A fine mode that lies outside of U has no nearest one there.
-    m_Y = U * (C * squares.operatorInverseSqrt());
+    m_Y.resize(0, 0);
+    // A fine mode that lies outside of U has no nearest one there: then there is no term at all.
     if(!(squares.eigenvalues()(0) > 1e-3 * squares.eigenvalues().maxCoeff()))
-      m_Y.resize(0, 0);
+      return;
+    m_Y = U * (C * squares.operatorInverseSqrt());
     const Eigen::RowVectorXd quotients = (m_Y.transpose() * (op.L * m_Y)).diagonal();
     const Index m = m_Y.cols();
     m_quotients = (quotients.replicate(m, 1) + quotients.transpose().replicate(1, m)) / 2;
