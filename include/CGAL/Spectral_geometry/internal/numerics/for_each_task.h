@@ -10,23 +10,23 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 
 namespace CGAL::Spectral_geometry::internal {
 
 /// Calls f(0) .. f(count - 1) in any order, `grain` of them in a row on one of at most so many
-/// threads, which `start` makes; the caller is one of them, and where the system has no more it
-/// does with those it has got.
+/// threads, which `start(worker)` makes; the caller is one of them, and where the system has no
+/// more it does with those it has got.
 ///
 /// What a call computes must depend on its index alone, and sums over tasks are up to the caller,
 /// in the order of the tasks, so that no result depends on the number of threads. What one throws,
 /// on whichever thread, the caller gets when all are back; calls that nobody has begun with are
 /// left out then.
-template <class Function>
-void for_each_task(
-    const Eigen::Index count, const int threads, const Function& f, const int grain = 1,
-    const std::function<std::thread(const std::function<void()>& worker)>& start =
-        [](const std::function<void()>& worker) { return std::thread(worker); })
+template <class Function, class Start>
+void for_each_task(const Eigen::Index count, const int threads, const Function& f, const int grain,
+                   const Start& start)
 {
   std::atomic<Eigen::Index> next{0};
   std::mutex mutex;
@@ -43,19 +43,34 @@ void for_each_task(
       next = count;
     }
   };
-  std::vector<std::thread> workers;
-  const Eigen::Index most = (std::min)(Eigen::Index(threads), count / grain);
-  workers.reserve(std::size_t((std::max)(most, Eigen::Index(1))));
-  try {
-    for(Eigen::Index i = 1; i < most; ++i)
-      workers.push_back(start(take_part));
-  } catch(...) { // the system has no thread or no memory for one
+  {
+    struct Workers : std::vector<std::thread>
+    {
+      ~Workers()
+      {
+        for(std::thread& worker : *this)
+          worker.join();
+      }
+    } workers;
+    const Eigen::Index most = (std::min)(Eigen::Index(threads), count / grain);
+    workers.reserve(std::size_t((std::max)(most, Eigen::Index(1))));
+    try {
+      for(Eigen::Index i = 1; i < most; ++i)
+        workers.push_back(start(take_part));
+    } catch(const std::system_error&) {
+    } catch(const std::bad_alloc&) {
+    }
+    take_part();
   }
-  take_part();
-  for(std::thread& worker : workers)
-    worker.join();
   if(error)
     std::rethrow_exception(error);
+}
+
+template <class Function>
+void for_each_task(const Eigen::Index count, const int threads, const Function& f,
+                   const int grain = 1)
+{
+  for_each_task(count, threads, f, grain, [](const auto& worker) { return std::thread(worker); });
 }
 
 } // namespace CGAL::Spectral_geometry::internal
