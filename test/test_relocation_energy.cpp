@@ -60,6 +60,23 @@ private:
   Positions m_V;
 };
 
+// The term of the spectrum as an energy of its own, at a weight of 3.
+struct Penalty
+{
+  SG::internal::Spectrum_term term;
+
+  double value(const Positions& V)
+  {
+    Positions gradient;
+    return value_and_gradient(V, gradient);
+  }
+  double value_and_gradient(const Positions& V, Positions& gradient)
+  {
+    gradient.setZero(V.rows(), 3);
+    return term.penalty(V, 3., gradient);
+  }
+};
+
 template <class Energy>
 double gradient_error(Energy& energy, const Positions& V)
 {
@@ -198,20 +215,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     CHECK(guard.changes(W).mean() == Catch::Approx(change).margin(1e-4));
     CHECK(before > change);   // eigenvectors of another mesh
     REQUIRE(change < 0.0015); // the penalty begins at 0.002
-    struct Penalty
-    {
-      SG::internal::Spectrum_term& guard;
-      double value(const Positions& at)
-      {
-        Positions gradient = Positions::Zero(at.rows(), 3);
-        return guard.penalty(at, 3., gradient);
-      }
-      double value_and_gradient(const Positions& at, Positions& gradient)
-      {
-        gradient.setZero(at.rows(), 3);
-        return guard.penalty(at, 3., gradient);
-      }
-    } penalty{guard};
+    Penalty penalty{guard};
     CHECK(gradient_error(penalty, W) < 1e-6);
     CHECK(penalty.value(W) > 0);
     SG::internal::Relocation_limits limits;
@@ -259,9 +263,7 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
         result.col(j) = std::cos(angle) * y - std::sin(angle) * x;
         return result;
       };
-      SG::internal::Spectrum_term term(s->coarse.T, V, 0.5, K, values, turned, limits);
-      Positions gradient = Positions::Zero(V.rows(), 3);
-      return term.penalty(V, 3., gradient);
+      return Penalty{{s->coarse.T, V, 0.5, K, values, turned, limits}}.value(V);
     };
     CHECK(value_of_turned(0) < 1e-4);
     const double angle = 0.1, h = (values(j) - values(i)) * std::sin(2 * angle) / 2 /
@@ -280,22 +282,10 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
     const auto moved = [&](const Positions&, const Eigen::Index count) {
       return Eigen::MatrixXd(s->P * s->pairs.vectors.leftCols(count));
     };
-    struct Penalty
-    {
-      SG::internal::Spectrum_term term;
-      double value(const Positions& at)
-      {
-        Positions gradient = Positions::Zero(at.rows(), 3);
-        return term.penalty(at, 3., gradient);
-      }
-      double value_and_gradient(const Positions& at, Positions& gradient)
-      {
-        gradient.setZero(at.rows(), 3);
-        return term.penalty(at, 3., gradient);
-      }
+    const auto penalty_of = [&](SG::internal::Spectrum_term::Fine_modes modes) {
+      return Penalty{{s->coarse.T, V, 0.5, 20, values, std::move(modes), limits}};
     };
-    Penalty with{{s->coarse.T, V, 0.5, 20, values, moved, limits}},
-        without{{s->coarse.T, V, 0.5, 20, values, {}, limits}};
+    Penalty with = penalty_of(moved), without = penalty_of({});
     CHECK(with.value(W) > 1.01 * without.value(W));
     CHECK(gradient_error(with, W) < 1e-6);
     // No coarse mode is near a fine one that P takes to 0, or there are too few: there is no term.
@@ -305,10 +295,8 @@ TEST_CASE("the term of low modes is the angle by which they are turned, and its 
       return result;
     };
     const auto constant = [&](const Positions& at, Eigen::Index) { return moved(at, 1); };
-    Penalty without_one{{s->coarse.T, V, 0.5, 20, values, lost, limits}},
-        without_all{{s->coarse.T, V, 0.5, 20, values, constant, limits}};
-    CHECK(without_one.value(W) == without.value(W));
-    CHECK(without_all.value(W) == without.value(W));
+    CHECK(penalty_of(lost).value(W) == without.value(W));
+    CHECK(penalty_of(constant).value(W) == without.value(W));
   }
 }
 

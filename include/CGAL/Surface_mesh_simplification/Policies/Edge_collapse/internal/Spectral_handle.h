@@ -9,14 +9,21 @@
 
 #include <CGAL/version.h>
 
+#if CGAL_VERSION_NR >= 1060000900
+#else
 #include <boost/optional.hpp>
+#endif
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
 /// The optional of `GetCost` and `GetPlacement`: Boost's before CGAL 6, that of the standard since.
+#if CGAL_VERSION_NR >= 1060000900
 template <class T>
-using Spectral_optional =
-    std::conditional_t<(CGAL_VERSION_NR >= 1060000900), std::optional<T>, boost::optional<T>>;
+using Spectral_optional = std::optional<T>;
+#else
+template <class T>
+using Spectral_optional = boost::optional<T>;
+#endif
 
 /// What a handle stands for. Throws `std::logic_error` where it was made by default or has been
 /// moved from.

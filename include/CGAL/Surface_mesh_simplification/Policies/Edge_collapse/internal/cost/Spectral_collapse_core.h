@@ -238,8 +238,9 @@ CGAL_SPECTRAL_GEOMETRY_INLINE void
 Spectral_collapse_core::set_input(const std::vector<Eigen::Vector3d>& points,
                                   const Spectral_rings& rings)
 {
+  // Quadrics and the border are those of the input.
   if(std::exchange(m_has_input, true))
-    return;        // quadrics and the border are those of the input
+    return;
   double area = 0; // three times that of the surface, whatever the density
   for(std::size_t w = 0; w < points.size(); ++w) {
     if(m_options.boundary == Spectral_geometry::Boundary_condition::dirichlet)
