@@ -10,11 +10,12 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
-#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
+#include <CGAL/Spectral_geometry/internal/numerics/product.h>
 
 #include "catch.h"
 #include "collapse_helpers.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <memory>
@@ -168,6 +169,32 @@ TEST_CASE("A loop does with the threads it gets, and all that is to be done is d
   CHECK(calls == 2000);
   CHECK_THROWS_AS(for_each_task(1000, 6, count, 4, refuse_third(std::runtime_error("another"))),
                   std::runtime_error);
+}
+
+TEST_CASE("Ranges cover every number once; products on several threads are those on one")
+{
+  using CGAL::Spectral_geometry::internal::for_each_range;
+  using CGAL::Spectral_geometry::internal::product;
+  const Eigen::Index size = GENERATE(0, 1, 1023, 1024, 1025, 5000);
+  CAPTURE(size);
+  std::vector<int> calls(std::size_t(size), 0);
+  std::atomic<bool> short_enough{true};
+  for_each_range(size, 64, 3, [&](const Eigen::Index first, const Eigen::Index end) {
+    short_enough = short_enough && first < end && end - first <= 64;
+    for(Eigen::Index i = first; i < end; ++i)
+      ++calls[std::size_t(i)];
+  });
+  CHECK(short_enough);
+  CHECK(std::count(calls.begin(), calls.end(), 1) == size);
+
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Random(size, 7), B = Eigen::MatrixXd::Random(7, 5);
+  Eigen::SparseMatrix<double> S(7, 7);
+  S.insert(6, 2) = 3;
+  S.insert(0, 5) = -2;
+  CHECK((product(A, B, 3) - A * B).norm() <= 1e-14 * double(size));
+  CHECK(product(A, B, 3) == product(A, B, 1));
+  CHECK((product(S, B, 3) - S * B).norm() < 1e-14);
+  CHECK(product(S, B, 3) == product(S, B, 1));
 }
 
 TEST_CASE("What one of the tasks of a loop throws reaches the caller, on whichever thread")

@@ -346,10 +346,11 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
                                     edge[2].cwiseAbs().maxCoeff()});
   // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is
   // exact.
-  const int exponent = extent > 0. && std::isfinite(extent) ? std::ilogb(extent) : 0;
+  const int exponent =
+      extent > 0. && std::isfinite(extent) ? (std::max)(std::ilogb(extent), -1022) : 0;
+  const double unit = std::scalbn(1., -exponent);
   for(Eigen::Vector3d& e : edge)
-    for(int c = 0; c < 3; ++c)
-      e(c) = std::scalbn(e(c), -exponent);
+    e *= unit;
 
   Triangle_cotangents result = cotangents_of(triangle_element(edge, mean), exponent);
   result.area *= density(mean);

@@ -115,9 +115,12 @@ inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs
      10. * (std::max)(options.tolerance, problem.residual(pairs, 0)) * problem.scale())
     refuse_indefinite(problem, options.threads);
   pairs.values = pairs.values.cwiseMax(0.).eval();
+  for_each_task(range.count, options.threads, [&](const Eigen::Index i) {
+    pairs.residuals(range.first + i) = problem.residual(pairs, range.first + i);
+  });
   Pair_range failed;
   for(Eigen::Index k = range.first; k < range.first + range.count; ++k) {
-    const double r = pairs.residuals(k) = problem.residual(pairs, k);
+    const double r = pairs.residuals(k);
     if(!(r <= 10. * options.tolerance || r <= 100. * problem.rounding(pairs, k))) {
       failed.first = failed.count == 0 ? k : failed.first;
       failed.count = k + 1 - failed.first;

@@ -337,9 +337,7 @@ private:
   template <class Function>
   void for_each_range(const Function& f) const
   {
-    const Index n = m_problem.size(), ranges = n / 1024 + 1;
-    for_each_task(ranges, m_options.threads,
-                  [&](Index range) { f(n * range / ranges, n * (range + 1) / ranges); });
+    internal::for_each_range(m_problem.size(), 1024, m_options.threads, f);
   }
 
   const Laplace_operator& m_op;

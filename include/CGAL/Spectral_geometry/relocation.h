@@ -83,6 +83,7 @@ relocate_within(Eigen::MatrixXd& V, const Eigen::MatrixXi& T, const Eigen::Spars
 
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/internal/numerics/Eigen_problem.h>
+#include <CGAL/Spectral_geometry/internal/numerics/product.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Guarded_descent.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_objective.h>
@@ -388,8 +389,9 @@ private:
         return result;
       };
     m_objective = std::make_unique<Relocation_objective>(
-        m_T, m_P * m_F, m_P * m_Z, m_op, m_size, m_start, sampled,
-        m_options.signals != Signals::sampled, tau, fine_modes, m_options, m_limits);
+        m_T, product(m_P, m_F, m_options.threads), product(m_P, m_Z, m_options.threads), m_op,
+        m_size, m_start, sampled, m_options.signals != Signals::sampled, tau, fine_modes, m_options,
+        m_limits);
     m_keeps_inner_products =
         m_limits.keep_inner_products && sampled && tau > 0 && m_op.coefficients.rows() == 0;
     if(m_keeps_inner_products)

@@ -197,10 +197,18 @@ public:
   }
 
 private:
-  struct Side // of a face, along an edge
+  struct Side // of a face, along an edge; numbers of 32 bits: there are six for each vertex
   {
-    std::size_t low, high, face;
-    std::uint32_t place; // in the face
+    Side() {} // zeros would be overwritten
+    Side(std::size_t low, std::size_t high, std::size_t face, std::size_t place, bool forward)
+      : low(std::uint32_t(low))
+      , high(std::uint32_t(high))
+      , face(std::uint32_t(face))
+      , place(std::uint32_t(place))
+      , forward(forward)
+    {}
+
+    std::uint32_t low, high, face, place; // in the face
     bool forward;
     bool operator<(const Side& other) const
     {
@@ -301,7 +309,7 @@ private:
         for(std::size_t i = 0; m_sound[face] && i < p.size(); ++i) {
           const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
           const std::size_t low = (std::min)(v, w);
-          add(low, {low, (std::max)(v, w), face, std::uint32_t(i), v < w});
+          add(low, {low, (std::max)(v, w), face, i, v < w});
         }
       }
     });

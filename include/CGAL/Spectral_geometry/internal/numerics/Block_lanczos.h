@@ -366,11 +366,7 @@ private:
     return llt.matrixU().solve(Eigen::MatrixXd::Identity(panel_width, panel_width));
   }
 
-  void transform(const Eigen::MatrixXd& T)
-  {
-    m_space.transform(m_W, T);
-    m_space.transform(m_BW, T);
-  }
+  void transform(const Eigen::MatrixXd& T) { m_space.transform(m_W, m_BW, T); }
 
   static double smallest_singular_value(const Eigen::MatrixXd& R)
   {

@@ -85,13 +85,14 @@ public:
     subtract(&P, 1, W, H, 0, W, {});
   }
 
-  // W = W T
-  void transform(Panel& W, const Eigen::MatrixXd& T) const
+  // V = V T and W = W T
+  void transform(Panel& V, Panel& W, const Eigen::MatrixXd& T) const
   {
     const Coefficients by_rows = T;
     for_each_block(rows_in_cache, [&](Index first, Index rows, int) {
-      multiply_block(W.row(first), panel_width, panel_width, W.row(first), panel_width,
-                     by_rows.data(), panel_width, rows, false);
+      for(Panel* const panel : {&V, &W})
+        multiply_block(panel->row(first), panel_width, panel_width, panel->row(first), panel_width,
+                       by_rows.data(), panel_width, rows, false);
     });
   }
 

@@ -186,7 +186,9 @@ public:
   void factorise(const Sparse_matrix& A, int threads)
   {
     CGAL_precondition(A.isCompressed() && A.nonZeros() == Index(m_position.size()));
-    std::fill(m_values.begin(), m_values.end(), 0.);
+    for_each_range(m_number_of_values, 1 << 16, threads, [&](Index first, Index end) {
+      std::fill(m_values.get() + first, m_values.get() + end, 0.);
+    });
     for(std::size_t p = 0; p < m_position.size(); ++p)
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
@@ -226,10 +228,15 @@ public:
   {
     if(m_workspace.size() < std::size_t(m_slots * panel_width))
       m_workspace.assign(m_slots * panel_width, 0.);
-    const Index entries = Index(m_order.size()) * panel_width;
-    std::copy_n(b.row(0), entries, m_workspace.data());
-    solve_in_place<panel_width>(m_workspace.data(), threads, forward, backward);
-    std::copy_n(m_workspace.data(), entries, x.row(0));
+    double* const w = m_workspace.data();
+    solve_in_workspace<panel_width>(
+        w, threads, forward, backward,
+        [&](Index first, Index last) {
+          std::copy(b.row(first), b.row(last), w + first * panel_width);
+        },
+        [&](Index first, Index last) {
+          std::copy(w + first * panel_width, w + last * panel_width, x.row(first));
+        });
   }
 
   /// Solves for one vector, in the order of A.
@@ -238,12 +245,17 @@ public:
     if(m_workspace.size() < std::size_t(m_slots))
       m_workspace.assign(m_slots, 0.);
     double* const w = m_workspace.data();
-    for(std::size_t i = 0; i < m_order.size(); ++i)
-      w[i] = b[m_order[i]];
-    solve_in_place<1>(w, threads, forward_vector, backward_vector);
     Eigen::VectorXd x(b.size());
-    for(std::size_t i = 0; i < m_order.size(); ++i)
-      x[m_order[i]] = w[i];
+    solve_in_workspace<1>(
+        w, threads, forward_vector, backward_vector,
+        [&](Index first, Index last) {
+          for(Index i = first; i < last; ++i)
+            w[i] = b[m_order[i]];
+        },
+        [&](Index first, Index last) {
+          for(Index i = first; i < last; ++i)
+            x[m_order[i]] = w[i];
+        });
     return x;
   }
 
@@ -298,7 +310,8 @@ private:
       m_value_start.push_back(values);
       values += (groups[g].width + below(g)) * groups[g].width;
     }
-    m_values.resize(values);
+    m_number_of_values = static_cast<Index>(values);
+    m_values.reset(new double[values]);
     find_places(A, group_of);
   }
 
@@ -334,7 +347,7 @@ private:
   // Subtrees of between 1/256 and 1/16 of the factor become branches; the rest is the top.
   void find_branches()
   {
-    const std::size_t count = m_children.size(), total = m_values.size();
+    const std::size_t count = m_children.size(), total = m_number_of_values;
     std::vector<Branch> subtree(count);
     for(std::size_t k = 0; k < count; ++k) {
       subtree[k] = {
@@ -382,7 +395,7 @@ private:
   void eliminate(std::size_t k, std::vector<std::vector<double>>& updates, double* signs,
                  int threads)
   {
-    double* const F = m_values.data() + m_value_start[k];
+    double* const F = m_values.get() + m_value_start[k];
     const std::size_t w = width(k), b = below(k), stride = padded(b);
     std::vector<double>& U = updates[k];
     U.assign(b * stride, 0.);
@@ -521,14 +534,18 @@ private:
     }
   }
 
-  // w = L^-T S L^-1 w, with the steps of one supernode
-  template <int columns, class Forward, class Backward>
-  void solve_in_place(double* w, int threads, const Forward& forward,
-                      const Backward& backward) const
+  // w = L^-T S L^-1 w, with the steps of one supernode. `read` and `write` copy rows first .. last
+  // - 1 into the workspace and out of it; every thread does it for those that it works on.
+  template <int columns, class Forward, class Backward, class Read, class Write>
+  void solve_in_workspace(double* w, int threads, const Forward& forward, const Backward& backward,
+                          const Read& read, const Write& write) const
   {
     const Index branches = static_cast<Index>(m_branches.size());
+    for(const std::size_t k : m_top)
+      read(m_first[k], m_first[k + 1]);
     for_each_task(branches, threads, [&](Index b) {
       const Branch& branch = m_branches[b];
+      read(m_first[branch.first], m_first[branch.last]);
       std::fill_n(w + branch.slot * columns, branch.ancestors.size() * columns, 0.);
       for(std::size_t k = branch.first; k < branch.last; ++k)
         forward(supernode(k), w);
@@ -553,12 +570,15 @@ private:
         to = std::copy_n(w + Index(row) * columns, columns, to);
       for(std::size_t k = branch.last; k-- > branch.first;)
         backward(supernode(k), w);
+      write(m_first[branch.first], m_first[branch.last]);
     });
+    for(const std::size_t k : m_top)
+      write(m_first[k], m_first[k + 1]);
   }
 
   Supernode supernode(std::size_t k) const
   {
-    return {m_values.data() + m_value_start[k], m_rows.data() + m_row_start[k], m_first[k],
+    return {m_values.get() + m_value_start[k], m_rows.data() + m_row_start[k], m_first[k],
             static_cast<int>(width(k)), static_cast<int>(below(k))};
   }
 
@@ -572,7 +592,8 @@ private:
   std::vector<int> m_rows,
       m_place; // below the columns, and where each is in the block of the parent
   std::vector<std::size_t> m_value_start; // into m_values
-  std::vector<double> m_values;
+  Index m_number_of_values = 0;
+  std::unique_ptr<double[]> m_values;     // first touched by the threads that set them to 0
   std::vector<std::ptrdiff_t> m_position; // in m_values, of each entry of A
   std::vector<Branch> m_branches;
   std::vector<std::size_t> m_top; // supernodes outside of the branches

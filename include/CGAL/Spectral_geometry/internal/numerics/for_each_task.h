@@ -73,6 +73,16 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
   for_each_task(count, threads, f, grain, [](const auto& worker) { return std::thread(worker); });
 }
 
+/// Calls f(first, end) for ranges of at most so many of the numbers 0 .. size - 1.
+template <class Function>
+void for_each_range(const Eigen::Index size, const Eigen::Index at_once, const int threads,
+                    const Function& f)
+{
+  for_each_task((size + at_once - 1) / at_once, threads, [&](const Eigen::Index range) {
+    f(range * at_once, (std::min)((range + 1) * at_once, size));
+  });
+}
+
 } // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_NUMERICS_FOR_EACH_TASK_H

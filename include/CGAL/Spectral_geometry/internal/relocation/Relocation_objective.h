@@ -230,7 +230,8 @@ public:
           tau > 0 ? 0. : 1., sampled)
     , m_size(size)
     , m_spectrum(T, start, op, options.modes == 0 ? F.cols() : options.modes, options.eigenvalues,
-                 fine_modes, limits)
+                 fine_modes, limits, options.threads)
+    , m_threads(options.threads)
   {
     m_S.set_threads(options.threads);
     m_scale = m_S.value(start);
@@ -262,10 +263,18 @@ public:
 
   double value_and_gradient(const Positions& V, Positions& gradient)
   {
-    const double value = m_S.value_and_gradient(V, gradient);
+    Positions by_spectrum = Positions::Zero(V.rows(), 3);
+    double value = 0, spectrum = 0;
+    for_each_task(2, m_threads, [&](const int part) {
+      if(part == 0)
+        value = m_S.value_and_gradient(V, gradient);
+      else
+        spectrum = m_spectrum.penalty(V, m_scale, by_spectrum);
+    });
     if(!std::isfinite(value))
       return value;
-    return value + m_size.penalty(V, m_scale, gradient) + m_spectrum.penalty(V, m_scale, gradient);
+    gradient += by_spectrum;
+    return value + spectrum + m_size.penalty(V, m_scale, gradient);
   }
 
 private:
@@ -277,6 +286,7 @@ private:
   Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
   Spectrum_term m_spectrum;
+  int m_threads;
   double m_scale = 1;
 };
 

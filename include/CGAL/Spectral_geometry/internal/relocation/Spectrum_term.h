@@ -8,6 +8,7 @@
 #include <CGAL/Spectral_geometry/Relocation_options.h>
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Low_mode_term.h>
 
 #include <Eigen/Eigenvalues>
@@ -49,13 +50,14 @@ public:
   /// Without modes, or where a vertex has no face, it does nothing.
   Spectrum_term(const Eigen::MatrixXi& T, const Positions& V, const Local_operator& op,
                 const Index modes, const Eigen::VectorXd& eigenvalues, Fine_modes fine_modes,
-                const Relocation_limits& limits)
+                const Relocation_limits& limits, const int threads = 1)
     : m_T(T)
     , m_geometry(T, V.rows(), op)
     , m_modes(V.rows() - 1)
     , m_first(modes)
     , m_error(limits.eigenvalue_error)
     , m_fine_modes(std::move(fine_modes))
+    , m_threads(threads)
   {
     bool all_have_faces = true;
     for(Index v = 0; v < V.rows(); ++v) {
@@ -170,6 +172,8 @@ private:
   // the consistent mass 0.58 and 0.89 times.
   static constexpr double finer = 10;
 
+  static constexpr Index columns_at_once = 16;
+
   // False where there are but zeros.
   bool set_goals(const Eigen::VectorXd& values)
   {
@@ -189,6 +193,7 @@ private:
   {
     Eigenpairs_options options = Eigenpairs_options::with_tolerance(1e-3);
     options.verify = false;
+    options.threads = m_threads;
     const Eigenpairs pairs = eigenpairs(op, (std::min)(m_last + spare, m_modes), options);
     m_vectors = pairs.vectors;
     if(m_reference.size() == 0) { // it stays that of the start
@@ -202,8 +207,8 @@ private:
     }
   }
 
-  // X = (L + s B)^-1 B Phi, then Rayleigh-Ritz in its span. False where rounding leaves one of
-  // the two without a factor.
+  // X = (L + s B)^-1 B Phi, then Rayleigh-Ritz in its span, columns on several threads. False
+  // where rounding leaves one of the two without a factor.
   bool iterate(const Laplace_operator& op)
   {
     const double shift =
@@ -211,18 +216,27 @@ private:
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky(op.L + shift * op.B);
     if(cholesky.info() != Eigen::Success)
       return false;
-    Eigen::MatrixXd X = cholesky.solve(op.B * m_vectors), BX = op.B * X;
-    for(Index k = 0; k < X.cols(); ++k) { // their lengths are near 1 / (lambda + s)
-      const double length = std::sqrt(X.col(k).dot(BX.col(k)));
-      X.col(k) /= length;
-      BX.col(k) /= length;
-    }
-    const Eigen::MatrixXd LX = op.L * X;
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(X.transpose() * LX,
-                                                                         X.transpose() * BX);
+    const Index count = m_vectors.cols();
+    Eigen::MatrixXd X(m_vectors.rows(), count), stiffness(count, count), mass(count, count);
+    for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
+      auto x = X.middleCols(first, end - first);
+      x = cholesky.solve(op.B * m_vectors.middleCols(first, end - first));
+      for(Index k = 0; k < x.cols(); ++k) // their lengths are near 1 / (lambda + s)
+        x.col(k) /= std::sqrt(x.col(k).dot(op.B * x.col(k)));
+    });
+    // Lower triangles are enough.
+    for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
+      const auto x = X.middleCols(first, end - first), below = X.rightCols(count - first);
+      stiffness.block(first, first, count - first, end - first) = below.transpose() * (op.L * x);
+      mass.block(first, first, count - first, end - first) = below.transpose() * (op.B * x);
+    });
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(stiffness, mass);
     if(ritz.info() != Eigen::Success)
       return false;
-    m_vectors = X * ritz.eigenvectors();
+    for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
+      m_vectors.middleCols(first, end - first) =
+          X * ritz.eigenvectors().middleCols(first, end - first);
+    });
     return true;
   }
 
@@ -252,6 +266,7 @@ private:
   Index m_first, m_last; // the modes that are looked at; those with goals come first
   double m_error;
   Fine_modes m_fine_modes;
+  int m_threads;
   Low_mode_term m_low_modes;
   Row m_goals, m_weights; // at unit area; empty: none
   Row m_after_goals;      // eigenvalues that follow, as far as they are known

@@ -69,14 +69,13 @@ Laplace_operator assemble(const Eigen::MatrixXi& T, const Eigen::Index n, const 
     upper.setFromTriplets(entries.begin(), entries.end());
     return upper.selfadjointView<Eigen::Upper>();
   };
-  const Eigen::VectorXd diagonal =
-      Eigen::VectorXd::Zero(n) -
-      mirrored(stiffness) * Eigen::VectorXd::Ones(n); // so that rows sum to 0
-  for(Eigen::Index i = 0; i < n; ++i) {
-    stiffness.emplace_back(static_cast<int>(i), static_cast<int>(i), diagonal(i));
-    consistent.emplace_back(static_cast<int>(i), static_cast<int>(i), mass_diagonal(i));
+  for(int i = 0; i < int(n); ++i) {
+    stiffness.emplace_back(i, i, 0.);
+    consistent.emplace_back(i, i, mass_diagonal(i));
   }
   result.L = mirrored(stiffness);
+  const Eigen::VectorXd sums = result.L * Eigen::VectorXd::Ones(n);
+  result.L.diagonal() -= sums; // so that rows sum to 0
   result.B = mirrored(consistent);
   return result;
 }

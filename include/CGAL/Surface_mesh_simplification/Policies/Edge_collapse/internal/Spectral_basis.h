@@ -11,6 +11,7 @@
 #include <CGAL/Spectral_geometry/cotangent_laplacian.h>
 #include <CGAL/Spectral_geometry/eigenpairs.h>
 #include <CGAL/Spectral_geometry/filtered_signals.h>
+#include <CGAL/Spectral_geometry/internal/numerics/product.h>
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
@@ -204,13 +205,15 @@ public:
   /// All signals but constants, restricted, each multiplied by the root of its weight.
   Signals restricted(const Eigen::SparseMatrix<double>& P) const
   {
+    using Spectral_geometry::internal::product;
+    const int threads = m_options.threads;
     if(m_basis.filtered)
-      return {P * m_basis.filtered->F, P * m_basis.filtered->Z};
-    Eigen::MatrixXd R = weights().cwiseSqrt().asDiagonal();
-    R.leftCols(m_basis.constants).setZero();
-    Eigen::MatrixXd PF = P * given() * R;
+      return {product(P, m_basis.filtered->F, threads), product(P, m_basis.filtered->Z, threads)};
+    Eigen::VectorXd roots = weights().cwiseSqrt();
+    roots.head(m_basis.constants).setZero();
+    Eigen::MatrixXd PF = product(P, given(), threads) * roots.asDiagonal();
     Eigen::MatrixXd PZ = m_basis.rough
-                             ? Eigen::MatrixXd(P * mixed(R).second)
+                             ? product(P, mixed(roots.asDiagonal()).second, threads)
                              : Eigen::MatrixXd(PF * m_basis.eigenpairs->values.asDiagonal());
     return {std::move(PF), std::move(PZ)};
   }
@@ -227,10 +230,12 @@ private:
   // F R and Z R, for mixtures or weights R.
   Signals mixed(const Eigen::MatrixXd& R) const
   {
-    Eigen::MatrixXd F = given() * R;
+    using Spectral_geometry::internal::product;
+    const int threads = m_options.threads;
+    Eigen::MatrixXd F = product(given(), R, threads);
     Eigen::MatrixXd Z =
         m_basis.rough ? spectral_z(operator_of_basis(m_fine.V, m_fine.T, m_options), F)
-                      : Eigen::MatrixXd(given() * (m_basis.eigenpairs->values.asDiagonal() * R));
+                      : product(given(), m_basis.eigenpairs->values.asDiagonal() * R, threads);
     return {std::move(F), std::move(Z)};
   }
 
@@ -407,7 +412,7 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   const Eigen::MatrixXd R = mixing_matrix(options, weights);
   const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
   basis.signals = Spectral_signals(Z.rows(), R.cols());
-  basis.signals.set(0, options.signals * R, Z * R);
+  basis.signals.set(0, options.signals * R, Z * R, options.threads);
   basis.sum_of_squares =
       ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
   const double rounding =
@@ -442,15 +447,19 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
   weights.head(basis.constants).setZero();
   const Eigen::MatrixXd R = mixing_matrix(options, weights) * std::sqrt(area);
   basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
-  for(Eigen::Index first = 0; first < R.cols(); first += spectral_width) {
-    const auto columns =
+  Eigen::Index first = 0;
+  do {
+    using Spectral_geometry::internal::product;
+    const Eigen::MatrixXd columns =
         R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
-    const Eigen::MatrixXd F = pairs->vectors * columns;
-    if(basis.rough)
-      basis.signals.set(first, F, area * spectral_z(op, F));
-    else
-      basis.signals.set(first, F, pairs->vectors * ((area * pairs->values).asDiagonal() * columns));
-  }
+    const Eigen::MatrixXd F = product(pairs->vectors, columns, options.threads);
+    const Eigen::MatrixXd Z =
+        basis.rough ? Eigen::MatrixXd(area * spectral_z(op, F))
+                    : product(pairs->vectors, (area * pairs->values).asDiagonal() * columns,
+                              options.threads);
+    basis.signals.set(first, F, Z, options.threads);
+    first += spectral_width;
+  } while(first < R.cols()); // at least once, where no signal is seen
   basis.eigenpairs = std::move(pairs);
   return basis;
 }
@@ -470,13 +479,19 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
   const auto filtered = std::make_shared<Spectral_geometry::Filtered_signals>(
       Spectral_geometry::filtered_signals(op, options.number_of_eigenvectors, how));
   Spectral_basis basis;
-  basis.sum_of_squares = area * area * (op.B * filtered->Z).cwiseProduct(filtered->Z).sum();
+  Eigen::VectorXd squares(filtered->Z.cols());
+  Spectral_geometry::internal::for_each_task(
+      squares.size(), options.threads, [&](const Eigen::Index k) {
+        squares[k] = filtered->Z.col(k).dot(op.B * filtered->Z.col(k));
+      });
+  basis.sum_of_squares = area * area * squares.sum();
   if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
     basis.sum_of_squares = 0;
   const double scale =
       std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
   basis.signals = Spectral_signals(op.L.rows(), r);
-  basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r));
+  basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r),
+                    options.threads);
   basis.filtered = filtered;
   return basis;
 }
