@@ -289,7 +289,7 @@ private:
   {
     m_link.setIdentity(panel_width, panel_width);
     m_rank = panel_width;
-    m_space.multiply_mass(m_W, m_BW); // transform() keeps it up
+    m_space.multiply_mass(m_W, m_BW); // the transformation keeps it up
     for(int pass = 0; pass < 2; ++pass) {
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       const Eigen::MatrixXd R = llt.matrixU();
@@ -299,7 +299,7 @@ private:
         reveal_rank();
         return;
       }
-      transform(inverse_of(llt));
+      m_space.transform(m_W, m_BW, inverse_of(llt));
       m_link = R * m_link;
     }
   }
@@ -324,7 +324,7 @@ private:
       step.row(m_rank).tail(behind) = -G.row(m_rank).tail(behind) / (length * length);
       back(m_rank, m_rank) = length;
       back.row(m_rank).tail(behind) = G.row(m_rank).tail(behind) / length;
-      transform(exchange * step);
+      m_space.transform(m_W, m_BW, exchange * step);
       m_link = (back * exchange * m_link).eval();
       if(length < 1e-6 * m_norm) {
         orthogonalise();
@@ -349,7 +349,7 @@ private:
       const Eigen::LLT<Eigen::MatrixXd> llt(gram());
       if(!(llt.matrixLLT().diagonal().minCoeff() > 0.))
         throw Not_converged("the vectors of a block depend on each other");
-      transform(inverse_of(llt));
+      m_space.transform(m_W, m_BW, inverse_of(llt));
     }
   }
 
@@ -365,8 +365,6 @@ private:
   {
     return llt.matrixU().solve(Eigen::MatrixXd::Identity(panel_width, panel_width));
   }
-
-  void transform(const Eigen::MatrixXd& T) { m_space.transform(m_W, m_BW, T); }
 
   static double smallest_singular_value(const Eigen::MatrixXd& R)
   {
