@@ -118,14 +118,16 @@ def demo(build, _):
 
 # To 1,000 vertices three times with each preset.
 def nefertiti(build, meshes):
-    runs = {preset: [] for preset in PRESETS}
+    runs, one_thread = {preset: [] for preset in PRESETS}, []
     for _ in range(3):
+        one_thread.append(simplified(build, os.path.join(meshes, "nefertiti.obj"), "--vertices", "1000", "--threads", "1", "--no-evaluation"))
         for preset in PRESETS:
             runs[preset].append(simplified(build, os.path.join(meshes, "nefertiti.obj"), "--vertices", "1000", "--preset", preset,
                                            "--no-evaluation"))
     return {"vertices": runs["best"][0]["input_vertices"],
             **{preset: {key: statistics.median(r[key] for r in runs[preset])
-                        for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")} for preset in PRESETS}}
+                        for key in ("seconds", "seconds_eigenpairs", "seconds_collapse", "seconds_relocation")} for preset in PRESETS},
+            "one_thread": {"seconds": statistics.median(r["seconds"] for r in one_thread)}}
 
 
 def benchmark(build, meshes):

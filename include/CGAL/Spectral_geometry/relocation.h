@@ -125,24 +125,23 @@ public:
     , m_followed(m_closest, m_regions, std::size_t(V.rows()))
     , m_sampled(fine, m_followed, F, Z, options.threads)
   {
-    check_areas();
     set_guards(fixed);
-    for_each_task(2, m_options.threads, [&](const int part) {
-      if(part == 0)
-        set_objective();
-      else
-        look_at_start();
-    });
+    set_objective();
+    if(m_options.keep_free_of_self_intersections)
+      m_crossing = self_intersecting_faces(m_start, m_T);
+    if(m_options.keep_hausdorff_distance)
+      measure_fine();
   }
 
   bool keeps_inner_products() const { return m_keeps_inner_products; }
 
   Positions run(Relocation_result& result)
   {
+    check_areas();
     Descent descent(*m_objective, m_guards,
                     0.05 * std::sqrt(m_size.area() / double(m_start.rows())));
     result.E_before = m_objective->E(m_given);
-    result.norm_before = m_norm_before;
+    result.norm_before = norm(m_given, m_P);
     const bool nothing_to_gain = result.norm_before == 0;
     Positions V = m_start;
     m_guards.admit(m_start, V); // boundary vertices go to the boundary
@@ -454,15 +453,6 @@ private:
         marks[v] = 1;
   }
 
-  void look_at_start()
-  {
-    if(m_options.keep_free_of_self_intersections)
-      m_crossing = self_intersecting_faces(m_start, m_T);
-    if(m_options.keep_hausdorff_distance)
-      measure_fine();
-    m_norm_before = norm(m_given, m_P);
-  }
-
   // Where the fine vertices lie at the start.
   void measure_fine()
   {
@@ -523,8 +513,7 @@ private:
   Face_pairs m_crossing;               // at the start
   std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
   double m_furthest = 0;               // the largest distance then
-  double m_norm_before = 0;
-  std::size_t m_reverted = 0; // vertices that went back, and stay
+  std::size_t m_reverted = 0;          // vertices that went back, and stay
   bool m_keeps_inner_products = false;
 };
 
