@@ -171,7 +171,7 @@ TEST_CASE("A loop does with the threads it gets, and all that is to be done is d
                   std::runtime_error);
 }
 
-TEST_CASE("Ranges cover every number once; products on several threads are those on one")
+TEST_CASE("Ranges cover every number once, and products on several threads are those on one")
 {
   using CGAL::Spectral_geometry::internal::for_each_range;
   using CGAL::Spectral_geometry::internal::product;
