@@ -38,6 +38,8 @@ QUOTED = [
     ("../README.md", r"`--fit-operators DIR --fit-mass diagonal` \(eigenvalues off by ([\d.]+) % in the mean", ("rivals.lumped.fitted.2",)),
     ("../README.md", r"a million vertices to 10,000 in ([\d.]+) s and ([\d.]+) GB with best, ([\d.]+) s and ([\d.]+) GB with fast",
      ("measured.million.best.seconds", "measured.million.best.gigabytes", "measured.million.fast.seconds", "measured.million.fast.gigabytes")),
+    ("measurements.md", r"For nefertiti best takes ([\d.]+) s with one thread and ([\d.]+) s with two",
+     ("measured.nefertiti.one_thread.seconds", "measured.nefertiti.best.seconds")),
     ("reference.md", r"Beside `paper`, `best` takes ([\d.]+) times as long for nefertiti", ("best_over_paper",)),
     ("measurements.md", r"A collapse of rocker-arm takes ([\d.]+) µs, first costs included, ([\d.]+) times as long as with Garland-Heckbert's quadrics",
      ("measured.benchmark.us_per_collapse", "measured.benchmark.ratio_garland_heckbert")),
