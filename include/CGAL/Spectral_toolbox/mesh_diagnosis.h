@@ -199,15 +199,6 @@ public:
 private:
   struct Side // of a face, along an edge; numbers of 32 bits: there are six for each vertex
   {
-    Side() {} // zeros would be overwritten
-    Side(std::size_t low, std::size_t high, std::size_t face, std::size_t place, bool forward)
-      : low(std::uint32_t(low))
-      , high(std::uint32_t(high))
-      , face(std::uint32_t(face))
-      , place(std::uint32_t(place))
-      , forward(forward)
-    {}
-
     std::uint32_t low, high, face, place; // in the face
     bool forward;
     bool operator<(const Side& other) const
@@ -220,8 +211,8 @@ private:
 
   bool joined(const std::size_t low, const std::size_t high) const
   {
-    const auto side =
-        std::lower_bound(m_sides.begin(), m_sides.end(), Side{low, high, 0, 0, false});
+    const Side sought = {std::uint32_t(low), std::uint32_t(high), 0, 0, false};
+    const auto side = std::lower_bound(m_sides.begin(), m_sides.end(), sought);
     return side != m_sides.end() && side->low == low && side->high == high;
   }
 
@@ -307,9 +298,9 @@ private:
       for(std::size_t face = 0; face < m_polygons.size(); ++face) {
         const std::vector<std::size_t>& p = m_polygons[face];
         for(std::size_t i = 0; m_sound[face] && i < p.size(); ++i) {
-          const std::size_t v = p[i], w = p[i + 1 == p.size() ? 0 : i + 1];
-          const std::size_t low = (std::min)(v, w);
-          add(low, {low, (std::max)(v, w), face, i, v < w});
+          const auto v = std::uint32_t(p[i]), w = std::uint32_t(p[i + 1 == p.size() ? 0 : i + 1]);
+          add((std::min)(v, w),
+              {(std::min)(v, w), (std::max)(v, w), std::uint32_t(face), std::uint32_t(i), v < w});
         }
       }
     });
