@@ -118,7 +118,7 @@ def demo(build, _):
             "eigenvalue_error_percent": 100 * result["eigenvalue_error_mean"]}
 
 
-# To 1,000 vertices three times with each preset.
+# To 1,000 vertices three times with each preset, and with best on one thread.
 def nefertiti(build, meshes):
     runs, one_thread = {preset: [] for preset in PRESETS}, []
     for _ in range(3):

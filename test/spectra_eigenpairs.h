@@ -94,7 +94,7 @@ inline SG::Eigenpairs spectra_eigenpairs(const SG::Laplace_operator& op, const E
   result.values =
       (s * (solver.eigenvalues().array() - 1.)).max(0.); // Spectra's are (lambda + s) / s
   result.vectors = std::sqrt(s) * solver.eigenvectors(K);
-  result.residuals = problem.residuals(result);
+  result.residuals = problem.residuals(result, 1);
   return result;
 }
 

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Spectral_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Vertex_count_stop_predicate.h>
 
+#include <CGAL/Spectral_geometry/internal/numerics/for_each_task.h>
 #include <CGAL/Spectral_geometry/internal/numerics/product.h>
 
 #include "catch.h"
@@ -180,7 +181,8 @@ TEST_CASE("Ranges cover every number once, and products on several threads are t
   std::vector<int> calls(std::size_t(size), 0);
   std::atomic<bool> short_enough{true};
   for_each_range(size, 64, 3, [&](const Eigen::Index first, const Eigen::Index end) {
-    short_enough = short_enough && first < end && end - first <= 64;
+    if(!(first < end && end - first <= 64))
+      short_enough = false;
     for(Eigen::Index i = first; i < end; ++i)
       ++calls[std::size_t(i)];
   });

@@ -169,6 +169,15 @@ TEST_CASE("Zero-area faces contribute nothing, exact or degenerate to rounding")
   CHECK(t.cot == Eigen::Vector3d::Zero());
 }
 
+TEST_CASE("Cotangents have no unit, from the smallest double to the largest")
+{
+  for(const double x : {5e-324, 1e-310, 1e-300, 1., 1e300, 1.7e308}) {
+    CAPTURE(x);
+    const SG::Triangle_cotangents t = SG::triangle_cotangents({0, 0, 0}, {x, 0, 0}, {0, x, 0});
+    CHECK((t.cot - Eigen::Vector3d(0, 1, 1)).norm() < 1e-15);
+  }
+}
+
 TEST_CASE("A mesh and its matrices give the same operators, for every mesh type and kernel")
 {
   const shapes::Matrices mesh = shapes::bumpy_icosphere_matrices(1);

@@ -345,7 +345,7 @@ inline Triangle_cotangents cotangents_of(const Eigen::Vector3d& p, const Eigen::
   const double extent = (std::max)({edge[0].cwiseAbs().maxCoeff(), edge[1].cwiseAbs().maxCoeff(),
                                     edge[2].cwiseAbs().maxCoeff()});
   // Cotangents have no unit. A power of two makes products neither overflow nor underflow, and is
-  // exact.
+  // exact. Its inverse is to be a double.
   const int exponent =
       extent > 0. && std::isfinite(extent) ? (std::max)(std::ilogb(extent), -1022) : 0;
   const double unit = std::scalbn(1., -exponent);

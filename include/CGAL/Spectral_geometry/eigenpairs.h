@@ -106,8 +106,8 @@ struct Pair_range
   Eigen::Index first = 0, count = 0;
 };
 
-/// Sets the residuals of a range, cuts what rounding has made negative, and returns the range of
-/// those pairs that have not the accuracy that they were to have, and that doubles can have.
+/// Sets all residuals, cuts what rounding has made negative, and returns the part of a range whose
+/// pairs have not the accuracy that they were to have, and that doubles can have.
 inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs_options& options,
                                   const Pair_range range, Eigenpairs& pairs)
 {
@@ -115,9 +115,7 @@ inline Pair_range check_residuals(const Eigen_problem& problem, const Eigenpairs
      10. * (std::max)(options.tolerance, problem.residual(pairs, 0)) * problem.scale())
     refuse_indefinite(problem, options.threads);
   pairs.values = pairs.values.cwiseMax(0.).eval();
-  for_each_task(range.count, options.threads, [&](const Eigen::Index i) {
-    pairs.residuals(range.first + i) = problem.residual(pairs, range.first + i);
-  });
+  pairs.residuals = problem.residuals(pairs, options.threads);
   Pair_range failed;
   for(Eigen::Index k = range.first; k < range.first + range.count; ++k) {
     const double r = pairs.residuals(k);
@@ -174,7 +172,6 @@ inline void refine(const Eigen_problem& problem, Supernodal_factor& factor, cons
 inline bool have_converged(const Eigen_problem& problem, const Eigenpairs_options& options,
                            Eigenpairs& pairs)
 {
-  pairs.residuals.setZero(pairs.size());
   Pair_range failed = check_residuals(problem, options, {0, pairs.size()}, pairs);
   try {
     std::optional<Supernodal_factor> factor;

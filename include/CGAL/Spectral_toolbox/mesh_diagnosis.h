@@ -197,9 +197,11 @@ public:
   }
 
 private:
-  struct Side // of a face, along an edge; numbers of 32 bits: there are six for each vertex
+  // A side of a face, along an edge. There are six for each vertex, so numbers have 32 bits.
+  struct Side
   {
-    std::uint32_t low, high, face, place; // in the face
+    std::uint32_t low, high, face;
+    std::uint32_t place; // of the side in the face
     bool forward;
     bool operator<(const Side& other) const
     {

@@ -114,11 +114,11 @@ public:
     report_to(m_control, {Phase::eigenpairs, m_fraction});
   }
 
-  Eigen::VectorXd residuals(const Eigenpairs& pairs) const
+  Eigen::VectorXd residuals(const Eigenpairs& pairs, const int threads) const
   {
     Eigen::VectorXd result(pairs.size());
-    for(Eigen::Index k = 0; k < pairs.size(); ++k)
-      result(k) = residual(pairs, k);
+    for_each_task(pairs.size(), threads,
+                  [&](const Eigen::Index k) { result(k) = residual(pairs, k); });
     return result;
   }
 

@@ -186,9 +186,10 @@ public:
   void factorise(const Sparse_matrix& A, int threads)
   {
     CGAL_precondition(A.isCompressed() && A.nonZeros() == Index(m_position.size()));
-    for_each_range(m_number_of_values, 1 << 16, threads, [&](Index first, Index end) {
-      std::fill(m_values.get() + first, m_values.get() + end, 0.);
-    });
+    for_each_range(static_cast<Index>(m_number_of_values), 1 << 16, threads,
+                   [&](Index first, Index end) {
+                     std::fill(m_values.get() + first, m_values.get() + end, 0.);
+                   });
     for(std::size_t p = 0; p < m_position.size(); ++p)
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
@@ -310,7 +311,7 @@ private:
       m_value_start.push_back(values);
       values += (groups[g].width + below(g)) * groups[g].width;
     }
-    m_number_of_values = static_cast<Index>(values);
+    m_number_of_values = values;
     m_values.reset(new double[values]);
     find_places(A, group_of);
   }
@@ -535,7 +536,7 @@ private:
   }
 
   // w = L^-T S L^-1 w, with the steps of one supernode. `read` and `write` copy rows first .. last
-  // - 1 into the workspace and out of it; every thread does it for those that it works on.
+  // - 1 into the workspace and out of it: those of a branch on the thread that works on it.
   template <int columns, class Forward, class Backward, class Read, class Write>
   void solve_in_workspace(double* w, int threads, const Forward& forward, const Backward& backward,
                           const Read& read, const Write& write) const
@@ -592,7 +593,7 @@ private:
   std::vector<int> m_rows,
       m_place; // below the columns, and where each is in the block of the parent
   std::vector<std::size_t> m_value_start; // into m_values
-  Index m_number_of_values = 0;
+  std::size_t m_number_of_values = 0;
   std::unique_ptr<double[]> m_values;     // first touched by the threads that set them to 0
   std::vector<std::ptrdiff_t> m_position; // in m_values, of each entry of A
   std::vector<Branch> m_branches;

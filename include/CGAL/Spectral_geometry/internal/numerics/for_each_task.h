@@ -73,7 +73,7 @@ void for_each_task(const Eigen::Index count, const int threads, const Function& 
   for_each_task(count, threads, f, grain, [](const auto& worker) { return std::thread(worker); });
 }
 
-/// Calls f(first, end) for ranges of at most so many of the numbers 0 .. size - 1.
+/// Calls f(first, end) for ranges of `at_once` numbers of 0 .. size - 1; the last may be shorter.
 template <class Function>
 void for_each_range(const Eigen::Index size, const Eigen::Index at_once, const int threads,
                     const Function& f)

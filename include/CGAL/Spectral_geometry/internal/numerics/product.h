@@ -9,8 +9,8 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// A B on several threads, which are the first to touch the result's memory, too: ranges of rows of
-/// a matrix that is dense, columns of the product with one that is sparse.
+/// Returns A B. Threads share ranges of rows where A is dense, columns where it is sparse. They are
+/// the first to touch the memory of the result.
 inline Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                                const int threads)
 {

@@ -265,7 +265,9 @@ public:
   {
     Positions by_spectrum = Positions::Zero(V.rows(), 3);
     double value = 0, spectrum = 0;
-    for_each_task(2, m_threads, [&](const int part) {
+    // S starts threads as well; the term of the spectrum keeps a further one for a fifth of the
+    // time.
+    for_each_task(2, m_spectrum.is_active() ? m_threads : 1, [&](const int part) {
       if(part == 0)
         value = m_S.value_and_gradient(V, gradient);
       else

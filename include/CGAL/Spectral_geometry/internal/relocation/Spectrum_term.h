@@ -172,6 +172,7 @@ private:
   // the consistent mass 0.58 and 0.89 times.
   static constexpr double finer = 10;
 
+  // On one thread. No result depends on how many threads there are.
   static constexpr Index columns_at_once = 16;
 
   // False where there are but zeros.
@@ -224,17 +225,19 @@ private:
       for(Index k = 0; k < x.cols(); ++k) // their lengths are near 1 / (lambda + s)
         x.col(k) /= std::sqrt(x.col(k).dot(op.B * x.col(k)));
     });
-    // Lower triangles are enough.
+    // The solver reads lower triangles alone.
     for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
       const auto x = X.middleCols(first, end - first), below = X.rightCols(count - first);
-      stiffness.block(first, first, count - first, end - first) = below.transpose() * (op.L * x);
-      mass.block(first, first, count - first, end - first) = below.transpose() * (op.B * x);
+      stiffness.block(first, first, count - first, end - first).noalias() =
+          below.transpose() * (op.L * x);
+      mass.block(first, first, count - first, end - first).noalias() =
+          below.transpose() * (op.B * x);
     });
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ritz(stiffness, mass);
     if(ritz.info() != Eigen::Success)
       return false;
     for_each_range(count, columns_at_once, m_threads, [&](const Index first, const Index end) {
-      m_vectors.middleCols(first, end - first) =
+      m_vectors.middleCols(first, end - first).noalias() =
           X * ritz.eigenvectors().middleCols(first, end - first);
     });
     return true;

@@ -15,6 +15,8 @@
 
 namespace CGAL::Surface_mesh_simplification::internal {
 
+using Spectral_geometry::internal::product;
+
 /// What the metric preserves, for the input scaled to unit area: F and Z = B^-1 L F. Columns carry
 /// the square root of their weight. Where there are more than
 /// `Spectral_options::number_of_mixtures` of them, these are F R and Z R instead.
@@ -205,7 +207,6 @@ public:
   /// All signals but constants, restricted, each multiplied by the root of its weight.
   Signals restricted(const Eigen::SparseMatrix<double>& P) const
   {
-    using Spectral_geometry::internal::product;
     const int threads = m_options.threads;
     if(m_basis.filtered)
       return {product(P, m_basis.filtered->F, threads), product(P, m_basis.filtered->Z, threads)};
@@ -230,7 +231,6 @@ private:
   // F R and Z R, for mixtures or weights R.
   Signals mixed(const Eigen::MatrixXd& R) const
   {
-    using Spectral_geometry::internal::product;
     const int threads = m_options.threads;
     Eigen::MatrixXd F = product(given(), R, threads);
     Eigen::MatrixXd Z =
@@ -360,9 +360,10 @@ inline bool is_rounding(const double sum_of_squares, const double norm_of_F, con
 /// must be small, or the very ones that they came with, as those of rough pairs are.
 inline Eigen::VectorXd checked_residuals(const Spectral_geometry::Eigenpairs& pairs,
                                          const Spectral_geometry::Laplace_operator& op,
-                                         const Spectral_geometry::Mass mass)
+                                         const Spectral_geometry::Mass mass, const int threads)
 {
-  const Eigen::VectorXd residuals = Spectral_geometry::internal::Eigen_problem(op).residuals(pairs);
+  const Eigen::VectorXd residuals =
+      Spectral_geometry::internal::Eigen_problem(op).residuals(pairs, threads);
   const bool recorded = pairs.residuals.size() == residuals.size();
   for(Eigen::Index k = 0; k < residuals.size(); ++k) {
     const double r = residuals[k];
@@ -412,7 +413,8 @@ inline Spectral_basis basis_of_signals(const Spectral_geometry::Laplace_operator
   const Eigen::MatrixXd R = mixing_matrix(options, weights);
   const Eigen::MatrixXd Z = area * spectral_z(op, options.signals);
   basis.signals = Spectral_signals(Z.rows(), R.cols());
-  basis.signals.set(0, options.signals * R, Z * R, options.threads);
+  basis.signals.set(0, product(options.signals, R, options.threads), product(Z, R, options.threads),
+                    options.threads);
   basis.sum_of_squares =
       ((op.B * Z).cwiseProduct(Z).colwise().sum().transpose()).dot(weights) / area;
   const double rounding =
@@ -433,7 +435,8 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
   Spectral_basis basis;
   Eigen::VectorXd weights = spectral_weights(options, pairs->size());
   const Eigen::VectorXd residuals =
-      options.eigenpairs ? checked_residuals(*pairs, op, options.mass) : pairs->residuals;
+      options.eigenpairs ? checked_residuals(*pairs, op, options.mass, options.threads)
+                         : pairs->residuals;
   basis.sum_of_squares = weights.dot((area * pairs->values).cwiseAbs2());
   if(eigenvalues_are_rounding(op, *pairs, residuals) ||
      is_rounding(basis.sum_of_squares, weights.sum(), pairs->vectors.rows()))
@@ -449,7 +452,6 @@ basis_of_eigenpairs(const Spectral_geometry::Laplace_operator& op, const Spectra
   basis.signals = Spectral_signals(pairs->vectors.rows(), R.cols());
   Eigen::Index first = 0;
   do {
-    using Spectral_geometry::internal::product;
     const Eigen::MatrixXd columns =
         R.middleCols(first, (std::min)(Eigen::Index(spectral_width), R.cols() - first));
     const Eigen::MatrixXd F = product(pairs->vectors, columns, options.threads);
