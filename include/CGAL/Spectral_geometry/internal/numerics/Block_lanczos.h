@@ -289,7 +289,7 @@ private:
   {
     m_link.setIdentity(panel_width, panel_width);
     m_rank = panel_width;
-    m_space.multiply_mass(m_W, m_BW); // the transformation keeps it up
+    m_space.multiply_mass(m_W, m_BW); // transform() keeps it up
     for(int pass = 0; pass < 2; ++pass) {
       const Eigen::LLT<Eigen::MatrixXd> llt(m_space.product(m_W, m_BW));
       const Eigen::MatrixXd R = llt.matrixU();

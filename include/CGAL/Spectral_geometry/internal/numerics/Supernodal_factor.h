@@ -186,10 +186,10 @@ public:
   void factorise(const Sparse_matrix& A, int threads)
   {
     CGAL_precondition(A.isCompressed() && A.nonZeros() == Index(m_position.size()));
-    for_each_range(static_cast<Index>(m_number_of_values), 1 << 16, threads,
-                   [&](Index first, Index end) {
-                     std::fill(m_values.get() + first, m_values.get() + end, 0.);
-                   });
+    const Index size = static_cast<Index>(m_value_start.back());
+    for_each_range(size, 1 << 16, threads, [&](Index first, Index end) {
+      std::fill(m_values.get() + first, m_values.get() + end, 0.);
+    });
     for(std::size_t p = 0; p < m_position.size(); ++p)
       if(m_position[p] >= 0)
         m_values[m_position[p]] += A.valuePtr()[p];
@@ -287,7 +287,6 @@ private:
     for(std::size_t g = 0; g < groups.size(); ++g)
       std::fill_n(group_of.begin() + groups[g].first, groups[g].width, static_cast<int>(g));
     m_children.resize(groups.size());
-    std::size_t values = 0;
     for(int g = 0; g < static_cast<int>(groups.size()); ++g) {
       const int last = groups[g].first + groups[g].width;
       const std::size_t start = m_rows.size();
@@ -308,11 +307,10 @@ private:
         m_children[group_of[m_rows[start]]].push_back(g);
       m_first.push_back(last);
       m_row_start.push_back(m_rows.size());
-      m_value_start.push_back(values);
-      values += (groups[g].width + below(g)) * groups[g].width;
+      m_value_start.push_back(m_value_start.back() +
+                              (groups[g].width + below(g)) * groups[g].width);
     }
-    m_number_of_values = values;
-    m_values.reset(new double[values]);
+    m_values.reset(new double[m_value_start.back()]);
     find_places(A, group_of);
   }
 
@@ -348,11 +346,10 @@ private:
   // Subtrees of between 1/256 and 1/16 of the factor become branches; the rest is the top.
   void find_branches()
   {
-    const std::size_t count = m_children.size(), total = m_number_of_values;
+    const std::size_t count = m_children.size(), total = m_value_start.back();
     std::vector<Branch> subtree(count);
     for(std::size_t k = 0; k < count; ++k) {
-      subtree[k] = {
-          k, k + 1, 0, {}, (k + 1 < count ? m_value_start[k + 1] : total) - m_value_start[k]};
+      subtree[k] = {k, k + 1, 0, {}, m_value_start[k + 1] - m_value_start[k]};
       for(const int c : m_children[k]) {
         subtree[k].first = (std::min)(subtree[k].first, subtree[c].first);
         subtree[k].values += subtree[c].values;
@@ -592,10 +589,9 @@ private:
   std::vector<std::size_t> m_row_start = {0}; // into m_rows
   std::vector<int> m_rows,
       m_place; // below the columns, and where each is in the block of the parent
-  std::vector<std::size_t> m_value_start; // into m_values
-  std::size_t m_number_of_values = 0;
-  std::unique_ptr<double[]> m_values;     // first touched by the threads that set them to 0
-  std::vector<std::ptrdiff_t> m_position; // in m_values, of each entry of A
+  std::vector<std::size_t> m_value_start = {0}; // into m_values
+  std::unique_ptr<double[]> m_values;           // first touched by the threads that set them to 0
+  std::vector<std::ptrdiff_t> m_position;       // in m_values, of each entry of A
   std::vector<Branch> m_branches;
   std::vector<std::size_t> m_top; // supernodes outside of the branches
   std::size_t m_slots = 0;        // n rows and the branches' copies

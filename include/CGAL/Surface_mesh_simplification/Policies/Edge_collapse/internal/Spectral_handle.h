@@ -9,8 +9,7 @@
 
 #include <CGAL/version.h>
 
-#if CGAL_VERSION_NR >= 1060000900
-#else
+#if CGAL_VERSION_NR < 1060000900
 #include <boost/optional.hpp>
 #endif
 
