@@ -176,7 +176,8 @@ class Beside_the_program(Shapes):
                 ("--quadrics-above inf --preserve-border", dict(quadrics_above=math.inf, preserve_border=True)),
                 ("--preset fast", dict(preset="fast")), # which is best on a mesh as small as this one
                 ("--pre-simplify 500 --relocate carried_and_sampled --max-error 0.05 --preserve-border",
-                 dict(pre_simplify=500, relocate="carried_and_sampled", max_error=0.05, preserve_border=True))):
+                 dict(pre_simplify=500, relocate="carried_and_sampled", max_error=0.05, preserve_border=True)),
+                ("--prefer shape", dict(prefer="shape"))):
             if "signals" not in arguments:
                 arguments["k"] = 50
             with self.subTest(options), warnings.catch_warnings():
@@ -643,6 +644,8 @@ class Wrong_input(Shapes):
                 (TypeError, "shape is 'round', it must be a number", dict(shape="round")),
                 (ValueError, "self_intersections is 'no', it must be", dict(self_intersections="no")),
                 (ValueError, "relocate is 'yes', it must be", dict(relocate="yes")),
+                (ValueError, "prefer is 'form', it must be None, 'spectrum' or 'shape'", dict(prefer="form")),
+                (ValueError, "prefer='shape' is a matter of relocation", dict(prefer="shape", preset="paper")),
                 (ValueError, "binary asks for a P of ones and zeros", dict(binary=True)),
                 (TypeError, "binary is 1, it must be True or False", dict(binary=1)),
                 (TypeError, "preserve_border is 'no', it must be True or False", dict(preserve_border="no")),

@@ -14,6 +14,7 @@
 #include <CGAL/Spectral_geometry/closest_point_interpolation.h>
 #include <CGAL/Spectral_geometry/functional_map.h>
 #include <CGAL/Spectral_geometry/operator_coefficients.h>
+#include <CGAL/Spectral_geometry/internal/relocation/Distance_term.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Relocation_guards.h>
 #include <CGAL/Spectral_geometry/internal/surface/Border_polyline.h>
 #include <CGAL/Spectral_geometry/internal/surface/connectivity.h>
@@ -26,6 +27,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -368,6 +370,123 @@ TEST_CASE("fixed vertices stay, and the distance to the fine surface is bounded"
   CHECK(relocated(s, result, {}, fixed) == s.coarse.V);
 }
 
+TEST_CASE(
+    "the term of the distance is its formula over all samples, and its gradient the difference")
+{
+  const Simplified_mesh& s = closed_example();
+  const SG::internal::Closest_point_query on_fine(s.fine);
+  using Positions = SG::internal::Distance_term::Positions;
+  const Positions start = s.coarse.V;
+  const double goal = 0.4;
+  SG::internal::Distance_term term(s.fine, on_fine, s.coarse.T, start, goal, 2);
+  Positions V = start;
+  for(Eigen::Index v = 0; v < V.rows(); ++v) // elsewhere, so that the closest faces are others
+    V.row(v) *= 1 + 0.02 * std::sin(7. * double(v));
+  term.refresh(V);
+
+  // The distance from the nearest of all faces, without a tree.
+  const auto distance = [](const Eigen::Vector3d& p, const Eigen::MatrixXd& W,
+                           const Eigen::MatrixXi& T) {
+    double least = std::numeric_limits<double>::infinity();
+    for(Eigen::Index f = 0; f < T.rows(); ++f) {
+      Eigen::Matrix3d corners;
+      for(int k = 0; k < 3; ++k)
+        corners.col(k) = W.row(T(f, k)).transpose();
+      least =
+          (std::min)(least, SG::internal::closest_point_of_triangle(p, corners).squared_distance);
+    }
+    return std::sqrt(least);
+  };
+  const auto value_at = [&](const Positions& W, const double theta) {
+    std::vector<double> of_fine, of_coarse;
+    const auto h2 = [&](const double d) {
+      return std::pow((std::max)(0., d * d / (theta * theta) - 1), 2);
+    };
+    for(Eigen::Index i = 0; i < s.fine.V.rows(); ++i)
+      of_fine.push_back(h2(distance(s.fine.V.row(i), W, s.coarse.T)));
+    std::set<std::pair<int, int>> edges;
+    const auto at = [&](const Eigen::Vector3d& p) {
+      of_coarse.push_back(h2(distance(p, s.fine.V, s.fine.T)));
+    };
+    for(Eigen::Index v = 0; v < W.rows(); ++v)
+      at(W.row(v));
+    for(Eigen::Index f = 0; f < s.coarse.T.rows(); ++f) {
+      const auto t = s.coarse.T.row(f);
+      at((W.row(t(0)) + W.row(t(1)) + W.row(t(2))) / 3);
+      for(int k = 0; k < 3; ++k)
+        if(edges.insert(std::minmax(int(t(k)), int(t((k + 1) % 3)))).second)
+          at((W.row(t(k)) + W.row(t((k + 1) % 3))) / 2);
+    }
+    const auto mean = [](const std::vector<double>& all) {
+      return std::accumulate(all.begin(), all.end(), 0.) / double(all.size());
+    };
+    return 0.1 * double(W.rows()) * (mean(of_fine) + mean(of_coarse));
+  };
+  double furthest = 0;
+  for(Eigen::Index i = 0; i < s.fine.V.rows(); ++i)
+    furthest = (std::max)(furthest, distance(s.fine.V.row(i), s.coarse.V, s.coarse.T));
+  Positions gradient = Positions::Zero(V.rows(), 3), other = gradient;
+  const double value = term.penalty(V, 3, gradient);
+  CHECK(value > 0);
+  CHECK(value == Approx(3 * value_at(V, goal * furthest)).epsilon(1e-9));
+
+  int seen = 0;
+  for(Eigen::Index v = 0; v < V.rows(); v += 7)
+    for(int c = 0; c < 3; ++c) {
+      const double step = 1e-6;
+      Positions W = V;
+      W(v, c) += step;
+      const double above = term.penalty(W, 3, other);
+      W(v, c) -= 2 * step;
+      const double difference = (above - term.penalty(W, 3, other)) / (2 * step);
+      CHECK(gradient(v, c) ==
+            Approx(difference).epsilon(1e-4).margin(1e-5 * gradient.cwiseAbs().maxCoeff()));
+      seen += std::abs(difference) > 1e-3 * gradient.cwiseAbs().maxCoeff();
+    }
+  CHECK(seen > 3);
+
+  // Surfaces that lie in each other have no distance but rounding.
+  SG::internal::Distance_term none(s.fine, on_fine, s.fine.T, s.fine.V, goal, 1);
+  other.setZero(s.fine.V.rows(), 3);
+  CHECK(none.penalty(s.fine.V, 1, other) == 0);
+  CHECK(other.isZero(0));
+}
+
+TEST_CASE("a lower goal brings the surfaces nearer to each other, from either side")
+{
+  for(const Simplified_mesh* const s : {&closed_example(), &open_example()}) {
+    const auto furthest = [&](const Eigen::MatrixXd& V) {
+      const SG::internal::Closest_point_query on_fine(s->fine),
+          on_coarse(shapes::Matrices{V, s->coarse.T});
+      double result = 0;
+      const auto look = [&](const SG::internal::Closest_point_query& surface,
+                            const Eigen::Vector3d& p) {
+        result = (std::max)(result, (surface(p).point - p).norm());
+      };
+      for(Eigen::Index i = 0; i < s->fine.V.rows(); ++i)
+        look(on_coarse, s->fine.V.row(i));
+      for(Eigen::Index f = 0; f < s->coarse.T.rows(); ++f) {
+        const auto t = s->coarse.T.row(f);
+        look(on_fine, (V.row(t(0)) + V.row(t(1)) + V.row(t(2))) / 3);
+        for(int k = 0; k < 3; ++k)
+          look(on_fine, V.row(t(k)));
+      }
+      return result;
+    };
+    std::vector<double> found;
+    for(const double goal : {std::numeric_limits<double>::infinity(), 0.45, 0.25}) {
+      SG::Relocation_options options;
+      options.hausdorff_goal = goal;
+      SG::Relocation_result result;
+      found.push_back(furthest(relocated(*s, result, options)));
+      CHECK(result.norm_after < result.norm_before);
+    }
+    CAPTURE(found, furthest(s->coarse.V));
+    CHECK(found[1] < found[0]);
+    CHECK(found[2] < found[1]);
+  }
+}
+
 TEST_CASE("guards without room end the descent")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()})
@@ -573,6 +692,9 @@ TEST_CASE("relocation refuses what does not belong together")
   SG::Relocation_options options;
   options.largest_distance = 0;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_distance"));
+  options = {};
+  options.hausdorff_goal = 0;
+  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("hausdorff_goal"));
   options = {};
   options.smoothing = -1;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("smoothing"));

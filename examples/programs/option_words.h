@@ -98,6 +98,7 @@ struct Option_words
   std::string mass;               // lumped, averaged, voronoi, consistent
   std::string self_intersections; // allow, refuse
   std::string relocate;           // none, sampled, carried, carried_and_sampled
+  std::string prefer;             // spectrum, shape
   std::optional<double> shape;
   std::optional<double> quadrics_above;
 };
@@ -165,6 +166,8 @@ options_of(const Option_words& words)
     if(options.relocate)
       options.relocation.signals = value_of(relocation_words, words.relocate);
   }
+  if(words.prefer == "shape")
+    options.relocation.hausdorff_goal = 0.45;
   return options;
 }
 

@@ -217,7 +217,7 @@ SMS::Spectral_edge_collapse_options options_of_run(const Arguments& a, const std
 {
   SMS::Spectral_edge_collapse_options options =
       options_of({a.preset, a.levels.empty() ? target : std::size_t(a.levels.front()), a.placement,
-                  a.mass, a.self_intersections, a.relocate, a.shape, a.quadrics_above});
+                  a.mass, a.self_intersections, a.relocate, a.prefer, a.shape, a.quadrics_above});
   options.number_of_eigenvectors = a.eigenvectors;
   options.binary = a.binary;
   options.preserve_border = a.preserve_border;

@@ -37,9 +37,10 @@ struct Arguments
   std::string preset = "best";
   std::string boundary = "neumann";
   std::string operator_word = "cotangent";
-  Operator_word operator_;                                   // what it says
-  std::string mass, placement, self_intersections, relocate; // empty: as the preset has it
-  std::optional<double> shape;                               // the same
+  Operator_word operator_; // what it says
+  // empty: as the preset has it
+  std::string mass, placement, self_intersections, relocate, prefer;
+  std::optional<double> shape; // the same
   int threads = all_threads();
   bool binary = false, preserve_border = false, evaluation = false, no_evaluation = false,
        quiet = false, repair = false, strict = false, intrinsic_delaunay = false,
@@ -118,6 +119,9 @@ inline void check(const Arguments& a)
         "--boundary and --signals.");
   if(a.shape && !(*a.shape >= 0 && std::isfinite(*a.shape)))
     refuse("--shape is " + shown(*a.shape) + ", it must be a number from 0.");
+  if(a.prefer == "shape" && (a.relocate == "none" || (a.relocate.empty() && a.preset == "paper")))
+    refuse("--prefer shape is a matter of relocation, and nothing is relocated: leave it out, or "
+           "add --relocate sampled.");
   if(a.binary && (a.relocate == "sampled" || (a.relocate.empty() && a.preset != "paper")))
     refuse("--binary asks for a restriction of ones and zeros, and relocation by the closest "
            "points makes "

@@ -96,6 +96,9 @@ inline Command_line described(Arguments& a)
               "sampled, paper: none), by the functions at the closest points of INPUT, by what "
               "the restriction carries, or by both. With sampled the restriction interpolates at "
               "closest points and no longer follows --map");
+  line.choice("prefer", a.prefer, {"spectrum", "shape"},
+              "what relocation gives way to: with shape the surfaces come nearer to each other, "
+              "which costs the spectrum about a tenth (spectrum)");
   line.option(
       "quadrics-above", a.quadrics_above, "R",
       "while there are more than R times the vertices of OUTPUT, collapse edges by quadrics alone: "

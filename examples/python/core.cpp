@@ -145,7 +145,11 @@ SMS::Spectral_edge_collapse_options run_options(const Arguments& a, const Index 
     words.quadrics_above = a.number("quadrics_above", 1, true, HUGE_VAL, false);
   words.self_intersections = a.word("self_intersections", {"allow", "refuse"}, true);
   words.relocate = a.word("relocate", words_of(relocation_words, {"none"}), true);
+  words.prefer = a.word("prefer", {"spectrum", "shape"}, true);
   SMS::Spectral_edge_collapse_options options = options_of(words);
+  if(words.prefer == "shape" && !options.relocate)
+    refuse("prefer='shape' is a matter of relocation, and nothing is relocated: leave it out, or "
+           "pass relocate='sampled'.");
   options.binary = a.flag("binary");
   if(options.binary && options.relocate && options.relocation.signals == Signals::sampled)
     refuse("binary asks for a P of ones and zeros, and relocation by the closest points makes "

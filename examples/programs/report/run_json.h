@@ -27,6 +27,7 @@ relocation_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
     return nullptr;
   const CGAL::Spectral_geometry::Relocation_result& x = result.relocation;
   return {{"signals", relocation_word(options)},
+          {"hausdorff_goal", number_json(options.relocation.hausdorff_goal)},
           {"steps", x.steps},
           {"stop_reason", x.stop_reason_name()},
           {"moved_vertices", x.moved_vertices},

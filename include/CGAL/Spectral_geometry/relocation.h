@@ -125,12 +125,16 @@ public:
     , m_followed(m_closest, m_regions, std::size_t(V.rows()))
     , m_sampled(fine, m_followed, F, Z, options.threads)
   {
+    m_times_back.assign(std::size_t(m_start.rows()), 0);
     set_guards(fixed);
     set_objective();
     if(m_options.keep_free_of_self_intersections)
       m_crossing = self_intersecting_faces(m_start, m_T);
-    if(m_options.keep_hausdorff_distance)
-      measure_fine();
+    if(std::isfinite(m_options.hausdorff_goal)) {
+      m_distance = std::make_unique<Distance_term>(m_fine, m_closest, m_T, m_start,
+                                                   m_options.hausdorff_goal, m_options.threads);
+      m_objective->keep_near(*m_distance);
+    }
   }
 
   bool keeps_inner_products() const { return m_keeps_inner_products; }
@@ -409,8 +413,9 @@ private:
   }
 
   // Goes back where triangles that were apart meet and where the fine surface is left behind, and
-  // everywhere while the size is out of its bounds. Vertices that did stay from then on, so that
-  // the others go on around them.
+  // everywhere while the size is out of its bounds. Vertices that did so twice stay from then on,
+  // so that the others go on around them. Where once is enough |C|_D is 1.01 to 1.03 times as
+  // large.
   Positions repaired(Positions V)
   {
     for(int round = 0;; ++round) {
@@ -419,8 +424,9 @@ private:
         for(const auto& pair : self_intersecting_faces(V, m_T))
           if(!std::binary_search(m_crossing.begin(), m_crossing.end(), pair))
             mark_faces({pair.first, pair.second}, back);
-      if(m_options.keep_hausdorff_distance)
-        mark_left_behind(V, back);
+      if(m_distance)
+        m_distance->for_each_face_left_behind(V,
+                                              [&](const Eigen::Index f) { mark_faces({f}, back); });
       const bool any = std::count(back.begin(), back.end(), 1) != 0, too_large = !m_size.within(V);
       if(!any && !too_large)
         break;
@@ -434,7 +440,7 @@ private:
           const double kept = round < 12 && !m_guards.is_on_boundary(v) ? 0.6 : 0.;
           V.row(v) = m_start.row(v) + kept * (V.row(v) - m_start.row(v));
         }
-        if(back[v] && !m_guards.is_fixed(v)) {
+        if(back[v] && !m_guards.is_fixed(v) && ++m_times_back[v] == 2) {
           ++m_reverted;
           m_guards.fix(v);
         }
@@ -451,44 +457,6 @@ private:
     for(const Eigen::Index f : faces)
       for(const int v : m_T.row(f))
         marks[v] = 1;
-  }
-
-  // Where the fine vertices lie at the start.
-  void measure_fine()
-  {
-    const Closest_point_query closest(Mesh_matrices{m_start, m_T});
-    m_nearest.resize(std::size_t(m_fine.V.rows()));
-    std::vector<double> distances(m_nearest.size());
-    const auto measure = [&](const Eigen::Index i) {
-      const Eigen::Vector3d point = m_fine.V.row(i);
-      const Closest_point_query::Answer answer = closest(point);
-      m_nearest[i] = answer.face;
-      distances[i] = (answer.point - point).norm();
-    };
-    for_each_task(m_fine.V.rows(), m_options.threads, measure, 64);
-    m_furthest = *std::max_element(distances.begin(), distances.end());
-  }
-
-  // The corners of the faces closest to fine vertices that are further from V than any was at the
-  // start. The face that was closest then is nearly always near enough still, and the search is
-  // spared.
-  void mark_left_behind(const Positions& V, std::vector<char>& marks) const
-  {
-    const Closest_point_query closest(Mesh_matrices{V, m_T});
-    std::vector<Eigen::Index> left_behind(m_nearest.size(), -1); // the face that is closest now
-    const auto look = [&](const Eigen::Index i) {
-      const Eigen::Vector3d point = m_fine.V.row(i);
-      const auto before = closest_point_of_triangle(point, closest.corners(m_nearest[i]));
-      if(std::sqrt(before.squared_distance) <= m_furthest)
-        return;
-      const Closest_point_query::Answer answer = closest(point);
-      if((answer.point - point).norm() > m_furthest * (1 + 1e-9))
-        left_behind[i] = answer.face;
-    };
-    for_each_task(m_fine.V.rows(), m_options.threads, look, 64);
-    for(std::size_t i = 0; i < m_nearest.size(); ++i)
-      if(left_behind[i] >= 0) // once the nearest is back, the distance is what it was
-        mark_faces({left_behind[i], m_nearest[i]}, marks);
   }
 
   Relocation_options m_options;
@@ -510,10 +478,10 @@ private:
   Followed_closest_points m_followed;
   Surface_signals m_sampled;
   std::unique_ptr<Relocation_objective> m_objective;
-  Face_pairs m_crossing;               // at the start
-  std::vector<Eigen::Index> m_nearest; // the face closest to each fine vertex at the start
-  double m_furthest = 0;               // the largest distance then
-  std::size_t m_reverted = 0;          // vertices that went back, and stay
+  std::unique_ptr<Distance_term> m_distance; // where there is a goal
+  Face_pairs m_crossing;                     // at the start
+  std::vector<int> m_times_back;             // of each vertex
+  std::size_t m_reverted = 0;                // vertices that went back, and stay
   bool m_keeps_inner_products = false;
 };
 

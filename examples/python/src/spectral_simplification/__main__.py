@@ -62,6 +62,7 @@ def _arguments() -> argparse.ArgumentParser:
     add("--shape", metavar="G", type=float, help="weight of the shape beside the spectrum")
     add("--self-intersections", choices=["allow", "refuse"])
     add("--relocate", choices=["none", "sampled", "carried", "carried_and_sampled"])
+    add("--prefer", choices=["spectrum", "shape"])
     add(
         "--quadrics-above",
         metavar="R",
@@ -227,6 +228,7 @@ def _run(a: argparse.Namespace) -> None:
             "shape",
             "self_intersections",
             "relocate",
+            "prefer",
             "quadrics_above",
             "pre_simplify",
             "max_error",

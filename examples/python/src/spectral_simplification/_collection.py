@@ -570,6 +570,7 @@ def _shared(
     for name in (
         "signals",
         "keep",
+        "prefer",
         "coefficients",
         "fit_operators",
         "mask",

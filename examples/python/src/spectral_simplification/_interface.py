@@ -57,6 +57,7 @@ def simplify(
     shape: float | None = None,
     self_intersections: str | None = None,
     relocate: str | None = None,
+    prefer: str | None = None,
     keep: str | Sequence | numpy.ndarray | None = None,
     mask: numpy.ndarray | None = None,
     drop_debris: float | None = None,
@@ -93,7 +94,7 @@ def simplify(
     preset : str
         'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 15 n, at least
         10000, and filtered noise in place of eigenvectors; 'paper': what Lescoat et al. describe
-        (Spectral Mesh Simplification, 2020). Each of the next five, quadrics_above and
+        (Spectral Mesh Simplification, 2020). Each of the next six, quadrics_above and
         pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
@@ -108,6 +109,9 @@ def simplify(
     relocate : str, optional
         'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
         afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
+    prefer : str, optional
+        'spectrum', or 'shape': relocation brings the surfaces nearer to each other, which costs the
+        spectrum about a tenth
     keep : str, sequence of int or bool, or list of both, optional
         vertices of V that stay where they are, vertex_map says where they went: indices, each
         once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both

@@ -5,6 +5,7 @@
 #ifndef CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_RELOCATION_RELOCATION_OBJECTIVE_H
 
+#include <CGAL/Spectral_geometry/internal/relocation/Distance_term.h>
 #include <CGAL/Spectral_geometry/internal/relocation/Spectrum_term.h>
 #include <CGAL/Spectral_geometry/internal/surface/Surface_regions.h>
 #include <CGAL/Spectral_geometry/relocation_energy.h>
@@ -212,7 +213,7 @@ private:
   Range m_area, m_volume;
 };
 
-/// What the descent sees: S, and the penalties on the size and on the spectrum.
+/// What the descent sees: S, and the penalties on size, spectrum and distance.
 class Relocation_objective
 {
 public:
@@ -249,11 +250,16 @@ public:
     m_S.keep_inner_products(mass, F, Z, m_scale / (error * error));
   }
 
+  /// Lets the surfaces come near each other; `distance` is kept.
+  void keep_near(Distance_term& distance) { m_distance = &distance; }
+
   /// Brings what changes slowly up to date; true if that changes the values.
   bool refresh(const Positions& V)
   {
     m_spectrum.refresh(V);
-    return m_spectrum.is_active();
+    if(m_distance != nullptr)
+      m_distance->refresh(V);
+    return m_spectrum.is_active() || m_distance != nullptr;
   }
 
   /// Whether values change that `refresh()` should follow closely.
@@ -276,6 +282,8 @@ public:
     if(!std::isfinite(value))
       return value;
     gradient += by_spectrum;
+    if(m_distance != nullptr)
+      value += m_distance->penalty(V, m_scale, gradient);
     return value + spectrum + m_size.penalty(V, m_scale, gradient);
   }
 
@@ -288,6 +296,7 @@ private:
   Relocation_energy m_E, m_S; // E alone; what is minimised
   Size_bounds m_size;
   Spectrum_term m_spectrum;
+  Distance_term* m_distance = nullptr;
   int m_threads;
   double m_scale = 1;
 };
