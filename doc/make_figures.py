@@ -522,6 +522,37 @@ def degree():
     save(figure, "degree")
 
 
+# Means over the nine meshes of the README: frontier.csv for several goals of relocation, rivals.md
+# for the others. How the first was measured stands in measurements.md.
+def frontier():
+    rows = table_of("frontier.csv")
+    figure, axes = plt.subplots(figsize=(WIDTH * 0.7, 3.6), constrained_layout=True)
+    x, y = ([r[key] for r in rows] for key in ("hausdorff", "norm_L"))
+    axes.plot(x, y, color=BLUE, lw=2.5, marker="o", label="this package, goals as written")
+    for r in rows:
+        goal = "none" if math.isinf(r["goal"]) else f"{r['goal']:g}"
+        axes.annotate(goal, (r["hausdorff"], r["norm_L"]), (-3, -12), textcoords="offset points",
+                      ha="right", fontsize=8)
+    with open(os.path.join(HERE, "rivals.md")) as file:
+        means = file.read().split("## Geometric means, judged in the averaged mass")[1]
+    others = {"CGAL: Garland-Heckbert, plane quadrics": ("plane quadrics", "x", "black"),
+              "CGAL: Garland-Heckbert, probabilistic plane quadrics":
+                  ("probabilistic plane quadrics", "^", RED),
+              "meshoptimizer-regularized": ("meshoptimizer, regularised", "s", GREEN),
+              "line-quadrics-0.1": ("line quadrics", "D", ORANGE), "rematching": ("ReMatching", "v",
+                                                                               PINK)}
+    for name_of_row, (label, marker, colour) in others.items():
+        cells = re.search(r"^\| " + re.escape(name_of_row) + r" \|(.*)$", means, re.M)[1]
+        numbers = [c.strip(" *") for c in cells.split("|")]
+        axes.plot(float(numbers[7]), float(numbers[0]), ls="", marker=marker, ms=7, color=colour,
+                  label=label)
+    logarithmic(axes, {"x": [0.5, 0.7, 1, 1.5, 2], "y": [10, 20, 50, 100, 200]})
+    axes.set(xlabel="Hausdorff distance, % of the diagonal", title="‖C‖_L, averaged mass",
+             xlim=(0.5, 2), ylim=(10, 400))
+    axes.legend(loc="upper right")
+    save(figure, "frontier")
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit("usage: make_figures.py BUILD [FOLDER]")
@@ -538,6 +569,7 @@ def main():
     curve(folder)
     scaling()
     degree()
+    frontier()
     data = {
         "commit": commit(),
         "norms_over_n": [{"mass": mass, "line": line, "points": points}

@@ -110,8 +110,8 @@ def simplify(
         'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
         afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
     prefer : str, optional
-        'spectrum', or 'shape': relocation brings the surfaces nearer to each other, which costs the
-        spectrum about a tenth
+        'spectrum', or 'shape': relocation brings the surfaces nearer to each other. The Hausdorff
+        distance is a fifth smaller, errors of the spectrum are a tenth larger
     keep : str, sequence of int or bool, or list of both, optional
         vertices of V that stay where they are, vertex_map says where they went: indices, each
         once, True for each, 'border', or 'sharp:ANGLE', those of edges where the normals of both
