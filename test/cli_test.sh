@@ -207,6 +207,7 @@ grep -q '"preset": "fast"' fast.json || fail "the JSON does not know the preset 
 runs "quadrics first" shape.off ahead.off --vertices 100 --eigenvectors 20 --quadrics-above 3 --json ahead.json
 grep -q "\"quadric_collapses\": $(($(sed -n 2p shape.off | cut -d ' ' -f 1) - 300))," ahead.json || fail "quadrics end at 3 N: $(grep quadric ahead.json)"
 grep -q "^  collapses by quadrics  *[0-9.]* s\$" said || fail "the time of quadrics is not said"
+refuses "a shape that nothing is relocated for" "--prefer shape is a matter of relocation" shape.off out.off --vertices 200 --prefer shape --preset paper
 refuses "quadrics to less than N" "--quadrics-above is 0.5, it must be 1 or more" shape.off out.off --vertices 200 --quadrics-above 0.5
 refuses "quadrics in the paper's metric" "--quadrics-above goes with" shape.off out.off --vertices 200 --quadrics-above 3 --preset paper
 refuses "pre-simplification below N" "--pre-simplify is 150" shape.off out.off --vertices 200 --eigenvectors 20 --pre-simplify 150

@@ -184,6 +184,12 @@ class Beside_the_program(Shapes):
                 warnings.simplefilter("ignore")
                 self.program(*options.split(), *outputs)
                 self.check_mesh(ss.simplify(self.V, self.F, 200, **arguments))
+        run, shaped = (ss.simplify(self.V, self.F, 200, 50, prefer=word) for word in ("spectrum", "shape"))
+        self.assertEqual([r.report["relocation"]["hausdorff_goal"] for r in (run, shaped)], [0.8, 0.5])
+        self.assertGreater(abs(run.V - shaped.V).max(), 0)
+        plain, nearer = (r.apply(self.V, by="merges", relocate=True) for r in (run, shaped))
+        np.testing.assert_array_equal(run.vertex_map, shaped.vertex_map)
+        self.assertGreater(abs(plain.V - nearer.V).max(), 0)
 
 
 class Results(Shapes):

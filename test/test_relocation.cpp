@@ -329,6 +329,7 @@ TEST_CASE("the plain metric alone falls monotonically")
   SG::Relocation_options options;
   options.signals = Signals::carried;
   options.smoothing = 0;
+  options.hausdorff_goal = std::numeric_limits<double>::infinity();
   SG::internal::Relocation_limits limits;
   limits.beyond = 0;
   double last =
@@ -378,7 +379,9 @@ TEST_CASE(
   using Positions = SG::internal::Distance_term::Positions;
   const Positions start = s.coarse.V;
   const double goal = 0.4;
-  SG::internal::Distance_term term(s.fine, on_fine, s.coarse.T, start, goal, 2);
+  std::vector<Eigen::Index> all(std::size_t(s.fine.V.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  SG::internal::Distance_term term(s.fine, all, on_fine, s.coarse.T, start, goal, 2);
   Positions V = start;
   for(Eigen::Index v = 0; v < V.rows(); ++v) // elsewhere, so that the closest faces are others
     V.row(v) *= 1 + 0.02 * std::sin(7. * double(v));
@@ -397,16 +400,17 @@ TEST_CASE(
     }
     return std::sqrt(least);
   };
-  const auto value_at = [&](const Positions& W, const double theta) {
+  struct Distances
+  {
     std::vector<double> of_fine, of_coarse;
-    const auto h2 = [&](const double d) {
-      return std::pow((std::max)(0., d * d / (theta * theta) - 1), 2);
-    };
+  };
+  const auto distances_at = [&](const Positions& W) {
+    Distances found;
     for(Eigen::Index i = 0; i < s.fine.V.rows(); ++i)
-      of_fine.push_back(h2(distance(s.fine.V.row(i), W, s.coarse.T)));
+      found.of_fine.push_back(distance(s.fine.V.row(i), W, s.coarse.T));
     std::set<std::pair<int, int>> edges;
     const auto at = [&](const Eigen::Vector3d& p) {
-      of_coarse.push_back(h2(distance(p, s.fine.V, s.fine.T)));
+      found.of_coarse.push_back(distance(p, s.fine.V, s.fine.T));
     };
     for(Eigen::Index v = 0; v < W.rows(); ++v)
       at(W.row(v));
@@ -417,18 +421,24 @@ TEST_CASE(
         if(edges.insert(std::minmax(int(t(k)), int(t((k + 1) % 3)))).second)
           at((W.row(t(k)) + W.row(t((k + 1) % 3))) / 2);
     }
-    const auto mean = [](const std::vector<double>& all) {
-      return std::accumulate(all.begin(), all.end(), 0.) / double(all.size());
-    };
-    return 0.1 * double(W.rows()) * (mean(of_fine) + mean(of_coarse));
+    return found;
   };
-  double furthest = 0;
-  for(Eigen::Index i = 0; i < s.fine.V.rows(); ++i)
-    furthest = (std::max)(furthest, distance(s.fine.V.row(i), s.coarse.V, s.coarse.T));
+  const auto largest = [](const std::vector<double>& d) {
+    return *std::max_element(d.begin(), d.end());
+  };
+  const Distances before = distances_at(start), now = distances_at(V);
+  const double theta = (std::max)(goal * largest(before.of_fine), largest(before.of_coarse) / 4);
+  const auto mean = [&](const std::vector<double>& distances) {
+    double sum = 0;
+    for(const double d : distances)
+      sum += std::pow((std::max)(0., d * d / (theta * theta) - 1), 2);
+    return sum / double(distances.size());
+  };
   Positions gradient = Positions::Zero(V.rows(), 3), other = gradient;
   const double value = term.penalty(V, 3, gradient);
   CHECK(value > 0);
-  CHECK(value == Approx(3 * value_at(V, goal * furthest)).epsilon(1e-9));
+  CHECK(value ==
+        Approx(0.3 * double(V.rows()) * (mean(now.of_fine) + mean(now.of_coarse))).epsilon(1e-9));
 
   int seen = 0;
   for(Eigen::Index v = 0; v < V.rows(); v += 7)
@@ -446,10 +456,51 @@ TEST_CASE(
   CHECK(seen > 3);
 
   // Surfaces that lie in each other have no distance but rounding.
-  SG::internal::Distance_term none(s.fine, on_fine, s.fine.T, s.fine.V, goal, 1);
+  SG::internal::Distance_term none(s.fine, all, on_fine, s.fine.T, s.fine.V, goal, 1);
   other.setZero(s.fine.V.rows(), 3);
   CHECK(none.penalty(s.fine.V, 1, other) == 0);
   CHECK(other.isZero(0));
+  CHECK_FALSE(none.refresh(s.fine.V));
+}
+
+TEST_CASE("where fine vertices are on the coarse surface its own distances are the measure")
+{
+  // A roof over a square, and the same four vertices with the other diagonal.
+  shapes::Matrices roof;
+  roof.V.resize(4, 3);
+  roof.V << 0, 0, 0, 1, 0, 0.2, 1, 1, 0, 0, 1, 0.2;
+  roof.T.resize(2, 3);
+  roof.T << 0, 1, 2, 0, 2, 3;
+  Eigen::MatrixXi other(2, 3);
+  other << 0, 1, 3, 1, 2, 3;
+  const SG::internal::Closest_point_query on_roof(roof);
+  SG::internal::Distance_term term(roof, {0, 1, 2, 3}, on_roof, other, roof.V, 0.8, 1);
+  SG::internal::Distance_term::Positions gradient(4, 3);
+  gradient.setZero();
+  const double value = term.penalty(roof.V, 1, gradient);
+  CHECK(value > 0);
+  CHECK(value <= 0.1 * 4 * 15 * 15); // no h is above 16 - 1
+}
+
+TEST_CASE("a fine vertex that no face has does not count among the distances")
+{
+  const Simplified_mesh& s = closed_example();
+  SG::Relocation_options options;
+  options.maximum_steps = 20;
+  SG::Relocation_result result;
+  const Eigen::MatrixXd V = relocated(s, result, options);
+  const auto with_row = [](const Eigen::MatrixXd& m, const double value) {
+    Eigen::MatrixXd more(m.rows() + 1, m.cols());
+    more << m, Eigen::RowVectorXd::Constant(m.cols(), value);
+    return more;
+  };
+  const shapes::Matrices fine{with_row(s.fine.V, 100), s.fine.T};
+  Eigen::SparseMatrix<double> P = s.P;
+  P.conservativeResize(P.rows(), P.cols() + 1);
+  Eigen::MatrixXd W = s.coarse.V;
+  SG::relocate_positions(W, s.coarse.T, P, fine, with_row(s.F(), 0), with_row(s.Z(), 0), 0.5, {},
+                         options);
+  CHECK((W - V).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("a lower goal brings the surfaces nearer to each other, from either side")

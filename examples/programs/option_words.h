@@ -93,7 +93,7 @@ struct Option_words
 {
   std::string preset;       // best, fast, paper
   std::size_t vertices = 0; // the target, for fast
-  // Empty: as the preset has it.
+  // Empty: as the preset has it, or the default.
   std::string placement;          // on_edge, midpoint, free
   std::string mass;               // lumped, averaged, voronoi, consistent
   std::string self_intersections; // allow, refuse
@@ -142,6 +142,13 @@ inline auto intrinsic_operator(const CGAL::Spectral_geometry::Mass mass)
   };
 }
 
+inline void set_preference(const std::string& prefer,
+                           CGAL::Spectral_geometry::Relocation_options& options)
+{
+  if(prefer == "shape")
+    options.hausdorff_goal = 0.5;
+}
+
 // The preset and what overrides it.
 inline CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
 options_of(const Option_words& words)
@@ -166,8 +173,7 @@ options_of(const Option_words& words)
     if(options.relocate)
       options.relocation.signals = value_of(relocation_words, words.relocate);
   }
-  if(words.prefer == "shape") // 0.76 % of the diagonal in place of 0.96 (the README's meshes)
-    options.relocation.hausdorff_goal = 0.5;
+  set_preference(words.prefer, options.relocation);
   return options;
 }
 

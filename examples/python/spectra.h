@@ -407,6 +407,7 @@ inline py::dict relocate(const Arguments& a)
   Watch watch(a);
   SG::Relocation_options options;
   options.signals = value_of(relocation_words, a.word("signals", words_of(relocation_words)));
+  set_preference(a.word("prefer", {"spectrum", "shape"}, true), options);
   options.threads = a.threads();
   options.eigenpairs = pairs.pairs.get();
   if(SMS::internal::has_reachable_eigenvalues(op))

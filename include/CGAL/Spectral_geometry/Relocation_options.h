@@ -36,9 +36,9 @@ struct Relocation_options : Run_control
   double smoothing = 1;
   /// Where new self-intersections appear the vertices go back as far as needed.
   bool keep_free_of_self_intersections = true;
-  /// The surfaces are drawn together where they are further apart than this part of the largest
-  /// distance of a fine vertex at the start, and no fine vertex comes to be further away than any
-  /// was then: tips stay. Positive; infinity: neither.
+  /// Where the surfaces are further apart than this part of the largest distance of a fine vertex
+  /// at the start, they are drawn together. No fine vertex comes to be further away than any was:
+  /// tips stay. Positive; a large number leaves this bound alone, infinity nothing.
   /// With 0.5 the Hausdorff distance is 0.8 times as large, |C|_L and errors of eigenvalues are 1.1
   /// times as large.
   double hausdorff_goal = 0.8;
@@ -63,7 +63,7 @@ struct Relocation_options : Run_control
   double largest_distance = std::numeric_limits<double>::infinity();
 
   /// Ends after so many steps; one step is a value and a gradient, seldom two. With 80 the
-  /// eigenvalues beyond K are 1.05 times as far off, |C|_L is 1.01 times as large.
+  /// eigenvalues beyond K are 1.04 times as far off, |C|_L is 1.01 times as large.
   int maximum_steps = 100;
   /// Ends after so much time.
   double maximum_seconds = std::numeric_limits<double>::infinity();
@@ -108,8 +108,8 @@ struct Relocation_result
   Stop_reason stop_reason = Stop_reason::no_descent; ///< why it ended
   Held held;                                         ///< by which guard
   std::size_t moved_vertices = 0;                    ///< vertices that are elsewhere now
-  /// vertices that went back, in part or wholly, because of a self-intersection or the distance,
-  /// and then stayed
+  /// vertices that went back in two rounds, in part or wholly, because of a self-intersection or
+  /// the distance, and then stayed
   std::size_t reverted_vertices = 0;
   double seconds = 0;     ///< wall seconds
   bool resampled = false; ///< whether `restriction` is a new one

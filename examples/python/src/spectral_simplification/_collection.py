@@ -570,7 +570,6 @@ def _shared(
     for name in (
         "signals",
         "keep",
-        "prefer",
         "coefficients",
         "fit_operators",
         "mask",
@@ -590,6 +589,14 @@ def _shared(
         raise ValueError(
             f"relocate is {_shown(relocate)}, for meshes of one connectivity it must be 'none' or "
             "'sampled'."
+        )
+    prefer = chosen("prefer", "spectrum")
+    if prefer not in ("spectrum", "shape"):
+        raise ValueError(f"prefer is {_shown(prefer)}, it must be None, 'spectrum' or 'shape'.")
+    if prefer == "shape" and relocate == "none":
+        raise ValueError(
+            "prefer='shape' is a matter of relocation, and nothing is relocated: leave it out, or "
+            "pass relocate='sampled'."
         )
     if _flag("binary", options.get("binary", False)) and relocate == "sampled":
         raise ValueError(
@@ -652,9 +659,10 @@ def _shared(
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        decided = {**options, "relocate": "none", "k": None}
+        decided = {**options, "relocate": "none", "k": None, "prefer": None}
         run = simplify(*going[one], n, signals=signals, **decided)
     run.report["eigenvectors"] = k
+    run._asked["prefer"] = prefer
     sampled = relocate == "sampled"
     tasks = [
         (i, _posed, (m, run, pairs[i], sampled, threads)) for i, m in going.items() if not there(i)

@@ -94,7 +94,7 @@ def simplify(
     preset : str
         'best': what keeps the spectrum best; 'fast': the same with pre_simplify at 15 n, at least
         10000, and filtered noise in place of eigenvectors; 'paper': what Lescoat et al. describe
-        (Spectral Mesh Simplification, 2020). Each of the next six, quadrics_above and
+        (Spectral Mesh Simplification, 2020). Each of the next five, quadrics_above and
         pre_simplify overrides it
     mass : str, optional
         'lumped' (paper) or 'averaged' (best), the mean of lumped and consistent mass, which keeps
@@ -110,7 +110,7 @@ def simplify(
         'none' (paper), 'sampled' (best), 'carried' or 'carried_and_sampled': how vertices are moved
         afterwards. With 'sampled' P is that of the closest points and does not follow vertex_map
     prefer : str, optional
-        'spectrum', or 'shape': relocation brings the surfaces nearer to each other. The Hausdorff
+        'spectrum', the default, or 'shape': relocation brings the surfaces nearer to each other. The Hausdorff
         distance is a fifth smaller, errors of the spectrum are a tenth larger
     keep : str, sequence of int or bool, or list of both, optional
         vertices of V that stay where they are, vertex_map says where they went: indices, each
@@ -246,6 +246,7 @@ def simplify(
         intrinsic_delaunay=intrinsic_delaunay,
         coefficients=values["coefficients"],
         kept=numpy.asarray(kept, numpy.int64),
+        prefer=prefer,
         pairs=None,
     )
     return Simplification._of(

@@ -1126,6 +1126,7 @@ class Simplification(Level):
                         eigenpairs=eigenpairs,
                         fixed=self._asked["kept"],
                         signals="sampled",
+                        prefer=self._asked["prefer"],
                         threads=threads,
                         progress=progress,
                     )

@@ -23,8 +23,8 @@ coarse one its vertices and the middles of its edges and faces. The threshold th
 the largest distance of a fine vertex at the start: only few samples are beyond it, at tips and in
 folds, and what moves there hardly shows in the spectrum.
 
-Between two calls of `refresh()` the face stays that a sample is closest to. The point in it that is
-closest moves with the vertices, which to the first order does not change the distance.
+Between two calls of `refresh()` each sample keeps its closest face. The point in it that is closest
+moves with the vertices, which to the first order does not change the distance.
 */
 class Distance_term
 {
@@ -32,45 +32,43 @@ public:
   using Positions = Operator_geometry::Positions;
   using Index = Eigen::Index;
 
-  /// `on_fine` answers for the surface of `fine`; both are kept by reference. `V` are the positions
-  /// at the start, theta is `goal` times the largest distance there.
-  Distance_term(const Mesh_matrices& fine, const Closest_point_query& on_fine,
-                const Eigen::MatrixXi& T, const Positions& V, const double goal, const int threads)
+  /// `on_fine` answers for the surface of `fine`; both are kept by reference. `seen`: fine vertices
+  /// that the coarse surface stands for. `V`: the positions at the start; theta is
+  /// `goal` times the largest distance there.
+  Distance_term(const Mesh_matrices& fine, std::vector<Index> seen,
+                const Closest_point_query& on_fine, const Eigen::MatrixXi& T, const Positions& V,
+                const double goal, const int threads)
     : m_fine(fine)
     , m_on_fine(on_fine)
     , m_T(T)
-    , m_samples(samples(T, V.rows()))
+    , m_fine_samples(std::move(seen))
+    , m_coarse_samples(samples(T, V.rows()))
     , m_threads(threads)
-    , m_closest_at_start(std::size_t(fine.V.rows()))
+    , m_closest_at_start(m_fine_samples.size())
+    , m_closest_on_fine(m_coarse_samples.size())
   {
     const Closest_point_query on_coarse(Mesh_matrices{V, m_T});
-    std::vector<double> distances(m_closest_at_start.size());
-    const auto measure = [&](const Index i) {
-      const Closest_point_query::Answer closest = on_coarse(m_fine.V.row(i));
-      m_closest_at_start[i] = closest.face;
-      distances[i] = (closest.point - m_fine.V.row(i).transpose()).norm();
-    };
-    for_each_task(m_fine.V.rows(), m_threads, measure, 64);
-    m_closest = m_closest_at_start;
-    m_furthest = *std::max_element(distances.begin(), distances.end());
-    // Rounding of surfaces that lie in each other is no distance.
+    m_furthest =
+        furthest(on_coarse, m_closest_at_start, [&](const Index i) { return fine_sample(i); });
+    m_closest_on_coarse = m_closest_at_start;
+    const double from_coarse = furthest(m_on_fine, m_closest_on_fine, [&](const Index i) {
+      return position(m_coarse_samples[i], V);
+    });
+    // Fine vertices may lie in the coarse surface where that lies far from the fine one. Rounding
+    // of surfaces that lie in each other is no distance.
     const double size = (V.colwise().maxCoeff() - V.colwise().minCoeff()).norm(),
-                 theta = (std::max)(goal * m_furthest, 1e-6 * size);
+                 theta = (std::max)({goal * m_furthest, from_coarse / 4, 1e-6 * size});
     m_theta2 = theta * theta;
-    refresh(V);
+    look(V, on_coarse);
   }
 
-  /// Looks for what is far from the other surface, and which face is closest to it.
-  void refresh(const Positions& V)
+  /// Looks for samples that are far from the other surface, and for their closest faces. False if
+  /// there are none, and were none.
+  bool refresh(const Positions& V)
   {
-    const Closest_point_query on_coarse(Mesh_matrices{V, m_T});
-    m_far_fine = far(m_fine.V.rows(), [&](const Index i) {
-      return is_far(on_coarse, m_fine.V.row(i), m_closest[i]);
-    });
-    m_closest_of_sample.resize(m_samples.size(), 0);
-    m_far_coarse = far(Index(m_samples.size()), [&](const Index i) {
-      return is_far(m_on_fine, position(m_samples[i], V), m_closest_of_sample[i]);
-    });
+    const bool any = !m_far_fine.empty() || !m_far_coarse.empty();
+    look(V, Closest_point_query(Mesh_matrices{V, m_T}));
+    return any || !m_far_fine.empty() || !m_far_coarse.empty();
   }
 
   /// The value at these positions, times `weight`; adds its gradient.
@@ -78,31 +76,32 @@ public:
   {
     double value = 0;
     const double w = strength * weight * double(V.rows());
-    // Returns what h^2 does to the vector from the closest point to the sample.
+    // Adds h^2 to the value; returns its slope along the way between both points.
     const auto slope = [&](const double squared_distance, const double of_each) {
       const double h = (std::max)(0., squared_distance / m_theta2 - 1);
       value += of_each * h * h;
       return 4 * of_each * h / m_theta2;
     };
     for(const Index i : m_far_fine) {
-      const Eigen::Vector3d point = m_fine.V.row(i);
-      const Index f = m_closest[i];
+      const Eigen::Vector3d point = fine_sample(i);
+      const Index f = m_closest_on_coarse[i];
       Eigen::Matrix3d corners;
       for(int k = 0; k < 3; ++k)
         corners.col(k) = V.row(m_T(f, k)).transpose();
       const Point_of_triangle closest = closest_point_of_triangle(point, corners);
-      const Eigen::Vector3d g = slope(closest.squared_distance, w / double(m_fine.V.rows())) *
+      const Eigen::Vector3d g = slope(closest.squared_distance, w / double(m_fine_samples.size())) *
                                 (corners * closest.weights - point);
       for(int k = 0; k < 3; ++k)
         gradient.row(m_T(f, k)) += closest.weights(k) * g.transpose();
     }
     for(const Index i : m_far_coarse) {
-      const Sample& sample = m_samples[i];
+      const Sample& sample = m_coarse_samples[i];
       const Eigen::Vector3d point = position(sample, V);
-      const Eigen::Matrix3d& corners = m_on_fine.corners(m_closest_of_sample[i]);
+      const Eigen::Matrix3d& corners = m_on_fine.corners(m_closest_on_fine[i]);
       const Point_of_triangle closest = closest_point_of_triangle(point, corners);
-      const Eigen::Vector3d g = slope(closest.squared_distance, w / double(m_samples.size())) *
-                                (point - corners * closest.weights);
+      const Eigen::Vector3d g =
+          slope(closest.squared_distance, w / double(m_coarse_samples.size())) *
+          (point - corners * closest.weights);
       for(int k = 0; k < sample.size; ++k)
         gradient.row(sample.vertices[k]) += g.transpose() / sample.size;
     }
@@ -110,14 +109,14 @@ public:
   }
 
   /// Calls `mark` for the faces closest, now and at the start, to fine vertices that are further
-  /// from V than any was at the start: once the latter are back, so is the distance.
+  /// from V than any was at the start. Once those of the start are back, so is the distance.
   template <class Mark>
   void for_each_face_left_behind(const Positions& V, const Mark& mark) const
   {
     const Closest_point_query on_coarse(Mesh_matrices{V, m_T});
-    std::vector<Index> faces(m_closest_at_start.size(), -1);
-    const auto look = [&](const Index i) {
-      const Eigen::Vector3d point = m_fine.V.row(i);
+    std::vector<Index> faces(m_fine_samples.size(), -1);
+    const auto look_at = [&](const Index i) {
+      const Eigen::Vector3d point = fine_sample(i);
       // The face that was closest is nearly always near enough still, and the search is spared.
       const auto before =
           closest_point_of_triangle(point, on_coarse.corners(m_closest_at_start[i]));
@@ -127,7 +126,7 @@ public:
       if((closest.point - point).norm() > m_furthest * (1 + 1e-9))
         faces[i] = closest.face;
     };
-    for_each_task(m_fine.V.rows(), m_threads, look, 64);
+    for_each_task(Index(faces.size()), m_threads, look_at, 64);
     for(std::size_t i = 0; i < faces.size(); ++i)
       if(faces[i] >= 0) {
         mark(faces[i]);
@@ -136,7 +135,7 @@ public:
   }
 
 private:
-  // omega. With 1 the largest distance is 1.02 times as large as with this, |C|_L 1.03 times.
+  // omega. With 1 |C|_L is 1.04 times as large, the Hausdorff distance as large.
   static constexpr double strength = 0.1;
 
   // The mean of one, two or three vertices.
@@ -150,7 +149,8 @@ private:
     std::vector<Sample> result;
     const Vertex_rings rings = Vertex_rings::of_vertices(T, n);
     for(int v = 0; v < int(n); ++v) {
-      result.push_back({{v}, 1});
+      if(!rings[v].empty())
+        result.push_back({{v}, 1});
       for(const int w : rings[v])
         if(v < w)
           result.push_back({{v, w}, 2});
@@ -166,6 +166,34 @@ private:
     for(int k = 0; k < sample.size; ++k)
       sum += V.row(sample.vertices[k]);
     return sum / sample.size;
+  }
+
+  Eigen::Vector3d fine_sample(const Index i) const { return m_fine.V.row(m_fine_samples[i]); }
+
+  // The largest distance of points from a surface; sets their closest faces.
+  template <class Point>
+  double furthest(const Closest_point_query& surface, std::vector<Index>& closest,
+                  const Point& point) const
+  {
+    std::vector<double> distances(closest.size());
+    const auto measure = [&](const Index i) {
+      const Eigen::Vector3d p = point(i);
+      const Closest_point_query::Answer answer = surface(p);
+      closest[i] = answer.face;
+      distances[i] = (answer.point - p).norm();
+    };
+    for_each_task(Index(closest.size()), m_threads, measure, 64);
+    return distances.empty() ? 0. : *std::max_element(distances.begin(), distances.end());
+  }
+
+  void look(const Positions& V, const Closest_point_query& on_coarse)
+  {
+    m_far_fine = far(Index(m_fine_samples.size()), [&](const Index i) {
+      return is_far(on_coarse, fine_sample(i), m_closest_on_coarse[i]);
+    });
+    m_far_coarse = far(Index(m_coarse_samples.size()), [&](const Index i) {
+      return is_far(m_on_fine, position(m_coarse_samples[i], V), m_closest_on_fine[i]);
+    });
   }
 
   // Somewhat below theta, since a sample may go beyond it before the next look. `face`, where the
@@ -196,11 +224,11 @@ private:
   const Mesh_matrices& m_fine;
   const Closest_point_query& m_on_fine;
   Eigen::MatrixXi m_T;
-  std::vector<Sample> m_samples; // of the coarse surface
+  std::vector<Index> m_fine_samples; // vertices
+  std::vector<Sample> m_coarse_samples;
   int m_threads;
-  std::vector<Index> m_closest_at_start;  // the coarse face, to each fine vertex
-  std::vector<Index> m_closest;           // that or a later one
-  std::vector<Index> m_closest_of_sample; // a fine face
+  std::vector<Index> m_closest_at_start, m_closest_on_coarse; // faces, of each fine sample
+  std::vector<Index> m_closest_on_fine;                       // of each coarse sample
   double m_furthest = 0, m_theta2 = 0;
   std::vector<Index> m_far_fine, m_far_coarse;
 };

@@ -257,9 +257,8 @@ public:
   bool refresh(const Positions& V)
   {
     m_spectrum.refresh(V);
-    if(m_distance != nullptr)
-      m_distance->refresh(V);
-    return m_spectrum.is_active() || m_distance != nullptr;
+    const bool distances = m_distance != nullptr && m_distance->refresh(V);
+    return m_spectrum.is_active() || distances;
   }
 
   /// Whether values change that `refresh()` should follow closely.

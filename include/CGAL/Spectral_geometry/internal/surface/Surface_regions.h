@@ -39,6 +39,16 @@ public:
     return within_two_edges(coarse, m_row[fine]);
   }
 
+  /// The fine vertices that belong to a coarse one, on components that P reads from.
+  std::vector<Eigen::Index> fine_vertices() const
+  {
+    std::vector<Eigen::Index> result;
+    for(std::size_t i = 0; i < m_row.size(); ++i)
+      if(m_row[i] >= 0)
+        result.push_back(Eigen::Index(i));
+    return result;
+  }
+
   /// The closest point on the fine surface of a coarse vertex that is at `p`. Begins at `before`
   /// where it was on that face before, which saves most of the search.
   Closest_point_query::Answer of_coarse_vertex(const Closest_point_query& fine,
