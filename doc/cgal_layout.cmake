@@ -531,7 +531,7 @@ set(titles_left
     "Where to find what" "Options" "Errors and warnings" "Other operators" "Restriction, prolongation, functional maps" "Fitted operators"
     "References"
     # measurements.md
-    "Norms over the number of vertices" "Mixtures" "Eigenvalue goals" "Other operators, measured" "One mesh in four masses" "Fitted operators, measured" "Error bounds"
+    "Norms over the number of vertices" "Mixtures" "Eigenvalue goals" "Shape against spectrum" "Other operators, measured" "One mesh in four masses" "Fitted operators, measured" "Error bounds"
     "Performance" "Large meshes")
 file(STRINGS "${root}/doc/how_to.md" titles REGEX "^## ")
 foreach(title IN LISTS titles)
