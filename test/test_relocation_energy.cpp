@@ -238,7 +238,7 @@ TEST_CASE("the term of the spectrum: what it says is what an eigensolver says, a
     REQUIRE(V.rows() > 10 * 8); // more than ten vertices for each mode: epsilon is smaller
     const double epsilon = limits.eigenvalue_error * std::sqrt(10. * 8 / double(V.rows()));
     CHECK(to_goals.value(V) ==
-          Catch::Approx(3. * (std::pow(0.01 / 1.01 / epsilon, 2) + std::pow(0.01 / 0.03, 2)))
+          Catch::Approx(3. * (std::pow(0.01 / 1.01 / epsilon, 2) + std::pow(0.01 / 0.02, 2)))
               .epsilon(0.05));
   }
 }
