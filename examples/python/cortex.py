@@ -169,6 +169,7 @@ def main(arguments=None):
     if a.surface is None and a.mask is not None:
         parser.error("--mask is that of a surface: give --surface as well.")
     out = pathlib.Path(a.output)
+    out.mkdir(parents=True, exist_ok=True)  # before what takes long
 
     others = {}
     if a.surface is None:
