@@ -169,7 +169,6 @@ def main(arguments=None):
     if a.surface is None and a.mask is not None:
         parser.error("--mask is that of a surface: give --surface as well.")
     out = pathlib.Path(a.output)
-    out.mkdir(parents=True, exist_ok=True)  # before what takes long
 
     others = {}
     if a.surface is None:
@@ -184,6 +183,7 @@ def main(arguments=None):
                 f"{name} has other faces than the surface: take one of the same subject and mesh."
             )
         others[pathlib.Path(name).name] = positions  # lh.pial and lh.white have one stem
+    out.mkdir(parents=True, exist_ok=True)  # before what takes long
 
     curves = {}
     for k in a.modes:
