@@ -530,7 +530,7 @@ def frontier():
     x, y = ([r[key] for r in rows] for key in ("hausdorff", "norm_L"))
     axes.plot(x, y, color=BLUE, lw=2.5, marker="o", label="this package, goals as written")
     for r in rows:
-        goal = "none" if math.isinf(r["goal"]) else f"{r['goal']:g}"
+        goal = "none" if r["goal"] > 1 else f"{r['goal']:g}"
         axes.annotate(goal, (r["hausdorff"], r["norm_L"]), (-3, -12), textcoords="offset points",
                       ha="right", fontsize=8)
     with open(os.path.join(HERE, "rivals.md")) as file:

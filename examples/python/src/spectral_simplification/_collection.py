@@ -33,6 +33,7 @@ from ._results import (
     _rectangular,
     _Result,
     _shown,
+    _word,
     _written,
     load,
 )
@@ -590,9 +591,7 @@ def _shared(
             f"relocate is {_shown(relocate)}, for meshes of one connectivity it must be 'none' or "
             "'sampled'."
         )
-    prefer = chosen("prefer", "spectrum")
-    if prefer not in ("spectrum", "shape"):
-        raise ValueError(f"prefer is {_shown(prefer)}, it must be None, 'spectrum' or 'shape'.")
+    prefer = _word("prefer", chosen("prefer", "spectrum"), ("spectrum", "shape"))
     if prefer == "shape" and relocate == "none":
         raise ValueError(
             "prefer='shape' is a matter of relocation, and nothing is relocated: leave it out, or "
