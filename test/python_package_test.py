@@ -916,7 +916,7 @@ class Poses(Case):
                 np.testing.assert_array_equal(level.F, RUN.F)
                 np.testing.assert_allclose(np.asarray(level.P.sum(axis=1)), 1)
         np.testing.assert_allclose(RUN.apply(other).V, RUN.P @ other)
-        # 1.59 % where the own run has 1.78 and P alone 1.79
+        # 0.90 % where the own run has 1.33 and P alone 1.18
         self.assertLess(errors["relocated"], 1.1 * errors["own"])
         self.assertLess(errors["relocated"], 0.95 * errors["P"])
         self.assertEqual(errors["given"], errors["relocated"])
@@ -1164,7 +1164,7 @@ class Collections(Case):
                 for r in (row.result, own)
             ]
             ratios.append(errors[0] / errors[1])
-        self.assertLess(max(ratios), 1.3)  # 0.64 to 1.13
+        self.assertLess(max(ratios), 1.3)  # 0.74 to 1.15
         shaped = ss.simplify_collection(
             meshes[:2], 150, shared_connectivity=True, k=40, prefer="shape", progress=False
         )
