@@ -166,7 +166,7 @@ TEST_CASE("The first stage of best stays out of the way of other options")
   };
   Options best, late, preserved, bounded, paper = Options::paper();
   CHECK(first_stage(best) == 600000);
-  CHECK(first_stage_of_best(best, 600) == 500000);
+  CHECK(first_stage_of_best(best, 600) == 300000);
   late.quadrics_above = 30;
   CHECK(first_stage(late) == 600000);
   late.quadrics_above = 31;

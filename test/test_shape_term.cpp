@@ -535,7 +535,7 @@ TEST_CASE("Presets: the defaults are the best, the paper's have neither shape te
   CHECK(Spectral_edge_collapse_options::fast(600).pre_simplify == 10000);
   CHECK(Spectral_edge_collapse_options::fast(1000).pre_simplify == 15000);
   CHECK(best.pre_simplify == 0);
-  CHECK(Spectral_edge_collapse_options::best(600).pre_simplify == 500000);
+  CHECK(Spectral_edge_collapse_options::best(600).pre_simplify == 300000);
   CHECK(Spectral_edge_collapse_options::best(20000).pre_simplify == 600000);
   CHECK(Spectral_options().shape == Spectral_options::best().shape);
   CHECK(paper.mass == SG::Mass::lumped);

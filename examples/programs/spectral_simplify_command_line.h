@@ -106,7 +106,7 @@ inline Command_line described(Arguments& a)
   line.option(
       "pre-simplify", a.pre_simplify, "N0",
       "first reduce a larger INPUT to this number by quadrics alone (fast: 15 N, at least 10000; "
-      "best with --no-evaluation: 30 N, at least 500000; others: 0, never)");
+      "best with --no-evaluation: 30 N, at least 300000; others: 0, never)");
 
   line.advanced_group("What is kept (advanced)");
   line.option("operator", a.operator_word, "OPERATOR",
