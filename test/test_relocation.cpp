@@ -347,26 +347,17 @@ TEST_CASE("the plain metric alone falls monotonically")
   }
 }
 
-TEST_CASE("fixed vertices stay, and the distance to the fine surface is bounded")
+TEST_CASE("fixed vertices stay")
 {
   const Simplified_mesh& s = closed_example();
   std::vector<bool> fixed(std::size_t(s.coarse.V.rows()), false);
   for(std::size_t v = 0; v < fixed.size(); v += 3)
     fixed[v] = true;
-  SG::Relocation_options options;
-  const SG::internal::Closest_point_query closest(s.fine);
-  const auto distance = [&](const Eigen::MatrixXd& V, const Eigen::Index v) {
-    return (closest(V.row(v)).point.transpose() - V.row(v)).norm();
-  };
-  options.largest_distance = 0.01;
   SG::Relocation_result result;
-  const Eigen::MatrixXd V = relocated(s, result, options, fixed);
+  const Eigen::MatrixXd V = relocated(s, result, {}, fixed);
   CHECK(result.moved_vertices > 0);
-  for(Eigen::Index v = 0; v < V.rows(); ++v) {
-    if(fixed[std::size_t(v)])
-      CHECK(V.row(v) == s.coarse.V.row(v));
-    CHECK(distance(V, v) <= (std::max)(0.01, distance(s.coarse.V, v)) + 1e-12);
-  }
+  for(Eigen::Index v = 0; v < V.rows(); v += 3)
+    CHECK(V.row(v) == s.coarse.V.row(v));
   fixed.assign(fixed.size(), true);
   CHECK(relocated(s, result, {}, fixed) == s.coarse.V);
 }
@@ -741,9 +732,6 @@ TEST_CASE("relocation refuses what does not belong together")
   };
   CHECK_THAT(refusal(s.coarse.V, s.P.transpose(), {}), ContainsSubstring("coarse x fine"));
   SG::Relocation_options options;
-  options.largest_distance = 0;
-  CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("largest_distance"));
-  options = {};
   options.hausdorff_goal = 0;
   CHECK_THAT(refusal(s.coarse.V, s.P, options), ContainsSubstring("hausdorff_goal"));
   options = {};

@@ -37,7 +37,6 @@ relocation_json(const CGAL::Surface_mesh_simplification::Spectral_edge_collapse_
             {"trust", x.held.trust},
             {"boundary", x.held.boundary},
             {"sheet", x.held.sheet},
-            {"distance", x.held.distance},
             {"triangles", x.held.triangles}}},
           {"E_before", x.E_before},
           {"E_after", x.E_after},

@@ -58,9 +58,6 @@ struct Relocation_options : Run_control
   /// 4 K vertices by less than three per cent, the relocation is done anew with half their weight,
   /// an eighth, a thirty-second, and none, until it does. Empty: no such term.
   Eigen::VectorXd eigenvalues;
-  /// No vertex moves further than this from the fine surface unless it was; in the unit of the
-  /// mesh.
-  double largest_distance = std::numeric_limits<double>::infinity();
 
   /// Ends after so many steps; one step is a value and a gradient, seldom two. With 80 the
   /// eigenvalues beyond K are 1.04 times as far off, |C|_L is 1.01 times as large.
@@ -91,7 +88,6 @@ struct Relocation_result
     std::size_t boundary = 0; ///< by the end of the boundary that they slide along
     std::size_t sheet = 0; ///< because another sheet of the fine surface would have been nearer, or
                            ///< their closest point would have leapt to one
-    std::size_t distance = 0;  ///< by `Relocation_options::largest_distance`
     std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
   };
 
@@ -178,7 +174,6 @@ inline void check_relocation_options(const Relocation_options& o)
     require(std::isfinite(o.eigenvalues[k]), "relocation: eigenvalue ", k,
             " is no finite number; pass those of the fine mesh.");
   require(o.hausdorff_goal > 0, "relocation: hausdorff_goal must be positive.");
-  require(o.largest_distance > 0, "relocation: largest_distance must be positive.");
   require(o.threads >= 1, "relocation: threads must be a number from 1, but is ", o.threads, ".");
 }
 

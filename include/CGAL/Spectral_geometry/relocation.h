@@ -369,10 +369,6 @@ private:
                (!beside[v] && m_followed.is_beside_another_part(v, to));
       });
     }
-    if(std::isfinite(m_options.largest_distance))
-      m_guards.set_bound([this](const Eigen::Index v, const Eigen::Vector3d& p) {
-        return (m_followed(v, p).point - p).norm() <= m_options.largest_distance;
-      });
   }
 
   void set_objective()

@@ -90,10 +90,6 @@ public:
 
   bool is_on_boundary(const Eigen::Index v) const { return !m_boundary[v].empty(); }
 
-  /// A further condition on the position of a vertex: a distance to a surface.
-  using Allowed = std::function<bool(Eigen::Index, const Eigen::Vector3d&)>;
-  void set_bound(Allowed allowed) { m_allowed = std::move(allowed); }
-
   /// A condition on a step of a vertex, from and to: one that leaps to another sheet of a surface
   /// is cut.
   using Leaps = std::function<bool(Eigen::Index, const Eigen::Vector3d&, const Eigen::Vector3d&)>;
@@ -108,7 +104,6 @@ public:
       sum.trust += by.trust;
       sum.boundary += by.boundary;
       sum.sheet += by.sheet;
-      sum.distance += by.distance;
       sum.triangles += by.triangles;
     }
     return sum;
@@ -215,10 +210,6 @@ private:
         return from;
       }
     }
-    if(m_allowed && !m_allowed(v, to)) {
-      held.distance = 1;
-      return from;
-    }
     return to;
   }
 
@@ -239,7 +230,6 @@ private:
   Positions m_anchors;
   std::vector<bool> m_fixed;
   std::vector<std::vector<Boundary_segment>> m_boundary;
-  Allowed m_allowed;
   Leaps m_leaps;
   mutable std::vector<Held> m_held_by; // of each vertex, 1 for what it was asked not to do, ever
   Eigen::VectorXd m_radius, m_smallest_angle; // of each vertex; of each triangle, what is allowed

@@ -210,8 +210,7 @@ public:
   /// Whether a face that v may not use is nearer: a closest point that knows no parts is there.
   bool is_beside_another_part(const Eigen::Index v, const Eigen::Vector3d& p)
   {
-    const Answer own = (*this)(v, p), any = m_fine.among(p, own.face, [](auto) { return true; });
-    return (any.point - p).norm() < (1 - 1e-6) * (own.point - p).norm();
+    return !(*this)(v, p).is_nearest;
   }
 
 private:

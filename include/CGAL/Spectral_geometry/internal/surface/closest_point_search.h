@@ -95,6 +95,7 @@ public:
   {
     Eigen::Index face;
     Eigen::Vector3d weights, point;
+    bool is_nearest; // of all faces, also of those that may not be, but for rounding
   };
 
   explicit Closest_point_query(const Mesh_matrices& surface)
@@ -120,14 +121,19 @@ public:
   Answer among(const Eigen::Vector3d& query, Eigen::Index face, const May_be& may_be) const
   {
     Point_of_triangle best = closest_point_of_triangle(query, corners(face));
+    double refused = std::numeric_limits<double>::infinity();
     m_tree.visit_near(query, best.squared_distance, [&](const std::size_t item) {
       const Point_of_triangle candidate = closest_point_of_triangle(query, m_corners[item]);
-      if(candidate.squared_distance < best.squared_distance && may_be(Eigen::Index(item))) {
+      if(!(candidate.squared_distance < best.squared_distance))
+        return;
+      if(may_be(Eigen::Index(item))) {
         best = candidate;
         face = Eigen::Index(item);
-      }
+      } else
+        refused = (std::min)(refused, candidate.squared_distance);
     });
-    return {face, best.weights, corners(face) * best.weights};
+    return {face, best.weights, corners(face) * best.weights,
+            refused >= (1 - 2e-6) * best.squared_distance};
   }
 
   const Eigen::Matrix3d& corners(const Eigen::Index face) const { return m_corners[face]; }
