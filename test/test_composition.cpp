@@ -48,7 +48,6 @@ namespace test_composition {
 
 namespace {
 
-
 // The ends of the constrained edges.
 std::set<std::pair<Point, Point>> constrained_segments(const Mesh& mesh,
                                                        const Constraints& constraints)

@@ -418,11 +418,11 @@ TEST_CASE(
     return *std::max_element(d.begin(), d.end());
   };
   const Distances before = distances_at(start), now = distances_at(V);
-  const double theta = (std::max)(goal * largest(before.of_fine), largest(before.of_coarse) / 4);
+  const double delta = (std::max)(goal * largest(before.of_fine), largest(before.of_coarse) / 4);
   const auto mean = [&](const std::vector<double>& distances) {
     double sum = 0;
     for(const double d : distances)
-      sum += std::pow((std::max)(0., d * d / (theta * theta) - 1), 2);
+      sum += std::pow((std::max)(0., d * d / (delta * delta) - 1), 2);
     return sum / double(distances.size());
   };
   Positions gradient = Positions::Zero(V.rows(), 3), other = gradient;

@@ -17,9 +17,9 @@ Draws the coarse and the fine surface together where they lie furthest apart.
 
 With d the distance of a sample from the other surface, the term is
 \f[ \omega\, n \Big( \mathop{\mathrm{mean}}_{\text{fine}} h^2 +
-\mathop{\mathrm{mean}}_{\text{coarse}} h^2 \Big), \qquad h = \max(0, d^2 / \theta^2 - 1), \f] where
+\mathop{\mathrm{mean}}_{\text{coarse}} h^2 \Big), \qquad h = \max(0, d^2 / \delta^2 - 1), \f] where
 n is the number of coarse vertices. Samples of the fine surface are its vertices, those of the
-coarse one its vertices and the middles of its edges and faces. The threshold theta is a part of
+coarse one its vertices and the middles of its edges and faces. The threshold delta is a part of
 the largest distance of a fine vertex at the start: only few samples are beyond it, at tips and in
 folds, and what moves there hardly shows in the spectrum.
 
@@ -33,7 +33,7 @@ public:
   using Index = Eigen::Index;
 
   /// `on_fine` answers for the surface of `fine`; both are kept by reference. `seen`: fine vertices
-  /// that the coarse surface stands for. `V`: the positions at the start; theta is
+  /// that the coarse surface stands for. `V`: the positions at the start; delta is
   /// `goal` times the largest distance there.
   Distance_term(const Mesh_matrices& fine, std::vector<Index> seen,
                 const Closest_point_query& on_fine, const Eigen::MatrixXi& T, const Positions& V,
@@ -57,8 +57,8 @@ public:
     // Fine vertices may lie in the coarse surface where that lies far from the fine one. Rounding
     // of surfaces that lie in each other is no distance.
     const double size = (V.colwise().maxCoeff() - V.colwise().minCoeff()).norm(),
-                 theta = (std::max)({goal * m_furthest, from_coarse / 4, 1e-6 * size});
-    m_theta2 = theta * theta;
+                 delta = (std::max)({goal * m_furthest, from_coarse / 4, 1e-6 * size});
+    m_delta2 = delta * delta;
     look(V, on_coarse);
   }
 
@@ -78,9 +78,9 @@ public:
     const double w = strength * weight * double(V.rows());
     // Adds h^2 to the value; returns its slope along the way between both points.
     const auto slope = [&](const double squared_distance, const double of_each) {
-      const double h = (std::max)(0., squared_distance / m_theta2 - 1);
+      const double h = (std::max)(0., squared_distance / m_delta2 - 1);
       value += of_each * h * h;
-      return 4 * of_each * h / m_theta2;
+      return 4 * of_each * h / m_delta2;
     };
     for(const Index i : m_far_fine) {
       const Eigen::Vector3d point = fine_sample(i);
@@ -196,11 +196,11 @@ private:
     });
   }
 
-  // Somewhat below theta, since a sample may go beyond it before the next look. `face`, where the
+  // Somewhat below delta, since a sample may go beyond it before the next look. `face`, where the
   // search begins, is the closest one afterwards if the sample is far.
   bool is_far(const Closest_point_query& surface, const Eigen::Vector3d& point, Index& face) const
   {
-    const double bound = 0.64 * m_theta2;
+    const double bound = 0.64 * m_delta2;
     if(closest_point_of_triangle(point, surface.corners(face)).squared_distance <= bound)
       return false;
     const auto closest = surface.among(point, face, [](Index) { return true; });
@@ -229,7 +229,7 @@ private:
   int m_threads;
   std::vector<Index> m_closest_at_start, m_closest_on_coarse; // faces, of each fine sample
   std::vector<Index> m_closest_on_fine;                       // of each coarse sample
-  double m_furthest = 0, m_theta2 = 0;
+  double m_furthest = 0, m_delta2 = 0;
   std::vector<Index> m_far_fine, m_far_coarse;
 };
 
