@@ -122,11 +122,11 @@ public:
     , m_border(fine)
     , m_coarse{V, T}
     , m_regions(m_coarse, fine, P)
-    , m_start(on_border(fixed))
-    , m_guards(m_given, m_start, T, Positions(P * fine.V), limits, options.threads)
-    , m_size(T, m_start, fine, limits.size_tolerance)
     , m_closest(fine)
     , m_followed(m_closest, m_regions, std::size_t(V.rows()))
+    , m_start(first_positions(fixed))
+    , m_guards(m_given, m_start, T, Positions(P * fine.V), limits, options.threads)
+    , m_size(T, m_start, fine, limits.size_tolerance)
     , m_sampled(fine, m_followed, F, Z, options.threads)
     , m_times_back(std::size_t(V.rows()), 0)
   {
@@ -303,18 +303,24 @@ private:
     return m_regions.are_near(v, i) || m_regions.are_near(v, j);
   }
 
-  // The positions that were given, those of boundary vertices on the boundary of the fine mesh:
-  // collapses leave them on chords of it. A vertex stays where a triangle would turn over or become
-  // a needle, or would go through another one; it may get there with the first step.
-  Positions on_border(const std::vector<bool>& fixed) const
+  // The positions that were given, but for two kinds of vertices. Those of the boundary go to the
+  // boundary of the fine mesh: collapses leave them on chords of it. Those to which another limb is
+  // nearer go to their own, where closest points find it. A vertex stays where a triangle would
+  // turn over or become a needle, or would go through another one; it may get there later.
+  Positions first_positions(const std::vector<bool>& fixed)
   {
     Positions V = m_given;
     const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
-    if(m_options.fix_boundary || m_border.is_empty())
-      return V;
     const auto loops = m_border.loops_of_rows(m_P);
     for(Eigen::Index v = 0; v < V.rows(); ++v) {
-      if(!on_boundary[v] || (!fixed.empty() && fixed[v]))
+      if(!fixed.empty() && fixed[v])
+        continue;
+      if(!on_boundary[v]) {
+        if(m_options.signals != Signals::carried && m_followed.is_beside_another_part(v, V.row(v)))
+          V.row(v) = m_followed(v, V.row(v)).point.transpose();
+        continue;
+      }
+      if(m_options.fix_boundary || m_border.is_empty())
         continue;
       Border_polyline::Point point = m_border.closest(
           V.row(v), [&](const std::size_t s) { return is_near_border(int(v), s); });
@@ -324,6 +330,8 @@ private:
       if(point.exists())
         V.row(v) = point.position.transpose();
     }
+    if(V == m_given)
+      return V;
     const Relocation_guards shapes(m_given, m_given, m_T, m_given, m_limits, m_options.threads);
     Face_pairs crossing;
     if(m_options.keep_free_of_self_intersections)
@@ -471,11 +479,11 @@ private:
   Border_polyline m_border; // of the fine mesh
   Mesh_matrices m_coarse;   // as given
   Surface_regions m_regions;
+  Closest_point_query m_closest; // on the fine mesh
+  Followed_closest_points m_followed;
   Positions m_start; // where the descent begins
   Relocation_guards m_guards;
   Size_bounds m_size;
-  Closest_point_query m_closest; // on the fine mesh
-  Followed_closest_points m_followed;
   Surface_signals m_sampled;
   std::vector<int> m_times_back; // of each vertex, in rounds
   std::unique_ptr<Relocation_objective> m_objective;
