@@ -910,6 +910,15 @@ TEST_CASE("no row of P comes from the limb beside that of its vertex, closest po
   SMS::spectral_edge_collapse(before, 120, options);
   CHECK(of_closest_points(SG::mesh_matrices(before)) > 0);
   CHECK(of_closest_points(coarse) < of_closest_points(SG::mesh_matrices(before)));
+  const auto furthest = [&](const Mesh& surface) {
+    const SG::internal::Closest_point_query closest(SG::mesh_matrices(surface));
+    double result = 0;
+    for(Eigen::Index i = 0; i < input.V.rows(); ++i)
+      result =
+          (std::max)(result, (closest(input.V.row(i)).point - input.V.row(i).transpose()).norm());
+    return result;
+  };
+  CHECK(furthest(mesh) <= furthest(before) * (1 + 1e-9));
   const SG::Laplace_operator fine_op = SG::laplace_operator(input.V, input.T, SG::Mass::averaged),
                              op = SG::laplace_operator(coarse.V, coarse.T, SG::Mass::averaged);
   const SG::Spectral_evaluation e = SG::evaluate_spectrum(

@@ -134,12 +134,9 @@ public:
     set_objective();
     if(m_options.keep_free_of_self_intersections)
       m_crossing = self_intersecting_faces(m_start, m_T);
-    if(std::isfinite(m_options.hausdorff_goal)) {
-      m_distance =
-          std::make_unique<Distance_term>(m_fine, m_regions.fine_vertices(), m_closest, m_T,
-                                          m_start, m_options.hausdorff_goal, m_options.threads);
+    m_distance = distance_term(m_start);
+    if(m_distance)
       m_objective->keep_near(*m_distance);
-    }
   }
 
   bool keeps_inner_products() const { return m_keeps_inner_products; }
@@ -297,6 +294,15 @@ private:
     return result > 1e-6 * area * pencil_shift(op) ? result : 0.;
   }
 
+  // With the distances from V, or null where nothing is asked of them.
+  std::unique_ptr<Distance_term> distance_term(const Positions& V) const
+  {
+    if(!std::isfinite(m_options.hausdorff_goal))
+      return nullptr;
+    return std::make_unique<Distance_term>(m_fine, m_regions.fine_vertices(), m_closest, m_T, V,
+                                           m_options.hausdorff_goal, m_options.threads);
+  }
+
   bool is_near_border(const int v, const std::size_t s) const
   {
     const auto [i, j] = m_border.segment(s);
@@ -306,14 +312,16 @@ private:
   // The positions that were given, but for two kinds of vertices. Those of the boundary go to the
   // boundary of the fine mesh: collapses leave them on chords of it. Those to which another limb is
   // nearer go to their own, where closest points find it. A vertex stays where a triangle would
-  // turn over or become a needle, or would go through another one; it may get there later.
+  // turn over, become a needle or go through another one, one off the boundary also where the fine
+  // surface would be left behind; it may get there later.
   Positions first_positions(const std::vector<bool>& fixed)
   {
     Positions V = m_given;
     const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
+    const std::vector<Eigen::Index> face_of = faces_at_vertices(m_T, V.rows());
     const auto loops = m_border.loops_of_rows(m_P);
     for(Eigen::Index v = 0; v < V.rows(); ++v) {
-      if(!fixed.empty() && fixed[v])
+      if(face_of[v] < 0 || (!fixed.empty() && fixed[v]))
         continue;
       if(!on_boundary[v]) {
         if(m_options.signals != Signals::carried && m_followed.is_beside_another_part(v, V.row(v)))
@@ -333,14 +341,18 @@ private:
     if(V == m_given)
       return V;
     const Relocation_guards shapes(m_given, m_given, m_T, m_given, m_limits, m_options.threads);
+    std::unique_ptr<Distance_term> distance;
+    for(Eigen::Index v = 0; v < V.rows() && !distance; ++v)
+      if(!on_boundary[v] && V.row(v) != m_given.row(v) && std::isfinite(m_options.hausdorff_goal))
+        distance = distance_term(m_given);
     Face_pairs crossing;
     if(m_options.keep_free_of_self_intersections)
       crossing = self_intersecting_faces(m_given, m_T);
     for(bool back = true; back;) { // fewer vertices are elsewhere in each round
       back = false;
-      const auto go_back = [&](const Eigen::Index f) {
+      const auto go_back = [&](const Eigen::Index f, const bool from_boundary = true) {
         for(const int v : m_T.row(f))
-          if(V.row(v) != m_given.row(v)) {
+          if(V.row(v) != m_given.row(v) && (from_boundary || !on_boundary[v])) {
             V.row(v) = m_given.row(v);
             back = true;
           }
@@ -354,6 +366,8 @@ private:
             go_back(pair.first);
             go_back(pair.second);
           }
+      if(!back && distance)
+        distance->for_each_face_left_behind(V, [&](const Eigen::Index f) { go_back(f, false); });
     }
     return V;
   }

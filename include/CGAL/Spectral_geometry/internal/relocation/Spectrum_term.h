@@ -25,7 +25,7 @@ With eigenvalues of the fine mesh, the weighted mean square of their relative er
    w_k = 1 + 50 \lambda_2 / \lambda_k. \f]
 E weighs mode k by \f$ \lambda_k^2 \f$ and leaves low modes to chance. Only as many modes take part
 as a sixth of the vertices: linear elements hardly have the others. With more than ten vertices for
-each of the K modes they err less, and epsilon is \f$ (10 K / N)^{2/3} \f$ times what it is.
+each of the K modes they err less, and epsilon falls as \f$ (10 K / N)^{2/3} \f$.
 
 The modes after these, up to 1.5 K, would fall, see `relocate_positions()`. They are too low
 already: with the averaged mass the leading error of the elements is \f$ -x^2 / 461 \f$ of the
