@@ -9,7 +9,7 @@
 # that BUILD was built from. That takes about an hour and a half on a machine with two cores, the first of it without other work. The text around
 # the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md, reference.md and measurements.md quote wrongly.
 #
-#   BUILD      where the programs, spectral_benchmark and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
+#   BUILD      where the programs, spectral_benchmark, garland_heckbert and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
 #              what pictures.py does
 #   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
 #   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
@@ -59,6 +59,8 @@ python3 "$doc/measure.py" "$build" "$meshes" nefertiti benchmark pairs million
 say "times: degree.csv and scaling.csv"
 "$benchmark" --scaling "$doc/degree.csv" --scaling-shape disc --scaling-vertices 10,30,100,300,1000,3000,10000 --scaling-eigenvectors 8
 "$benchmark" --scaling "$doc/scaling.csv" --runs 1
+say "times: whole runs"
+python3 "$doc/make_whole_runs.py" "$build" 1000
 say "times: eigenpairs of large meshes, rivals.md"
 python3 "$doc/make_spectra.py" "$build"
 say "times: distances, matching, two scans of a million vertices, applications.md"

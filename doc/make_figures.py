@@ -458,9 +458,10 @@ def masses(folder):
 # --- tables of times ------------------------------------------------------------------------------
 
 
-def table_of(csv_name):
+def table_of(csv_name, words=()):
     with open(os.path.join(HERE, csv_name), newline="") as file:
-        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        return [{key: value if key in words else float(value or "nan")
+                 for key, value in row.items()} for row in csv.DictReader(file)]
 
 
 # `spectral_benchmark --scaling`: shapes of more and more vertices, for several K. The rival was
@@ -522,6 +523,26 @@ def degree():
     save(figure, "degree")
 
 
+# Time and memory from file to file, over the size of the input: whole_runs.csv.
+def whole_runs():
+    rows = table_of("whole_runs.csv", words=("program",))
+    figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 3.6), constrained_layout=True)
+    styles = {"best": {"color": BLUE, "lw": 3, "marker": "o"},
+              "fast": {"color": GREEN, "lw": 2, "ls": "--", "marker": "s"},
+              "plane quadrics": {"color": "black", "lw": 1, "marker": "x"}}
+    for program, style in styles.items():
+        own = [r for r in rows if r["program"] == program]
+        for a, column in zip(axes, ("seconds", "gigabytes")):
+            a.plot([r["vertices"] for r in own], [r[column] for r in own], label=program, **style)
+    ticks = {"x": [10000, 100000, 1000000]}
+    logarithmic(axes[0], {**ticks, "y": [0.1, 1, 10]})
+    logarithmic(axes[1], {**ticks, "y": [0.01, 0.1, 1]})
+    axes[0].set(title="seconds from file to file", xlabel="vertices of the input")
+    axes[1].set(title="peak memory, GB", xlabel="vertices of the input")
+    legend_below(figure, axes[0], 0.09)
+    save(figure, "whole_runs")
+
+
 # Means over the nine meshes of the README: frontier.csv for several goals of relocation, rivals.md
 # for the others. How the first was measured stands in measurements.md.
 def frontier():
@@ -569,6 +590,7 @@ def main():
     curve(folder)
     scaling()
     degree()
+    whole_runs()
     frontier()
     data = {
         "commit": commit(),
