@@ -16,9 +16,9 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 
 from make_results import commit, replace
+from make_rivals import measure
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIZES = (5000, 20000, 80000, 320000, 1000000)
@@ -26,27 +26,29 @@ LARGEST_JUDGED = 320000
 COLUMNS = ("vertices", "program", "seconds", "gigabytes", "norm_L", "norm_D", "eigenvalues_percent")
 
 
-def timed(command):
-    start = time.time()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    _, status, usage = os.wait4(process.pid, 0)
-    if status != 0:
+def timed(command, path):
+    if measure(900, path, command):
         sys.exit(f"'{' '.join(command)}' failed.")
-    return time.time() - start, usage.ru_maxrss * 1024 / 1e9
+    with open(path) as file:
+        found = json.load(file)
+    return found["wall_seconds"], found["peak_megabytes"] * 1024**2 / 1e9
 
 
 def main():
     if len(sys.argv) != 3:
         sys.exit("usage: make_whole_runs.py BUILD N")
-    programs, n = os.path.join(sys.argv[1], "examples"), sys.argv[2]
-    quadrics = os.path.join(sys.argv[1], "test", "benchmark", "garland_heckbert")
-    simplify = os.path.join(programs, "spectral_simplify")
+    build, n = sys.argv[1:]
+    make, simplify, compare = (os.path.join(build, "examples", x) for x in
+                               ("make_demo_shape", "spectral_simplify", "spectral_compare"))
+    quadrics = os.path.join(build, "test", "benchmark", "garland_heckbert")
+    for program in make, simplify, compare, quadrics, "/usr/bin/time":
+        if not os.access(program, os.X_OK):
+            sys.exit(f"{program} is missing: build that target, or on Debian apt-get install time.")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         shape, judged = (os.path.join(folder, x) for x in ("shape.off", "judged.json"))
         for size in SIZES:
-            subprocess.run([os.path.join(programs, "make_demo_shape"), shape, "--vertices",
-                            str(size)], check=True)
+            subprocess.run([make, shape, "--vertices", str(size)], check=True)
             with open(shape) as file:
                 file.readline()
                 vertices = int(file.readline().split()[0])
@@ -56,14 +58,13 @@ def main():
             for name, result in results.items():
                 found[name] = timed([quadrics, shape, result, n] if name == "plane quadrics" else
                                     [simplify, shape, result, "--vertices", n, "--preset", name,
-                                     "--no-evaluation", "--quiet"])
+                                     "--no-evaluation", "--quiet"], judged)
             quality = {}
             if size <= LARGEST_JUDGED:
                 rivals = [x for name, path in results.items()
                           for x in ("--rival", f"{name}={path}")]
-                subprocess.run([os.path.join(programs, "spectral_compare"), shape, *rivals,
-                                "--judge", "averaged", "--quiet", "--json", judged], check=True,
-                               stdout=subprocess.DEVNULL)
+                subprocess.run([compare, shape, *rivals, "--judge", "averaged", "--quiet", "--json",
+                                judged], check=True, stdout=subprocess.DEVNULL)
                 with open(judged) as file:
                     quality = {r["simplifier"]: r for r in json.load(file)["rows"]}
             for name, (seconds, gigabytes) in found.items():

@@ -320,12 +320,16 @@ private:
     const std::vector<char> on_boundary = border_vertices(m_T, V.rows());
     const std::vector<Eigen::Index> face_of = faces_at_vertices(m_T, V.rows());
     const auto loops = m_border.loops_of_rows(m_P);
+    bool beside = false; // whether a vertex off the boundary is elsewhere
     for(Eigen::Index v = 0; v < V.rows(); ++v) {
       if(face_of[v] < 0 || (!fixed.empty() && fixed[v]))
         continue;
       if(!on_boundary[v]) {
-        if(m_options.signals != Signals::carried && m_followed.is_beside_another_part(v, V.row(v)))
+        if(m_options.signals != Signals::carried &&
+           m_followed.is_beside_another_part(v, V.row(v))) {
           V.row(v) = m_followed(v, V.row(v)).point.transpose();
+          beside = true;
+        }
         continue;
       }
       if(m_options.fix_boundary || m_border.is_empty())
@@ -341,10 +345,7 @@ private:
     if(V == m_given)
       return V;
     const Relocation_guards shapes(m_given, m_given, m_T, m_given, m_limits, m_options.threads);
-    std::unique_ptr<Distance_term> distance;
-    for(Eigen::Index v = 0; v < V.rows() && !distance; ++v)
-      if(!on_boundary[v] && V.row(v) != m_given.row(v) && std::isfinite(m_options.hausdorff_goal))
-        distance = distance_term(m_given);
+    const std::unique_ptr<Distance_term> distance = beside ? distance_term(m_given) : nullptr;
     Face_pairs crossing;
     if(m_options.keep_free_of_self_intersections)
       crossing = self_intersecting_faces(m_given, m_T);
