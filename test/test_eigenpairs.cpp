@@ -646,12 +646,12 @@ TEST_CASE("Residuals are within ten times the tolerance, or are reported")
   CHECK(SG::eigenpairs(op, 60, SG::Eigenpairs_options::with_tolerance(1e-11)).complete);
 }
 
-TEST_CASE("Two thousand random scenes: what has no small residual is reported", "[.long][slow]")
+TEST_CASE("Hundreds of random scenes: what has no small residual is reported", "[.long][slow]")
 {
   std::mt19937 random(1);
   const auto below = [&](const int n) { return int(random() % unsigned(n)); };
   int reported = 0;
-  for(int solves = 0; solves < 2000; ++solves) {
+  for(int solves = 0; solves < 300; ++solves) {
     const int subdivisions = below(3), most[] = {400, 100, 25};
     const shapes::Matrices part = shapes::icosphere_matrices(subdivisions);
     const int copies = 1 + below(below(2) == 0 ? 8 : most[subdivisions]);
@@ -677,7 +677,7 @@ TEST_CASE("Two thousand random scenes: what has no small residual is reported", 
     CHECK(problem.residuals(pairs, 1).maxCoeff() <= 10. * SG::Eigenpairs_options().tolerance);
     CHECK(error < 1e-8);
   }
-  CHECK(reported <= 10); // as a rule none
+  CHECK(reported <= 2); // as a rule none
 }
 
 TEST_CASE("The Dirichlet problem is that of the rows off the border")

@@ -529,6 +529,17 @@ TEST_CASE("a lower goal brings the surfaces nearer to each other, from either si
   }
 }
 
+TEST_CASE("goals that change do not end the descent")
+{
+  // On a flat square the first change of the goals raises the objective above what it was before.
+  Mesh mesh = make_mesh(shapes::grid_matrices(30, 30));
+  SMS::Spectral_edge_collapse_options options;
+  options.number_of_eigenvectors = 20;
+  const auto result = SMS::spectral_edge_collapse(mesh, 120, options);
+  CHECK(result.relocation.steps > 50);
+  CHECK(result.relocation.norm_after < 0.45 * result.relocation.norm_before);
+}
+
 TEST_CASE("guards without room end the descent")
 {
   for(const Simplified_mesh* s : {&closed_example(), &open_example()})

@@ -407,6 +407,25 @@ struct One_fixed
 
 } // namespace
 
+TEST_CASE("a vertex that no step of the others suits does not hold them")
+{
+  const Eigen::Index n = 40, stiff = 5;
+  Springs springs{Eigen::MatrixXd::Identity(n, n), Positions(n, 3)};
+  springs.H(stiff, stiff) = 1e12;
+  for(Eigen::Index i = 0; i < springs.pull.size(); ++i)
+    springs.pull.data()[i] = std::sin(3. * double(i));
+  Positions gradient;
+  const double least =
+      springs.value_and_gradient(springs.H.ldlt().solve(Eigen::MatrixXd(springs.pull)), gradient);
+  One_fixed guards;
+  SG::internal::Guarded_descent<Springs, One_fixed> descent(springs, guards, 0.1);
+  descent.start(Positions::Zero(n, 3));
+  const double gap = descent.value() - least;
+  for(int i = 0; i < 30 && descent.value() - least > 1e-6 * gap; ++i)
+    REQUIRE(descent.step());
+  CHECK(descent.value() - least < 1e-6 * gap);
+}
+
 TEST_CASE("a descent goes on after a vertex was put back, and knows what it knew")
 {
   const Eigen::Index n = 40;

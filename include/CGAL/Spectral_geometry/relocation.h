@@ -207,18 +207,21 @@ private:
     }
   }
 
+  // Goals change every fifth step, and the objective with them: what counts is what steps gain.
   Stop_reason descend(Descent& descent, int& steps)
   {
-    double last = descent.value();
+    double last = descent.value(), gained = 0;
     while(steps < m_options.maximum_steps) {
       report_to(m_options, {Phase::relocation, double(steps) / double(m_options.maximum_steps)});
       if(!(m_timer.time() < m_options.maximum_seconds))
         return Stop_reason::seconds;
       if(!descent.step())
         return Stop_reason::no_descent;
+      gained += last - descent.value();
       if(++steps % 10 == 0) {
-        if(descent.value() > (1 - m_limits.relative_decrease) * last)
+        if(gained < m_limits.relative_decrease * (descent.value() + gained))
           return Stop_reason::converged;
+        gained = 0;
         if(steps < m_options.maximum_steps) {
           const Positions repaired_so_far = repaired(descent.positions());
           const bool refreshed = m_objective->refresh(repaired_so_far);
@@ -227,10 +230,10 @@ private:
           else if(refreshed)
             descent.refresh();
         }
-        last = descent.value();
       } else if(steps % 5 == 0 && m_objective->has_goals() &&
                 m_objective->refresh(descent.positions()))
         descent.refresh();
+      last = descent.value();
     }
     return Stop_reason::steps;
   }

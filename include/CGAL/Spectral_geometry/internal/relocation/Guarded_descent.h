@@ -7,8 +7,11 @@
 
 #include <CGAL/Spectral_geometry/internal/basics.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <utility>
+#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -70,15 +73,18 @@ public:
   const Positions& positions() const { return m_V; }
   double value() const { return m_value; }
 
-  /// one step; false if none that descends was found.
+  /// one step; false if none that descends was found, not even with the curvature levelled.
   bool step()
   {
     if(try_direction())
       return true;
-    if(m_history.empty())
-      return false;
-    m_history.clear(); // once more along the gradient
-    set_scales();
+    if(!m_history.empty()) { // once more along the gradient
+      m_history.clear();
+      set_scales();
+      if(try_direction())
+        return true;
+    }
+    level_curvature();
     return try_direction();
   }
 
@@ -99,17 +105,41 @@ private:
   // lengths below 1, one half at the median.
   void set_scales()
   {
+    if(m_levelled)
+      return;
     const Eigen::VectorXd lengths = m_gradient.rowwise().norm();
+    m_scales = (lengths.array() + median_of_positive(lengths)).inverse();
+  }
+
+  // From now on a vertex moves the less the faster its gradient changes along a short step: at
+  // needles too fast for any step of all vertices. Forgets the history.
+  void level_curvature()
+  {
+    m_levelled = true;
+    m_history.clear();
+    Positions V = m_V + 1e-4 * direction(), gradient;
+    m_guards.admit(m_V, V);
+    m_objective.value_and_gradient(V, gradient);
+    m_guards.tangential(V, gradient);
+    const Eigen::VectorXd s = (V - m_V).rowwise().norm();
+    const Eigen::VectorXd curvature =
+        (s.array() > 0).select((gradient - m_gradient).rowwise().norm().cwiseQuotient(s), 0.);
+    m_scales = (curvature.array() + median_of_positive(curvature)).inverse();
+    m_scales /= 2 * median_of_positive(m_scales.cwiseProduct(m_gradient.rowwise().norm()));
+  }
+
+  // Finite ones; 1 where none is.
+  static double median_of_positive(const Eigen::VectorXd& lengths)
+  {
     std::vector<double> sorted;
     for(const double l : lengths)
-      if(l > 0)
+      if(l > 0 && std::isfinite(l))
         sorted.push_back(l);
-    m_scales.setOnes(lengths.size());
     if(sorted.empty())
-      return;
+      return 1;
     const auto middle = sorted.begin() + sorted.size() / 2;
     std::nth_element(sorted.begin(), middle, sorted.end());
-    m_scales = (lengths.array() + *middle).inverse();
+    return *middle;
   }
 
   Positions scaled(const Positions& d) const { return m_scales.asDiagonal() * d; }
@@ -173,6 +203,7 @@ private:
   Positions m_V, m_gradient;
   Eigen::VectorXd m_scales;
   double m_value = 0;
+  bool m_levelled = false; // whether the scales are of the curvature
   std::deque<Pair> m_history;
 };
 
