@@ -6,7 +6,7 @@
 #define CGAL_SPECTRAL_GEOMETRY_INTERNAL_BASICS_H
 
 // What every header of these packages has, by way of others: the matrices of Eigen, the common part
-// of the standard library, and how arguments are refused.
+// of the standard library, how arguments are refused, and the median.
 
 #include <CGAL/Spectral_geometry/internal/require.h>
 
@@ -29,5 +29,18 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+namespace CGAL::Spectral_geometry::internal {
+
+/// The larger of two in the middle, 0 of none.
+inline double median(Eigen::VectorXd numbers)
+{
+  double *const begin = numbers.data(), *const end = begin + numbers.size(),
+                *const middle = begin + numbers.size() / 2;
+  std::nth_element(begin, middle, end);
+  return begin == end ? 0. : *middle;
+}
+
+} // namespace CGAL::Spectral_geometry::internal
 
 #endif // CGAL_SPECTRAL_GEOMETRY_INTERNAL_BASICS_H

@@ -16,15 +16,6 @@
 
 namespace CGAL::Spectral_geometry::internal {
 
-/// The larger of two in the middle, 0 of none.
-inline double median(Eigen::VectorXd numbers)
-{
-  double *const begin = numbers.data(), *const end = begin + numbers.size(),
-                *const middle = begin + numbers.size() / 2;
-  std::nth_element(begin, middle, end);
-  return begin == end ? 0. : *middle;
-}
-
 /// What L is measured in: 1 for cotangents. The diagonal of equilateral triangles is 2 sqrt(3); the
 /// median leaves needles aside.
 inline double unit_of_stiffness(const Eigen::SparseMatrix<double>& L)

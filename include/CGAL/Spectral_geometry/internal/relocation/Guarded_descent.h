@@ -7,11 +7,8 @@
 
 #include <CGAL/Spectral_geometry/internal/basics.h>
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 #include <utility>
-#include <vector>
 
 namespace CGAL::Spectral_geometry::internal {
 
@@ -131,15 +128,12 @@ private:
   // Finite ones; 1 where none is.
   static double median_of_positive(const Eigen::VectorXd& lengths)
   {
-    std::vector<double> sorted;
+    Eigen::VectorXd positive(lengths.size());
+    Eigen::Index count = 0;
     for(const double l : lengths)
       if(l > 0 && std::isfinite(l))
-        sorted.push_back(l);
-    if(sorted.empty())
-      return 1;
-    const auto middle = sorted.begin() + sorted.size() / 2;
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
+        positive[count++] = l;
+    return count == 0 ? 1 : median(positive.head(count));
   }
 
   Positions scaled(const Positions& d) const { return m_scales.asDiagonal() * d; }
