@@ -16,7 +16,7 @@
 #              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; tosca/ with cat2.off,
 #              david0.off, gorilla1.off and victoria0.off to victoria2.off of it; pair/ with cat-pose.off of TOSCA, the lion
 #              and the cat of Sumner and Popović (lion-00.off, cat-00.off) and the map lion2cat.txt; nasty/ with centaur-pose.off, ogre.obj,
-#              beetle.obj, and whatever else robustness.md is to have
+#              beetle.obj, and whatever else robustness.md is to have; where it is there, brain/fsLR_32k_midthickness-lh.vtk
 #   RIVALS     see run_rivals.sh
 #   REMESHERS  the same, of those whose meshes are matched
 #   OTHERS     meshes for make_survey.py, in folders by their sources
@@ -44,6 +44,7 @@ for mesh in $limbs $tosca cheburashka.obj falconstatue.obj homer.obj igea.ply mo
   pair/lion-00.off pair/cat-00.off pair/lion2cat.txt nasty/centaur-pose.off nasty/ogre.obj nasty/beetle.obj; do
   [ -r "$meshes/$mesh" ] || { echo "make_all.sh: there is no '$meshes/$mesh'" >&2; exit 1; }
 done
+cortex=$meshes/brain/fsLR_32k_midthickness-lh.vtk
 commit=$(cd "$doc" && python3 -Bc 'from make_results import commit; print(commit())')
 if [ -e "$build/results-of" ] && [ "$(cat "$build/results-of")" != "$commit" ]; then
   echo "make_all.sh: what is in '$build' was made at $(cat "$build/results-of"), this is $commit: take another folder" >&2
@@ -66,6 +67,17 @@ python3 "$doc/make_spectra.py" "$build"
 say "times: distances, matching, two scans of a million vertices, applications.md"
 python3 "$doc/make_applications.py" "$build" >"$build/applications.txt"
 python3 "$doc/make_applications.py" --large "$build"
+say "times: eigsh() beside SciPy's, examples/python/README.md"
+beside()
+{
+  PYTHONPATH="$build/examples/python${PYTHONPATH:+:$PYTHONPATH}" \
+    python3 -B "$doc/../examples/python/beside_scipy.py" "$@"
+}
+beside >"$build/beside_scipy.txt"
+if [ -r "$cortex" ]; then
+  beside "$cortex" >>"$build/beside_scipy.txt"
+  beside --modes 200 "$cortex" >>"$build/beside_scipy.txt"
+fi
 say "rivals.md and README.md"
 (
   cd "$meshes"
@@ -115,5 +127,5 @@ say "the figures, of the demonstration's own shape"
 mkdir -p "$build/figures"
 [ -s "$build/figures/shape.ply" ] || "$quick/examples/make_demo_shape" "$build/figures/shape.ply" --vertices 10000
 python3 "$doc/make_figures.py" "$build"
-say "made; now compare the text with the tables, with $build/applications.txt and operators.txt, and with what follows"
+say "made; now compare the text with the tables, with applications.txt, operators.txt and beside_scipy.txt in $build, and with what follows"
 python3 "$doc/measure.py" --check
