@@ -2,12 +2,14 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Sourced by the scripts that build. install_packages PACKAGE... installs those of the Debian packages that are
-# missing, as root or through sudo, and stops with a sentence when it cannot. Elsewhere than on Debian and its
-# relatives nothing is installed: CMake says what is missing. SPECTRAL_NO_INSTALL=1 asks for the same on Debian.
-# prefer_ninja FOLDER has a new build folder made for Ninja where it is installed: it keeps all cores busy, make waits for
-# one target after the other. prefer_clang FOLDER has a new one made for Clang, installed where that can be, unless CXX names another
-# compiler: it takes three quarters of GCC's time to compile these templates, to programs that are as fast. Without it GCC compiles.
+# Sourced by the scripts that build. install_packages PACKAGE... installs those of the Debian
+# packages that are missing, as root or through sudo, and stops with a sentence when it cannot.
+# Elsewhere than on Debian and its relatives nothing is installed: CMake says what is missing.
+# SPECTRAL_NO_INSTALL=1 asks for the same on Debian. prefer_ninja FOLDER has a new build folder made
+# for Ninja where it is installed: it keeps all cores busy, make waits for one target after the
+# other. prefer_clang FOLDER has a new one made for Clang, installed where that can be, unless CXX
+# names another compiler: it takes three quarters of GCC's time to compile these templates, to
+# programs that are as fast. Without it GCC compiles.
 
 install_packages()
 {
@@ -34,7 +36,8 @@ install_packages()
 
   echo "Installing$missing"
   log=$(mktemp)
-  # A bare machine has no package lists yet, an old one stale lists: fetch them only when it does not work without.
+  # A bare machine has no package lists yet, an old one stale lists: fetch them only when it does
+  # not work without.
   for attempt in 1 2; do
     if $as_root DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing >"$log" 2>&1; then
       rm -f "$log"

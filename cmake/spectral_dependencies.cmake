@@ -2,11 +2,11 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Finds what the headers need. Included by CMakeLists.txt and by the installed package configuration, so that
-# a build from the source tree and a build against an installed copy agree.
+# Finds what the headers need. Included by CMakeLists.txt and by the installed package
+# configuration, so that a build from the source tree and a build against an installed copy agree.
 #
-# Sets Spectral_mesh_simplification_MISSING to one sentence when something is missing or too old, to nothing
-# otherwise.
+# Sets Spectral_mesh_simplification_MISSING to one sentence when something is missing or too old, to
+# nothing otherwise.
 
 set(Spectral_mesh_simplification_MISSING "")
 
@@ -58,9 +58,10 @@ if(NOT TARGET Threads::Threads)
   return()
 endif()
 
-# Should CGAL ship a header of ours one day, two different files would compete for one name. Looks for `headers`
-# (names as they are included) in the CGAL that was found; ours (an earlier installation into CGAL's own prefix)
-# are recognised by their copyright line. Sets `result` to the first foreign file, or to nothing.
+# Should CGAL ship a header of ours one day, two different files would compete for one name. Looks
+# for `headers` (names as they are included) in the CGAL that was found; ours (an earlier
+# installation into CGAL's own prefix) are recognised by their copyright line. Sets `result` to the
+# first foreign file, or to nothing.
 function(spectral_find_foreign_header headers result)
   set(${result} "" PARENT_SCOPE)
   foreach(directory IN LISTS CGAL_INCLUDE_DIRS)

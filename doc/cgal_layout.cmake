@@ -2,12 +2,17 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Lays everything out as a submission to CGAL: the package Spectral_geometry, additions to the package Surface_mesh_simplification, and the
-# lines that both need in Installation and Documentation. The toolbox and the command-line programs stay behind, with their examples and tests.
-#   cmake -DOUTPUT=FOLDER [-DCGAL_INCLUDE_DIR=FOLDER] [-DEIGEN3_INCLUDE_DIR=FOLDER] [-DCXX=COMPILER] [-DCHECK=ON] -P doc/cgal_layout.cmake
-# FOLDER may be a clone of CGAL's repository: its files are extended then, all of them or none, and `git diff` there is the submission.
-# What the packages depend on is taken from the #include lines, by way of COMPILER -M, and from the $URL$ line of each header of CGAL,
-# whose folder CGAL_INCLUDE_DIR has CGAL/version.h. With -DCHECK=ON the script stops unless all is complete. Its texts are in doc/cgal/.
+# Lays everything out as a submission to CGAL: the package Spectral_geometry, additions to the
+# package Surface_mesh_simplification, and the lines that both need in Installation and
+# Documentation. The toolbox and the command-line programs stay behind, with their examples and
+# tests.
+#   cmake -DOUTPUT=FOLDER [-DCGAL_INCLUDE_DIR=FOLDER] [-DEIGEN3_INCLUDE_DIR=FOLDER] [-DCXX=COMPILER]
+#   [-DCHECK=ON] -P doc/cgal_layout.cmake
+# FOLDER may be a clone of CGAL's repository: its files are extended then, all of them or none, and
+# `git diff` there is the submission. What the packages depend on is taken from the #include lines,
+# by way of COMPILER -M, and from the $URL$ line of each header of CGAL, whose folder
+# CGAL_INCLUDE_DIR has CGAL/version.h. With -DCHECK=ON the script stops unless all is complete. Its
+# texts are in doc/cgal/.
 
 cmake_minimum_required(VERSION 3.16)
 get_filename_component(root "${CMAKE_CURRENT_LIST_DIR}/.." ABSOLUTE)
@@ -50,13 +55,13 @@ if(NOT cgal_include_dirs OR NOT EIGEN3_INCLUDE_DIR OR NOT CXX)
   message(FATAL_ERROR "CGAL, Eigen or a compiler was not found: pass -DCGAL_INCLUDE_DIR=FOLDER, -DEIGEN3_INCLUDE_DIR=FOLDER, -DCXX=COMPILER.")
 endif()
 
-# --- helpers ------------------------------------------------------------------------------------------------------------------------
+# --- helpers --------------------------------------------------------------------------------------
 
 set(extended "")
 set(missing "")
 
-# Lines will go before or after (`where`) the first `anchor` of a file that CGAL has, or at its END; others are READ. In a clone all of
-# that is looked up before anything is written.
+# Lines will go before or after (`where`) the first `anchor` of a file that CGAL has, or at its END;
+# others are READ. In a clone all of that is looked up before anything is written.
 function(find_place file where anchor)
   set("anchor+${where}+${file}" "${anchor}" PARENT_SCOPE)
   if(into_cgal)
@@ -136,7 +141,7 @@ function(package_of result header)
   endif()
 endfunction()
 
-# --- headers ------------------------------------------------------------------------------------------------------------------------
+# --- headers --------------------------------------------------------------------------------------
 
 include("${texts}/formulas.cmake")
 # CGAL writes enumerators in capitals. Those of public enumerations, longer names first.
@@ -160,8 +165,8 @@ foreach(package IN LISTS packages)
 endforeach()
 list(REMOVE_DUPLICATES enumerations)
 
-# In the variable `text`: where they are declared, behind their enumeration or an alias of it, and alone in
-# backticks unless members have the same names.
+# In the variable `text`: where they are declared, behind their enumeration or an alias of it, and
+# alone in backticks unless members have the same names.
 macro(enumerators_in_capitals)
   foreach(enumeration IN LISTS enumerations)
     string(REGEX MATCH "enum class ${enumeration}[ \n]*{[^}]*}" declared "${text}")
@@ -229,11 +234,12 @@ string(REGEX REPLACE "\\$(URL|Id)[^\n]*\\$" "$\\1$" text "${text}")
 file(WRITE "${output}/Installation/include/CGAL/license/Spectral_geometry.h" "${text}")
 extend(Installation/include/CGAL/license/gpl_package_list.txt AFTER "Spectral_geometry Spectral Geometry\n")
 
-# --- package_info -------------------------------------------------------------------------------------------------------------------
+# --- package_info ---------------------------------------------------------------------------------
 
 file(COPY "${texts}/Spectral_geometry/package_info/" DESTINATION "${output}/Spectral_geometry/package_info/Spectral_geometry")
 
-# What CGAL's own target packages_dependencies finds: the packages of all headers that a compiler reads for those of a package.
+# What CGAL's own target packages_dependencies finds: the packages of all headers that a compiler
+# reads for those of a package.
 set(include_flags "-I${EIGEN3_INCLUDE_DIR}")
 foreach(directory IN LISTS packages ITEMS Installation)
   list(APPEND include_flags "-I${output}/${directory}/include")
@@ -285,14 +291,15 @@ foreach(package IN LISTS packages)
 endforeach()
 string(APPEND extended "- `Surface_mesh_simplification/package_info/Surface_mesh_simplification/dependencies`: replaced by the union with that of CGAL, sorted\n")
 
-# --- examples -----------------------------------------------------------------------------------------------------------------------
+# --- examples -------------------------------------------------------------------------------------
 
 file(GLOB examples "${root}/examples/*.cpp")
 set(examples_Surface_mesh_simplification "")
 foreach(example IN LISTS examples)
   get_filename_component(name "${example}" NAME)
   file(READ "${example}" text)
-  # Not for CGAL: what needs the toolbox, and the comparison with Garland-Heckbert on three mesh types.
+  # Not for CGAL: what needs the toolbox, and the comparison with Garland-Heckbert on three mesh
+  # types.
   if(text MATCHES "CGAL/Spectral_toolbox/" OR name STREQUAL "edge_collapse_spectral_swap.cpp")
     continue()
   endif()
@@ -323,9 +330,10 @@ foreach(name IN LISTS examples_Spectral_geometry)
   file(WRITE "${output}/Spectral_geometry/examples/Spectral_geometry/${name}" "${text}")
 endforeach()
 
-# --- tests --------------------------------------------------------------------------------------------------------------------------
+# --- tests ----------------------------------------------------------------------------------------
 
-# The headers of test/ that a test includes, and whether one of them needs a package; `toolbox` where one of them needs that.
+# The headers of test/ that a test includes, and whether one of them needs a package; `toolbox`
+# where one of them needs that.
 function(helpers_of result needs_simplification file)
   file(READ "${root}/test/${file}" text)
   set(needs OFF)
@@ -349,7 +357,8 @@ function(helpers_of result needs_simplification file)
   set(${needs_simplification} ${needs} PARENT_SCOPE)
 endfunction()
 
-# Each test is a program; Spectral_test.h stands for Catch2. Those of programs and pages stay behind, and OpenMesh's.
+# Each test is a program; Spectral_test.h stands for Catch2. Those of programs and pages stay
+# behind, and OpenMesh's.
 function(copy_test file folder name)
   file(READ "${root}/test/${file}" text)
   string(REPLACE "#include \"catch.h\"" "#include \"Spectral_test.h\"" text "${text}")
@@ -389,7 +398,7 @@ foreach(package IN LISTS packages)
   file(COPY "${texts}/Spectral_test.h" DESTINATION "${output}/${package}/test/${package}")
 endforeach()
 
-# --- CMake --------------------------------------------------------------------------------------------------------------------------
+# --- CMake ----------------------------------------------------------------------------------------
 
 foreach(package IN LISTS packages)
   foreach(kind IN ITEMS examples test)
@@ -421,9 +430,10 @@ foreach(package IN LISTS packages)
   endforeach()
 endforeach()
 
-# --- documentation ------------------------------------------------------------------------------------------------------------------
+# --- documentation --------------------------------------------------------------------------------
 
-# What the public headers of a package have at the level of its namespace, documented: `- `name`` a line.
+# What the public headers of a package have at the level of its namespace, documented: `- `name`` a
+# line.
 foreach(package IN LISTS packages)
   set(functions_${package} "")
   set(classes_${package} "")
@@ -434,7 +444,8 @@ foreach(package IN LISTS packages)
     file(READ "${root}/include/${header}" text)
     string(REPLACE ";" "," text "${text}") # lists
     string(REGEX REPLACE "[][]" "'" text "${text}")
-    # Namespaces `internal` go. What follows the end of a comment, a template head aside, is what it documents.
+    # Namespaces `internal` go. What follows the end of a comment, a template head aside, is what it
+    # documents.
     string(REGEX REPLACE "\n} // namespace internal\n" "\n\r" text "${text}")
     string(REGEX REPLACE "\nnamespace internal {\n[^\r]*\r" "\n" text "${text}")
     set(documented "\n( ?\\*/|///[^\n]*)\n(template <[^{}]*>\n)?")
@@ -456,7 +467,8 @@ foreach(package IN LISTS packages)
   endforeach()
 endforeach()
 
-# Sections of the four pages in Doxygen's words, with labels that begin with `prefix`; `figures` are those they show.
+# Sections of the four pages in Doxygen's words, with labels that begin with `prefix`; `figures` are
+# those they show.
 set(pages tutorial how_to reference measurements)
 set(manual "")
 foreach(page IN LISTS pages)
@@ -523,7 +535,8 @@ endfunction()
 set(titles_Spectral_geometry "Which mass, and why")
 set(titles_Surface_mesh_simplification "The metric" "The shape term" "Presets" "Policies, and how to combine them" "Results"
     "Choosing K and N" "Why a few random mixtures are enough" "Placements" "Relocation" "Control over a run" "What is guaranteed")
-# The others are about the programs, Python, the toolbox and figures, or doc/cgal says it in fewer words.
+# The others are about the programs, Python, the toolbox and figures, or doc/cgal says it in fewer
+# words.
 set(titles_left
     # tutorial.md
     "What it is for" "Install" "Simplify a mesh" "Use it in Python" "Use it in C++" "Where to go from here"

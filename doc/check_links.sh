@@ -5,7 +5,8 @@
 #
 #   doc/check_links.sh FILE.md...
 #
-# Every relative link of the pages leads to a file, and where it names a part of a page, to a heading of it.
+# Every relative link of the pages leads to a file, and where it names a part of a page, to a
+# heading of it.
 set -u
 wrong=0
 

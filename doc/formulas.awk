@@ -2,11 +2,13 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# A filter for Doxygen: turns the formulas of a header or a page, written in TeX between \f$ \f$ or \f[ \f], into HTML with
-# Unicode letters. The pages then need neither MathJax (a network) nor LaTeX, and awk stands wherever a shell does.
-# In CGAL's own tree the headers go through MathJax as they are, without this filter.
+# A filter for Doxygen: turns the formulas of a header or a page, written in TeX between \f$ \f$ or
+# \f[ \f], into HTML with Unicode letters. The pages then need neither MathJax (a network) nor
+# LaTeX, and awk stands wherever a shell does. In CGAL's own tree the headers go through MathJax as
+# they are, without this filter.
 #
-# Only the commands of the table below are known: any other stays in the text, and Doxygen stops at it.
+# Only the commands of the table below are known: any other stays in the text, and Doxygen stops at
+# it.
 
 BEGIN {
   split("alpha α beta β gamma γ delta δ epsilon ε theta θ lambda λ mu μ nu ν pi π rho ρ sigma σ tau τ phi φ psi ψ " \

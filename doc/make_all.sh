@@ -5,24 +5,30 @@
 #
 # make_all.sh BUILD QUICK MESHES RIVALS REMESHERS OTHERS
 #
-# Makes the tables, the figures and the data of this folder anew, but for those of experiments.md, from the commit that is checked out and
-# that BUILD was built from. That takes about an hour and a half on a machine with two cores, the first of it without other work. The text around
-# the marks, and what it says of the numbers, is for a human: at the end measure.py --check lists what README.md, reference.md and measurements.md quote wrongly.
+# Makes the tables, the figures and the data of this folder anew, but for those of experiments.md,
+# from the commit that is checked out and that BUILD was built from. That takes about an hour and a
+# half on a machine with two cores, the first of it without other work. The text around the marks,
+# and what it says of the numbers, is for a human: at the end measure.py --check lists what
+# README.md, reference.md and measurements.md quote wrongly.
 #
-#   BUILD      where the programs, spectral_benchmark, garland_heckbert and the Python module were built, for release, with a CGAL of 6.1 or later; python3 needs
-#              what pictures.py does
-#   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these print
-#   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj, rocker-arm.obj and spot.obj of
-#              common-3d-test-models; limbs/ with cat.off, centaur.off, horse.off and wolf.off of TOSCA; tosca/ with cat2.off,
-#              david0.off, gorilla1.off and victoria0.off to victoria2.off of it; pair/ with cat-pose.off of TOSCA, the lion
-#              and the cat of Sumner and Popović (lion-00.off, cat-00.off) and the map lion2cat.txt; nasty/ with centaur-pose.off, ogre.obj,
-#              beetle.obj, and whatever else robustness.md is to have; where it is there, brain/fsLR_32k_midthickness-lh.vtk
+#   BUILD      where the programs, spectral_benchmark, garland_heckbert and the Python module were
+#              built, for release, with a CGAL of 6.1 or later; python3 needs what pictures.py does
+#   QUICK      where test/run-all.sh or examples/run-demo.sh built them: README.md quotes what these
+#              print
+#   MESHES     cheburashka.obj, falconstatue.obj, homer.obj, igea.ply, mountain.obj, nefertiti.obj,
+#              rocker-arm.obj and spot.obj of common-3d-test-models; limbs/ with cat.off,
+#              centaur.off, horse.off and wolf.off of TOSCA; tosca/ with cat2.off, david0.off,
+#              gorilla1.off and victoria0.off to victoria2.off of it; pair/ with cat-pose.off of
+#              TOSCA, the lion and the cat of Sumner and Popović (lion-00.off, cat-00.off) and the
+#              map lion2cat.txt; nasty/ with centaur-pose.off, ogre.obj, beetle.obj, and whatever
+#              else robustness.md is to have; where it is there, brain/fsLR_32k_midthickness-lh.vtk
 #   RIVALS     see run_rivals.sh
 #   REMESHERS  the same, of those whose meshes are matched
 #   OTHERS     meshes for make_survey.py, in folders by their sources
 #
-# What is made on the way goes to folders in BUILD and is used again when it is there and of the same commit, as are the rivals' results in
-# BUILD/rivals, of any. Stops at the first script that fails.
+# What is made on the way goes to folders in BUILD and is used again when it is there and of the
+# same commit, as are the rivals' results in BUILD/rivals, of any. Stops at the first script that
+# fails.
 
 set -eu
 if [ $# -ne 6 ]; then

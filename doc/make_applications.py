@@ -8,12 +8,14 @@
 #   doc/make_applications.py --large BUILD [FOLDER]
 #   doc/make_applications.py --distances BUILD FOLDER MESH...
 #   doc/make_applications.py --pairs BUILD FOLDER RIVALS [NAME:X:Y:TRUTH ...] [NAME:X:bent ...]
-# BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is used again when it is
-# there. Pictures go to doc/fig, tables to standard output. --large makes the table of two scans of a million vertices alone, --distances that
-# of operators fitted and the meshes' own, --pairs those of proxies and matchers, on shapes in other triangles and on other pairs: with the file of the true map, `same` for the identity, or X itself
-# against its bent shape in other triangles; all three write into the page. RIVALS is a folder as for run_rivals.sh, whose programs make proxies.
-# Where RUN_BY is set, what is timed is run by that command: a lock, on a machine with other work to do.
-# Needs what pictures.py does.
+# BUILD is where the programs were built; what they write goes to FOLDER (BUILD/applications) and is
+# used again when it is there. Pictures go to doc/fig, tables to standard output. --large makes the
+# table of two scans of a million vertices alone, --distances that of operators fitted and the
+# meshes' own, --pairs those of proxies and matchers, on shapes in other triangles and on other
+# pairs: with the file of the true map, `same` for the identity, or X itself against its bent shape
+# in other triangles; all three write into the page. RIVALS is a folder as for run_rivals.sh, whose
+# programs make proxies. Where RUN_BY is set, what is timed is run by that command: a lock, on a
+# machine with other work to do. Needs what pictures.py does.
 
 import collections
 import glob
@@ -86,7 +88,8 @@ def identity(mesh, output):
             file.writelines(f"{v}\n" for v in range(len(read_vertices(mesh))))
 
 
-# Moves the vertices by four waves of random direction and length, which stretches by about a tenth; the triangles stay.
+# Moves the vertices by four waves of random direction and length, which stretches by about a tenth;
+# the triangles stay.
 def wave(source, output, seed):
     if os.path.exists(output):
         return
@@ -142,7 +145,7 @@ def run_all(build, folder):
         "--output", "unbent.txt", "--quiet")
 
 
-# --- two scans of a million vertices -----------------------------------------------------------------------------------
+# --- two scans of a million vertices --------------------------------------------------------------
 
 # Vertices, and what X and Y are reduced to first, or nothing.
 LARGE = [(100000, None), (100000, 30000), (1000000, 30000)]
@@ -158,7 +161,8 @@ def large(build, folder):
         run(build, folder, Y, "make_demo_shape", Y, "--vertices", str(vertices), "--pose", "walk", "--shuffle", "7", "--map", truth)
         stem = f"large-{vertices}-walk-{reduced or 'none'}"
         arguments = [X, Y, "--output", stem + ".txt", "--quiet"] + (["--pre-simplify", str(reduced)] if reduced else [])
-        # Timed without the errors, which take longer than the match; on a million vertices many minutes and 4 GB.
+        # Timed without the errors, which take longer than the match; on a million vertices many
+        # minutes and 4 GB.
         run(build, folder, stem + "-time.json", "shape_matching", *arguments, "--json", stem + "-time.json", by=os.environ.get("RUN_BY", ""))
         with open(os.path.join(folder, stem + "-time.json")) as file:
             written = json.load(file)
@@ -179,7 +183,7 @@ def large(build, folder):
     write("large", table)
 
 
-# --- proxies and matchers ----------------------------------------------------------------------------------------------
+# --- proxies and matchers -------------------------------------------------------------------------
 
 SHOWN_PAIRS = [pair for pair in PAIRS if pair[0] == "walk, other triangles"] # the others are as easy
 PROXIES = {"spectral": "spectral", "garland_heckbert": "Garland-Heckbert plane",
@@ -187,8 +191,8 @@ PROXIES = {"spectral": "spectral", "garland_heckbert": "Garland-Heckbert plane",
 SIZES = (300, 600, 1000)
 
 
-# The shape of `source` twisted about its length by one radian, and bent about its height by one and a half: edges of an animal change by
-# some 6 % in the mean.
+# The shape of `source` twisted about its length by one radian, and bent about its height by one and
+# a half: edges of an animal change by some 6 % in the mean.
 def bend(source, output):
     if os.path.exists(output):
         return
@@ -212,7 +216,8 @@ def bend(source, output):
         file.writelines(lines)
 
 
-# The mesh against its own bent shape. X is reduced, so that no triangle is that of Y; a vertex of X has the nearest one of the mesh as its truth.
+# The mesh against its own bent shape. X is reduced, so that no triangle is that of Y; a vertex of X
+# has the nearest one of the mesh as its truth.
 def bent_pair(build, folder, name, mesh):
     X, Y, truth = (f"{report_name(name)}_{end}" for end in ("reduced.off", "bent.off", "truth.txt"))
     run(build, folder, X, "spectral_simplify", mesh, X, "--vertices", "60%", "--relocate", "none", "--quiet")
@@ -314,7 +319,8 @@ def write(name, lines):
     replace(os.path.join(os.path.dirname(os.path.abspath(__file__)), "applications.md"), name, "\n".join(lines) + "\n")
 
 
-# Errors of distances by the prolongation, and of signatures at the heaviest vertices, on proxies of 600 vertices.
+# Errors of distances by the prolongation, and of signatures at the heaviest vertices, on proxies of
+# 600 vertices.
 def distances(build, folder, meshes):
     os.makedirs(folder, exist_ok=True)
     program = os.path.abspath(os.path.join(build, "examples", "spectral_distances_on_proxy"))
@@ -337,8 +343,8 @@ def distances(build, folder, meshes):
 # --- pictures -------------------------------------------------------------------------------------
 
 
-# Vertices of X in the colours of the vertices of Y that they are sent to, and how far these are from
-# the true ones.
+# Vertices of X in the colours of the vertices of Y that they are sent to, and how far these are
+# from the true ones.
 def matching_picture(ss, folder):
     (X, FX), (Y, FY) = (
         ss.read_mesh(os.path.join(folder, mesh)) for mesh in ("stand.off", "other_bend.off")

@@ -3,9 +3,11 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The table of masses in measurements.md: each MESH simplified to 600 vertices in each mass, and every result judged in all of them.
+# The table of masses in measurements.md: each MESH simplified to 600 vertices in each mass, and
+# every result judged in all of them.
 #   doc/make_masses.py BUILD MESH...
-# BUILD is where the Python module was built, MESH... are files that it reads. Needs NumPy and SciPy.
+# BUILD is where the Python module was built, MESH... are files that it reads. Needs NumPy and
+# SciPy.
 
 import math
 import os

@@ -5,8 +5,9 @@
 #
 # Makes the tables of the manual's section on operators:
 #   doc/make_operators.py BUILD MESH... [--needles MESH...]
-# BUILD is where the programs and the Python module were built, MESH... are .off or .obj files, those after --needles for the table of
-# the intrinsic Delaunay triangulation. Tables go to standard output. Needs what pictures.py does.
+# BUILD is where the programs and the Python module were built, MESH... are .off or .obj files,
+# those after --needles for the table of the intrinsic Delaunay triangulation. Tables go to standard
+# output. Needs what pictures.py does.
 
 import os
 import sys
@@ -31,7 +32,8 @@ def operators(ss, V, F):
             ("cotangent", "voronoi", None))
 
 
-# |C|_L, |C|_D and the mean error of the eigenvalues, with a metric that knows the operator and with one that does not.
+# |C|_L, |C|_D and the mean error of the eigenvalues, with a metric that knows the operator and with
+# one that does not.
 def rows(ss, name, V, F):
     plain = ss.simplify(V, F, N, K)
     carried = ss.simplify(V, F, N, K, eigenpairs=plain.eigenpairs, relocate="none").P
@@ -44,7 +46,8 @@ def rows(ss, name, V, F):
         yield name, word, mass, [(e.C_L, e.C_D, 100 * e.eigenvalue_error) for e in results]
 
 
-# |C|_L judged in the intrinsic operators and in the mesh's own, of runs with its own eigenvectors and with the intrinsic ones.
+# |C|_L judged in the intrinsic operators and in the mesh's own, of runs with its own eigenvectors
+# and with the intrinsic ones.
 def intrinsic_row(ss, V, F):
     pairs = [ss.eigenpairs(V, F, K + K // 5, intrinsic_delaunay=intrinsic) for intrinsic in (True, False)]
     runs = [ss.simplify(V, F, N, K, intrinsic_delaunay=intrinsic) for intrinsic in (False, True)]

@@ -5,9 +5,9 @@
 #
 # Writes the tables of results.md and the summary in it:
 #   doc/make_results.py BUILD FOLDER MESH...
-# BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER where the meshes
-# are and where one JSON file per mesh goes: BUILD/results. An existing file is used again. The text
-# outside of the marks stays.
+# BUILD is where the programs were built (with a CGAL of 6.1 or later, for all remeshers), FOLDER
+# where the meshes are and where one JSON file per mesh goes: BUILD/results. An existing file is
+# used again. The text outside of the marks stays.
 
 import json
 import math
@@ -104,8 +104,8 @@ def table(rows):
     return "\n".join(lines) + "\n"
 
 
-# One line per simplifier, one column per mesh and size, and the means over the columns that no simplifier of the first is
-# missing from. `restriction` finds the norms in a row.
+# One line per simplifier, one column per mesh and size, and the means over the columns that no
+# simplifier of the first is missing from. `restriction` finds the norms in a row.
 def overview(results, mass, restriction=norms, suffix=""):
     cases = [(result, n) for result in results for n in sorted({r["requested_vertices"] for r in result["rows"]})]
     names, found = [], {}
@@ -138,8 +138,8 @@ def overview(results, mass, restriction=norms, suffix=""):
     return text
 
 
-# Geometric means over all pairs of a mesh and a size from 3 vertices per eigenvector on, in the averaged mass and with the P of the
-# closest points for all.
+# Geometric means over all pairs of a mesh and a size from 3 vertices per eigenvector on, in the
+# averaged mass and with the P of the closest points for all.
 def summary(results):
     columns = [("mass of the metric", lambda r: r["metric_mass"].replace("none", "–"), None, 1),
                ("C_L", lambda r: r["closest_point_P"]["norm_L"], 1, 1),
@@ -199,7 +199,8 @@ def main():
     replace(os.path.join(here, "results.md"), "summary", summary(results))
 
 
-# The commit that a number comes from, "-dirty" where it was changed afterwards. This folder, whose scripts run it and write, and README.md are apart.
+# The commit that a number comes from, "-dirty" where it was changed afterwards. This folder, whose
+# scripts run it and write, and README.md are apart.
 def commit():
     here = os.path.dirname(os.path.abspath(__file__))
     name, changes = (subprocess.run(["git", "-C", here, *words], capture_output=True, text=True, check=True).stdout.strip()

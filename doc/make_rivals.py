@@ -4,15 +4,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # The parts of run_rivals.sh that a shell cannot do:
-#   make_rivals.py --measure LIMIT FILE COMMAND...   runs it for at most LIMIT seconds; FILE gets its seconds and,
-#                                                    where there is /usr/bin/time, its peak MB
-#   make_rivals.py --merge FOLDER N                  FOLDER.json from what run_rivals.sh left in FOLDER
-#   make_rivals.py --tables OUTPUT                   Markdown from all OUTPUT/*.json: means over all, and a table for each
-#   make_rivals.py --pages OUTPUT                    writes it into rivals.md, and the summary of it into README.md
+#   make_rivals.py --measure LIMIT FILE COMMAND...   runs it for at most LIMIT seconds; FILE gets
+#                                                    its seconds and, where there is /usr/bin/time,
+#                                                    its peak MB
+#   make_rivals.py --merge FOLDER N                  FOLDER.json from what run_rivals.sh left in
+#                                                    FOLDER
+#   make_rivals.py --tables OUTPUT                   Markdown from all OUTPUT/*.json: means over
+#                                                    all, and a table for each
+#   make_rivals.py --pages OUTPUT                    writes it into rivals.md, and the summary of it
+#                                                    into README.md
 # and, without programs of others, what this package and CGAL make of groups of meshes:
 #   make_rivals.py --span BUILD MESH:N... -- MESH:N...
-#                                                    writes means of each group and a table for each mesh into rivals.md. What is in
-#                                                    BUILD/span from an earlier run is used again: remove it to have it anew
+#                                                    writes means of each group and a table for each
+#                                                    mesh into rivals.md. What is in BUILD/span from
+#                                                    an earlier run is used again: remove it to have
+#                                                    it anew
 
 import contextlib
 import glob
@@ -29,7 +35,8 @@ import time
 from make_results import bold_smallest, commit, name, norms, number, replace
 from make_spectra import machine
 
-# Our rows, as they are called in the tables, by the simplifier, or by all that tells a row from others.
+# Our rows, as they are called in the tables, by the simplifier, or by all that tells a row from
+# others.
 OURS = {"spectral, best": "**this package**", "spectral, best, fitted operators": "this package, operators fitted",
         "spectral with shape term, free, averaged metric": "this package, without relocation",
         "spectral, paper": "this package, preset `paper`",
@@ -147,7 +154,8 @@ def merge(folder, n):
     return 0
 
 
-# The rows of that mass: each has a name, a count of vertices and the cells of COLUMNS, or what went wrong.
+# The rows of that mass: each has a name, a count of vertices and the cells of COLUMNS, or what went
+# wrong.
 def rows_of(result, mass):
     rows = [(title_of(r), r) for r in result["rows"] if r["judged_mass"] == mass and title_of(r)]
     for rival in result["rivals"]:
@@ -174,7 +182,8 @@ def bold_smallest_present(rows, value, digits, factor):
     return words if all(value(r) is None for r in rows) else bold_smallest(rows, value, words)
 
 
-# Geometric means over all pairs of a mesh and a size, of those that have a result for each; of the names of `wanted` alone, if given.
+# Geometric means over all pairs of a mesh and a size, of those that have a result for each; of the
+# names of `wanted` alone, if given.
 def means(results, mass, columns=COLUMNS, wanted=None):
     found = {}
     for result in results:
@@ -186,7 +195,8 @@ def means(results, mass, columns=COLUMNS, wanted=None):
         complete = {title: complete[own] for key, title in wanted.items() for own in (OURS.get(key, key),) if own in complete}
 
     def mean(rows, value):
-        # A figure that no row of a result has, such as the error of eigenvalues that are zero, is not of the mean.
+        # A figure that no row of a result has, such as the error of eigenvalues that are zero, is
+        # not of the mean.
         values = [value(row) for row, *all_rows in zip(rows, *complete.values()) if any(value(r) is not None for r in all_rows)]
         return None if None in values or not values else math.exp(sum(math.log(max(v, 1e-12)) for v in values) / len(values))
 

@@ -5,8 +5,9 @@
 #
 # make_robustness.sh SPECTRAL_SIMPLIFY [MESH...] >table.md
 #
-# What spectral_simplify does with difficult inputs: small ones that are made here, and the files given. Prints a table in
-# Markdown: the input, what is to be expected, what happened with --strict, without an option and with --repair.
+# What spectral_simplify does with difficult inputs: small ones that are made here, and the files
+# given. Prints a table in Markdown: the input, what is to be expected, what happened with --strict,
+# without an option and with --repair.
 
 set -u
 program=$1
@@ -117,7 +118,8 @@ loose()
   }'
 }
 
-# band N M TURNED: a strip of N x M vertices, its ends joined with one of them turned round. With TURNED 2, its sides as well.
+# band N M TURNED: a strip of N x M vertices, its ends joined with one of them turned round. With
+# TURNED 2, its sides as well.
 band()
 {
   awk -v n="$1" -v m="$2" -v closed="$(($3 - 1))" 'BEGIN {

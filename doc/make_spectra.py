@@ -5,10 +5,12 @@
 #
 # How long 100 eigenpairs take on large meshes, beside what others have published:
 #   doc/make_spectra.py [--measured] BUILD [FOLDER]
-# makes the demonstration's shape at the sizes of the published tables, runs BUILD's spectral_benchmark on them (target
-# spectral_benchmark), and writes the table into rivals.md. What it makes goes to FOLDER (BUILD/spectra) and is used again when it is
-# there; with --measured the table has nothing else. A solver that takes longer than LIMIT seconds has a row that says so. Where RUN_BY
-# is set, each measurement is run by that command: a lock, on a machine with other work to do.
+# makes the demonstration's shape at the sizes of the published tables, runs BUILD's
+# spectral_benchmark on them (target spectral_benchmark), and writes the table into rivals.md. What
+# it makes goes to FOLDER (BUILD/spectra) and is used again when it is there; with --measured the
+# table has nothing else. A solver that takes longer than LIMIT seconds has a row that says so.
+# Where RUN_BY is set, each measurement is run by that command: a lock, on a machine with other work
+# to do.
 
 import json
 import os
@@ -21,8 +23,8 @@ from make_results import commit, replace
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIMIT = 240
 K = 100
-# Published seconds for 100 pairs at a tolerance: Nasikun and Hildebrandt, The Hierarchical Subspace Iteration Method for
-# Laplace-Beltrami Eigenproblems, ACM Transactions on Graphics 41 (2022).
+# Published seconds for 100 pairs at a tolerance: Nasikun and Hildebrandt, The Hierarchical Subspace
+# Iteration Method for Laplace-Beltrami Eigenproblems, ACM Transactions on Graphics 41 (2022).
 HSIM = {85000: {1e-2: 10.5, 1e-4: 18.0}, 270000: {1e-2: 35.8, 1e-4: 68.9}, 570000: {1e-2: 93.9, 1e-4: 142.8}}
 OURS, SPECTRA = ("1e-2", "1e-4", "1e-6", "1e-8"), ("1e-2", "1e-8")
 

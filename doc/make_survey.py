@@ -5,8 +5,9 @@
 #
 # On many meshes, the default beside the best of CGAL's quadrics:
 #   doc/make_survey.py BUILD N MESH...
-# takes each to N vertices, after --repair, and writes into rivals.md how often which is better, and the errors of both on every mesh. One JSON file
-# per run goes to BUILD/survey and is used again; a mesh that is refused is listed with the reason.
+# takes each to N vertices, after --repair, and writes into rivals.md how often which is better, and
+# the errors of both on every mesh. One JSON file per run goes to BUILD/survey and is used again; a
+# mesh that is refused is listed with the reason.
 
 import json
 import math

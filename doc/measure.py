@@ -4,10 +4,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # The numbers that README.md, tutorial.md, reference.md and measurements.md quote:
-#   doc/measure.py BUILD FOLDER [PART...]  measures them, or parts of them, into measured.json, on a machine without other work
-#   doc/measure.py --check                 stops at a number in the text that is not the one of the data in this folder
-# FOLDER has nefertiti.obj and rocker-arm.obj of common-3d-test-models. The data are measured.json, figures.json (make_figures.py),
-# scaling.csv and degree.csv (spectral_benchmark --scaling), rivals.md and results.md.
+#   doc/measure.py BUILD FOLDER [PART...]  measures them, or parts of them, into measured.json, on a
+#                                          machine without other work
+#   doc/measure.py --check                 stops at a number in the text that is not the one of the
+#                                          data in this folder
+# FOLDER has nefertiti.obj and rocker-arm.obj of common-3d-test-models. The data are measured.json,
+# figures.json (make_figures.py), scaling.csv and degree.csv (spectral_benchmark --scaling),
+# rivals.md and results.md.
 
 import csv
 import json
@@ -26,7 +29,8 @@ from make_rivals import OURS, SUMMARY
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(HERE, "measured.json")
 PRESETS = ("best", "fast", "paper")
-# A file, what stands in it, with one space for any white space (a group for each number), and what the numbers are.
+# A file, what stands in it, with one space for any white space (a group for each number), and what
+# the numbers are.
 QUOTED = [
     ("../README.md", r"makes a shape of ([\d,]+) vertices, simplifies it to ([\d,]+), prints",
      ("measured.demo.input_vertices", "measured.demo.output_vertices")),
@@ -86,7 +90,7 @@ for title, key in (("from file to file", "seconds"), ("eigenpairs or filtered si
     TABLES[title] = [f"measured.nefertiti.{preset}.{key}" for preset in PRESETS]
 
 
-# --- measuring -------------------------------------------------------------------------------------------------------
+# --- measuring ------------------------------------------------------------------------------------
 
 
 # Seconds and peak memory in GB.
@@ -177,7 +181,7 @@ def measure(build, meshes, parts):
         file.write("\n")
 
 
-# --- checking --------------------------------------------------------------------------------------------------------
+# --- checking -------------------------------------------------------------------------------------
 
 
 # The number as it stands in the text, with as many digits.
@@ -197,7 +201,8 @@ def read(name):
         return file.read()
 
 
-# |C|_L, |C|_D, error of the eigenvalues and of the biharmonic distance in a part of rivals.md: of the preset best and with fitted operators.
+# |C|_L, |C|_D, error of the eigenvalues and of the biharmonic distance in a part of rivals.md: of
+# the preset best and with fitted operators.
 def ours(part):
     rows = cells(part)
     # The tables of single meshes have a column with N, a whole number, before.
@@ -298,7 +303,8 @@ def check():
         tags = [int(n) for n in re.findall(r"\\tag\{(\d+)\}", text)]
         if tags != list(range(1, len(tags) + 1)):
             wrong.append(f"The formulas of {page} are numbered {tags}")
-    # The table of the README is a part of the averaged one in rivals.md, and what it says of further meshes stands there.
+    # The table of the README is a part of the averaged one in rivals.md, and what it says of
+    # further meshes stands there.
     rivals, readme = read("rivals.md"), read("../README.md")
     rows = cells(rivals.split("## Geometric means, judged in the averaged mass")[1].split("\n## ")[0])
     table = cells(readme.split("<!-- summary: begin -->")[1].split("<!-- summary: end -->")[0])

@@ -5,25 +5,31 @@
 #
 # run_rivals.sh BUILD RIVALS OUTPUT MESH:N...
 #
-# Simplifies each MESH to N vertices by programs outside of CGAL, and judges what they made beside our own results and CGAL's, by one
-# and the same program: BUILD/examples/spectral_compare. Nothing is fetched; the rivals are built by whoever runs this. Leaves
-# OUTPUT/MESH-N.json for each pair, with the rows of spectral_compare and an entry for each rival, OUTPUT/rivals.md with the tables, and
-# in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again: remove it to have it anew; of a rival that
-# finished NAME/made.json and NAME/made.note, to have it judged anew.
+# Simplifies each MESH to N vertices by programs outside of CGAL, and judges what they made beside
+# our own results and CGAL's, by one and the same program: BUILD/examples/spectral_compare. Nothing
+# is fetched; the rivals are built by whoever runs this. Leaves OUTPUT/MESH-N.json for each pair,
+# with the rows of spectral_compare and an entry for each rival, OUTPUT/rivals.md with the tables,
+# and in OUTPUT/MESH-N all that was made and said. What is there from an earlier run is used again:
+# remove it to have it anew; of a rival that finished NAME/made.json and NAME/made.note, to have it
+# judged anew.
 #
 # RIVALS is a folder with one folder for each rival, NAME, and in it
 #   about   one line: VERSION; LICENCE; FLAGS, which is all that was set and changed
-#   run     a program that is called as `run INPUT N PREFIX`, with absolute file names. INPUT is OFF or OBJ, triangles. It leaves
-#           either PREFIX.off, a mesh with as nearly N vertices as it can, and if it has one PREFIX.P.mtx, what carries functions
-#           from INPUT to it: coarse x fine, in Matrix Market;
-#           or, of a method without a mesh, PREFIX.L.mtx, PREFIX.M.mtx and PREFIX.P.mtx: Laplacian (positive semidefinite), mass and P,
-#           for INPUT's own unit of length. With PREFIX.M.lumped.mtx the two masses are judged apart, each against the same one of INPUT.
-#           It may leave PREFIX.seconds, how long the run took that made the result: for rivals that are told a number of faces or
-#           of samples, and must search for N. Without that file the time is that of the whole call.
-#           An exit status other than 0 says that it failed, its last line of standard error why.
+#   run     a program that is called as `run INPUT N PREFIX`, with absolute file names. INPUT is OFF
+#           or OBJ, triangles. It leaves either PREFIX.off, a mesh with as nearly N vertices as it
+#           can, and if it has one PREFIX.P.mtx, what carries functions from INPUT to it: coarse x
+#           fine, in Matrix Market;
+#           or, of a method without a mesh, PREFIX.L.mtx, PREFIX.M.mtx and PREFIX.P.mtx: Laplacian
+#           (positive semidefinite), mass and P, for INPUT's own unit of length. With
+#           PREFIX.M.lumped.mtx the two masses are judged apart, each against the same one of INPUT.
+#           It may leave PREFIX.seconds, how long the run took that made the result: for rivals that
+#           are told a number of faces or of samples, and must search for N. Without that file the
+#           time is that of the whole call. An exit status other than 0 says that it failed, its
+#           last line of standard error why.
 #
-# A rival that fails, or takes longer than RIVAL_SECONDS (900), has a row that says so. A mesh that spectral_compare refuses is judged
-# once more with --repair; its row has a mark, and no P of its own.
+# A rival that fails, or takes longer than RIVAL_SECONDS (900), has a row that says so. A mesh that
+# spectral_compare refuses is judged once more with --repair; its row has a mark, and no P of its
+# own.
 
 set -u
 if [ $# -lt 4 ]; then
@@ -97,7 +103,8 @@ for pair in "$@"; do
     cp "$(dirname "$run")/about" "$prefix.about"
     mv "$prefix.measuring" "$prefix.measured"
   done
-  # Ours, and CGAL's quadrics: with the P of the closest points all rows are alike. Memory is that of a process that does this alone.
+  # Ours, and CGAL's quadrics: with the P of the closest points all rows are alike. Memory is that
+  # of a process that does this alone.
   for seed in 1 2 3; do
     prefix=$folder/ours-$seed
     set -- --only "spectral, best"

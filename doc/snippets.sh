@@ -5,10 +5,11 @@
 #
 #   doc/snippets.sh [--update] FILE.md...
 #
-# The code blocks of the pages are copies of parts of the compiled examples, so that a forge shows them. In the text
+# The code blocks of the pages are copies of parts of the compiled examples, so that a forge shows
+# them. In the text
 #   <!-- snippet: examples/NAME.cpp PART -->
-# stands above a block, in the example the part stands between two lines `//! [PART]`, as Doxygen has it. Without
-# --update a copy that differs is an error.
+# stands above a block, in the example the part stands between two lines `//! [PART]`, as Doxygen
+# has it. Without --update a copy that differs is an error.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 update=no

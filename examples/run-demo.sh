@@ -3,9 +3,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The demonstration: installs what is missing (Debian), builds two programs, makes a shape of about 25,000
-# vertices, simplifies it to 3 % and prints a table. Settings, all optional: BUILD_DIR, JOBS (2),
-# CXX (Clang for a new folder), CMAKE_ARGS, SPECTRAL_NO_INSTALL=1.
+# The demonstration: installs what is missing (Debian), builds two programs, makes a shape of about
+# 25,000 vertices, simplifies it to 3 % and prints a table. Settings, all optional: BUILD_DIR, JOBS
+# (2), CXX (Clang for a new folder), CMAKE_ARGS, SPECTRAL_NO_INSTALL=1.
 
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
@@ -18,7 +18,8 @@ install_packages g++ ninja-build cmake libcgal-dev libeigen3-dev libboost-dev \
 
 prefer_ninja "$build"
 prefer_clang "$build"
-# The tests are switched off by not asking for their targets: their settings in an existing folder stay.
+# The tests are switched off by not asking for their targets: their settings in an existing folder
+# stay.
 mkdir -p "$output"
 if [ ! -f "$build/CMakeCache.txt" ]; then
   set -- -DSPECTRAL_BUILD_TESTS=OFF -DSPECTRAL_WARNINGS_AS_ERRORS=OFF -DSPECTRAL_QUICK_BUILD=ON

@@ -5,9 +5,9 @@
 #
 # brought_files_test.sh PROGRAMS SHAPE FOLDER
 #
-# Files as people bring them: for each kind of fault, and for each spelling that is right, one file is made, and the programs
-# of the folder PROGRAMS must give the right result or the right sentence. SHAPE is a mesh of about 2,000 vertices, FOLDER is
-# emptied and used.
+# Files as people bring them: for each kind of fault, and for each spelling that is right, one file
+# is made, and the programs of the folder PROGRAMS must give the right result or the right sentence.
+# SHAPE is a mesh of about 2,000 vertices, FOLDER is emptied and used.
 
 programs=$1
 shape=$2
@@ -237,7 +237,8 @@ fi
 awk 'NR <= 2 { print; next } NF == 3 { print $1, $3, -$2; next } NF == 4 { print 3, $2, $4, $3 }' torus.off >inside-out.off
 runs "a repair of what is inside out" inside-out.off o2.off $few --repair
 grep -q "'inside-out.off': 576 faces of inside-out bodies turned round\.$" said || fail "a repair: $(cat said)"
-# A body with a cavity, whose inner shell is turned the other way, stays; both of them inside out turn together.
+# A body with a cavity, whose inner shell is turned the other way, stays; both of them inside out
+# turn together.
 for turn in 0 1; do
   awk -v t=$turn 'NR == 1 { print; next } NR == 2 { n = $1; print 2 * $1, 2 * $2, 0; next }
     NF == 3 { print; p[NR] = $1 * 0.97 " " $2 * 0.97 " " $3 * 0.97 + 0.0; next }
@@ -297,7 +298,8 @@ for sizes in "0 4 8" "0 5 10" "1e-7 4 12" "0 6 9" "0 5 7"; do
   awk "BEGIN { exit !($second > 2.3 && $second < 2.6) }" || fail "T-junctions $sizes: the second eigenvalue is $second"
   grep -q "split at the vertices that lie on\|merged" said || fail "T-junctions $sizes: $(cat said)"
 done
-# Three sheets that share an edge can only be separated: the warning stays, without a remedy that does not work.
+# Three sheets that share an edge can only be separated: the warning stays, without a remedy that
+# does not work.
 awk 'BEGIN { print "OFF"; print 20, 24, 0
   for(j = 0; j < 5; ++j) print 0, j, 0
   for(s = 0; s < 3; ++s) for(j = 0; j < 5; ++j) print cos(2.1 * s), j, sin(2.1 * s)
@@ -323,7 +325,8 @@ fi
 
 # --- colours ---
 
-# The range of each channel of a PLY text or binary file, carried: $1 type, $2 names, $3 the least and most
+# The range of each channel of a PLY text or binary file, carried: $1 type, $2 names, $3 the least
+# and most
 for type in uchar short ushort int uint; do
   most=$(echo "uchar 255 short 32767 ushort 65535 int 2147483647 uint 4294967295" | tr ' ' '\n' | grep -A1 "^$type$" | tail -1)
   for names in "red green blue" "diffuse_red diffuse_green diffuse_blue" "r g b" "ambient_red ambient_green ambient_blue" "R G B" "specular_r specular_g specular_b"; do
@@ -333,8 +336,8 @@ for type in uchar short ushort int uint; do
     runs "$names of $type" a.ply o2.ply $few
     grep -q "carried attributes *$(echo $names | sed 's/ /, /g')$" said || fail "$names of $type: $(grep carried said)"
     runs "$names of $type to OBJ" a.ply o2.obj $few
-    # Opposite channels, and one that is the same everywhere. The first is 1 at most where it was brought: a
-    # vertex that stays in its place keeps it.
+    # Opposite channels, and one that is the same everywhere. The first is 1 at most where it was
+    # brought: a vertex that stays in its place keeps it.
     awk '$1 == "v" { ++n; if(NF != 7 || $5 + $6 < 1.17 || $5 + $6 > 1.23 || $7 < 0.89 || $7 > 0.91) ++wrong; if($5 > most) most = $5 }
       END { exit !(n == 60 && !wrong && most <= 1 && most > 0.6) }' o2.obj ||
       fail "$names of $type: $(grep '^v' o2.obj | head -3)"

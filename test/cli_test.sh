@@ -5,8 +5,8 @@
 #
 # cli_test.sh SPECTRAL_SIMPLIFY CHECK_OUTPUTS SHAPE FOLDER
 #
-# The command line: what it writes, and what it says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is
-# emptied and used.
+# The command line: what it writes, and what it says when it cannot. SHAPE is a mesh of about 2,000
+# vertices, FOLDER is emptied and used.
 
 program=$1
 check=$2
@@ -16,8 +16,8 @@ folder=$4
 rm -f ../messages
 cp "$shape" shape.off
 
-# refuses NAME PATTERN ARGUMENTS...: the program ends with an error of one sentence that holds PATTERN, prints nothing
-# else and leaves the folder as it was.
+# refuses NAME PATTERN ARGUMENTS...: the program ends with an error of one sentence that holds
+# PATTERN, prints nothing else and leaves the folder as it was.
 refuses()
 {
   name=$1
@@ -41,7 +41,7 @@ refuses()
   [ "$before" = "$after" ] || fail "$name: the folder has changed"
 }
 
-# --- what it writes ---------------------------------------------------------------------------------------------------
+# --- what it writes -------------------------------------------------------------------------------
 
 all="--restriction P.mtx --prolongation Q.mtx --map map.txt --eigenpairs pairs --json out.json"
 for variant in "" "--preset paper" "--preset paper --mass averaged" "--placement midpoint" "--shape 0 --relocate none" \
@@ -111,7 +111,8 @@ runs "no word of seams" torus.obj out.obj --vertices 300 --eigenvectors 25 --no-
 runs "seams" torus.obj seams.obj --vertices 200 --levels 400 --eigenvectors 25 --keep seams --json seams.json
 grep -q 'kept edges of seams * 90$' said && grep -q '"seam_edges": 90' seams.json || fail "seams are not in the table and the JSON"
 for file in seams.obj seams-400.obj; do
-  # Both sides of the seams: each corner has the angle of its vertex, without a jump within a face, and 90 vertices have two values at least.
+  # Both sides of the seams: each corner has the angle of its vertex, without a jump within a face,
+  # and 90 vertices have two values at least.
   awk 'BEGIN { pi = atan2(0, -1) }
     function off(a, b) { a -= b; a -= int(a); return a > 0.5 ? 1 - a : a < -0.5 ? 1 + a : a < 0 ? -a : a }
     $1 == "v" { ++v; u[v] = atan2($3, $2) / (2 * pi); w[v] = atan2($4, sqrt($2 * $2 + $3 * $3) - 2) / (2 * pi) }
@@ -238,7 +239,7 @@ awk 'BEGIN { print "OFF"; print 10, 10, 0; pi = atan2(0, -1)
 grep -q '1 component' complained || fail "it does not say why the mesh cannot be reduced: $(cat complained)"
 grep -q 'no collapsible edge left' stuck.json || fail "the stop reason is not in $(cat stuck.json)"
 
-# --- levels, errors, landmarks, signals -------------------------------------------------------------------------------
+# --- levels, errors, landmarks, signals -----------------------------------------------------------
 
 # field NAME FILE: the number of that name in a JSON file of one value per line.
 field()
@@ -306,7 +307,8 @@ runs "triangle strips" strips.ply strips.off --vertices 100% --eigenvectors 2 --
 grep -q '^8 4 0' strips.off || fail "the strips give $(sed -n 2p strips.off)"
 sed '$s/ 7$//' strips.ply >cut-strips.ply # the last index is missing
 
-# Reads two triangles in every spelling that programs write; a reader of CGAL refuses, misreads or crashes on some of them.
+# Reads two triangles in every spelling that programs write; a reader of CGAL refuses, misreads or
+# crashes on some of them.
 spelt()
 {
   cat >"$1"
@@ -338,7 +340,7 @@ for solid in 'solid square' 'solid\tsquare' '\n solid\tsquare' '\357\273\277soli
   printf "$solid\n%s\nendsolid\n" "$facets" | spelt "solid.stl"
 done
 
-# --- the command line itself ------------------------------------------------------------------------------------------
+# --- the command line itself ----------------------------------------------------------------------
 
 refuses "no arguments" "INPUT and OUTPUT"
 refuses "no output" "INPUT and OUTPUT" shape.off --vertices 100
@@ -389,7 +391,7 @@ refuses "unknown output format" "'out.xyz' is unknown" shape.off out.xyz --verti
 refuses "unknown input format" "'shape' is unknown" shape out.off --vertices 200
 refuses "matrices of an STL file" "STL" shape.off out.stl --vertices 200 --restriction new.mtx
 
-# --- numbers that do not suit the mesh --------------------------------------------------------------------------------
+# --- numbers that do not suit the mesh ------------------------------------------------------------
 
 n=$(sed -n '2s/ .*//p' shape.off)
 refuses "N too large" "has $n vertices" shape.off out.off --vertices 1000000
@@ -406,7 +408,7 @@ refuses "K negative" "--eigenvectors is -1" shape.off out.off --vertices 300 --e
 refuses "K as large as the mesh" "below $n" shape.off out.off --vertices "$n" --eigenvectors "$n"
 refuses "K above N" "only 50 modes.*--no-evaluation" shape.off out.off --vertices 50 --eigenvectors 60
 
-# --- meshes that cannot be used ---------------------------------------------------------------------------------------
+# --- meshes that cannot be used -------------------------------------------------------------------
 
 refuses "missing file" "No such file" missing.off out.off --vertices 100
 mkdir folder.off
@@ -458,9 +460,10 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n' | bad nan.obj 
 printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n' | bad line.off "area\\|mass"
 printf 'OFF\n4 1 0\n0 0 0\n1e70 0 0\n1e70 1e70 0\n0 1e70 0\n4 0 1 2 3\n' | bad huge.off "above 1e50 .* another unit of length\.$"
 
-# --- repair -----------------------------------------------------------------------------------------------------------
+# --- repair ---------------------------------------------------------------------------------------
 
-# repairs FILE PATTERN: refused as it is by --strict, usable after the repair, which says PATTERN and writes a mesh that needs none.
+# repairs FILE PATTERN: refused as it is by --strict, usable after the repair, which says PATTERN
+# and writes a mesh that needs none.
 repairs()
 {
   broken=$1
@@ -508,7 +511,7 @@ awk 'BEGIN { print "OFF"; print 225, 392, 0
 "$program" graded.off out.off --vertices 90 --eigenvectors 10 --preset paper >said 2>complained || fail "a graded mesh: $(cat complained)"
 grep -q 'largest residual' complained || fail "no warning of pairs that doubles cannot give: $(cat complained)"
 
-# --- outputs that cannot be written -----------------------------------------------------------------------------------
+# --- outputs that cannot be written ---------------------------------------------------------------
 
 echo "precious" >precious.off
 mkdir full.json
@@ -528,9 +531,10 @@ refuses "late failure" "no folder" shape.off precious.off --eigenpairs new --jso
 [ ! -d /proc/self ] ||
   refuses "no permission" "cannot write" shape.off /proc/out.off --vertices 200 --eigenvectors 20
 
-# --- a disk that is full, a process that is killed: the old file or the whole new one ---------------------------------
+# --- a disk that is full, a process that is killed: the old file or the whole new one -------------
 
-# A limit of the size of files refuses writing as a full disk does; the signal that comes with it is ignored.
+# A limit of the size of files refuses writing as a full disk does; the signal that comes with it is
+# ignored.
 for format in off obj ply stl; do
   set -- shape.off "whole.$format" --vertices 300 --eigenvectors 10 --no-evaluation --quiet
   runs "whole.$format" "$@"
@@ -567,7 +571,7 @@ for delay in 0.01 0.03 0.06 0.1 0.15 0.2 0.3; do
 done
 find . -name '.killed.*' -exec rm {} + # nobody was left to remove them
 
-# --- an interrupted run -----------------------------------------------------------------------------------------------
+# --- an interrupted run ---------------------------------------------------------------------------
 
 mkdir stopped
 "$program" shape.off stopped/out.off --vertices 20 --eigenvectors 500 --no-evaluation >said 2>complained &
@@ -583,9 +587,9 @@ wait "$process"
 [ $? -eq 130 ] || fail "an interrupted run does not end with status 130: $(cat complained)"
 [ -z "$(ls -A stopped)" ] || fail "an interrupted run left $(ls -A stopped)"
 
-# Ctrl-C when vertices have been removed, with --on-interrupt write. When that is depends on the machine and on what else it
-# does: the delay is halved between a run that had not got there and one that had ended, in hundredths of a second, and
-# the two bounds part again when they have met.
+# Ctrl-C when vertices have been removed, with --on-interrupt write. When that is depends on the
+# machine and on what else it does: the delay is halved between a run that had not got there and one
+# that had ended, in hundredths of a second, and the two bounds part again when they have met.
 low=0
 high=4000
 ended=

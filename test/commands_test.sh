@@ -5,8 +5,8 @@
 #
 # commands_test.sh ROOT FOLDER
 #
-# What the programs in FOLDER say of their options: doc/commands.md of the checkout ROOT is that, --help fits on a screen, and
-# completion.bash completes it.
+# What the programs in FOLDER say of their options: doc/commands.md of the checkout ROOT is that,
+# --help fits on a screen, and completion.bash completes it.
 
 root=$1
 programs=$2

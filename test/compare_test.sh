@@ -5,8 +5,9 @@
 #
 # compare_test.sh SPECTRAL_COMPARE SPECTRAL_SIMPLIFY SHAPE FOLDER
 #
-# The comparison: what it writes, that it agrees with spectral_simplify about one and the same result, and what it
-# says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is emptied and used.
+# The comparison: what it writes, that it agrees with spectral_simplify about one and the same
+# result, and what it says when it cannot. SHAPE is a mesh of about 2,000 vertices, FOLDER is
+# emptied and used.
 
 program=$1
 simplify=$2
@@ -16,7 +17,8 @@ folder=$4
 unwanted=report.html
 cp "$shape" shape.off
 
-# number FILE KEY: the first number of that name in a JSON file, cut after nine digits, where programs may differ.
+# number FILE KEY: the first number of that name in a JSON file, cut after nine digits, where
+# programs may differ.
 number()
 {
   sed -n 's/^ *"'"$2"'": \([0-9.e+-]*\),*$/\1/p' "$1" | head -n 1 | cut -c 1-10
@@ -89,7 +91,8 @@ for input in shape.off coarse.off P.mtx; do
   cmp -s kept "$input" || fail "$input was replaced"
 done
 
-# Results of others beside our own: what is ours comes back with the figures that it had, whichever way it goes.
+# Results of others beside our own: what is ours comes back with the figures that it had, whichever
+# way it goes.
 "$simplify" shape.off best.off --vertices 150 --eigenvectors 20 --restriction best.mtx --fit-operators fitted --json best.json \
   --quiet || fail "spectral_simplify"
 set -- shape.off --vertices 200,120 --eigenvectors 20 --judge averaged --only "spectral, best"

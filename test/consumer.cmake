@@ -2,10 +2,12 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# A project outside this tree: configured, built and run against an installed copy and by add_subdirectory.
+# A project outside this tree: configured, built and run against an installed copy and by
+# add_subdirectory.
 
 set(prefix "${CMAKE_CURRENT_BINARY_DIR}/installed")
-# Where the library is Clang's on Linux, consumers are GCC's: both have one ABI and one standard library there.
+# Where the library is Clang's on Linux, consumers are GCC's: both have one ABI and one standard
+# library there.
 set(consumer_compiler "${CMAKE_CXX_COMPILER}")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_SYSTEM_NAME STREQUAL "Linux" AND NOT CMAKE_CROSSCOMPILING
    AND NOT SPECTRAL_SANITIZE AND NOT CMAKE_CXX_FLAGS MATCHES "-stdlib")
@@ -22,8 +24,8 @@ if(SPECTRAL_SANITIZE) # the library that they link is sanitized
   list(APPEND consumer_options "-DCMAKE_CXX_FLAGS=-fsanitize=${spectral_sanitizers} -fno-sanitize-recover=all")
 endif()
 
-# Adds the test `name`: configures and builds `source`, then runs `program` with the further arguments.
-# Not optimised and without debug symbols it takes half the time to compile.
+# Adds the test `name`: configures and builds `source`, then runs `program` with the further
+# arguments. Not optimised and without debug symbols it takes half the time to compile.
 function(spectral_add_consumer_test name source options program)
   add_test(NAME "${name}"
            COMMAND ${CMAKE_CTEST_COMMAND}
@@ -52,8 +54,8 @@ if(TARGET make_demo_shape)
 
 endif()
 
-# Headers alone, without CMake: the compiler, the folder include/, and the flags of the manual. What nm prints
-# is that of ELF.
+# Headers alone, without CMake: the compiler, the folder include/, and the flags of the manual. What
+# nm prints is that of ELF.
 if(CMAKE_NM AND NOT APPLE)
   add_test(NAME "consumer-include-folder"
            COMMAND sh "${CMAKE_CURRENT_SOURCE_DIR}/include_folder_test.sh" "${CMAKE_CXX_COMPILER}" "${CMAKE_NM}"

@@ -5,9 +5,9 @@
 #
 # corrupted_files.sh SPECTRAL_SIMPLIFY SHAPE FOLDER [NUMBER [SEED]]
 #
-# Cuts and corrupts mesh files at random and feeds them to the program: each ends with a good result or with one sentence,
-# never with a signal, a hang or a file half written. NUMBER (25) files are made for each of four formats and two
-# kinds of damage. FOLDER is emptied and used.
+# Cuts and corrupts mesh files at random and feeds them to the program: each ends with a good result
+# or with one sentence, never with a signal, a hang or a file half written. NUMBER (25) files are
+# made for each of four formats and two kinds of damage. FOLDER is emptied and used.
 
 set -u
 program=$1

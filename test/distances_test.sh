@@ -5,7 +5,8 @@
 #
 # distances_test.sh SPECTRAL_DISTANCES_ON_PROXY SHAPE FOLDER
 #
-# Distances on a proxy of a shape of about 2,000 vertices, and what is said when there are none. FOLDER is emptied and used.
+# Distances on a proxy of a shape of about 2,000 vertices, and what is said when there are none.
+# FOLDER is emptied and used.
 
 program=$1
 shape=$2

@@ -5,9 +5,10 @@
 #
 #   include_folder_test.sh COMPILER NM INCLUDE CONSUMER FOLDER [DIRECTORY...]
 #
-# Copies the headers, compiles the program in the folder CONSUMER behind all of them, with the copy alone, and runs it.
-# Nothing of the headers may be defined twice in a program of two files, which NM tells. The directories are those of CGAL and Eigen, should
-# they stand elsewhere than where the compiler looks. Not optimised, to save time.
+# Copies the headers, compiles the program in the folder CONSUMER behind all of them, with the copy
+# alone, and runs it. Nothing of the headers may be defined twice in a program of two files, which
+# NM tells. The directories are those of CGAL and Eigen, should they stand elsewhere than where the
+# compiler looks. Not optimised, to save time.
 set -eu
 compiler=$1 nm=$2 include=$3 consumer=$4 folder=$5
 shift 5

@@ -5,8 +5,9 @@
 #
 # input_test.sh SPECTRAL_SIMPLIFY SHAPE FOLDER
 #
-# What is changed in a mesh before it is simplified, whose numbers the outputs use then, and what survives when something
-# fails late. SHAPE is an OFF file of about 2,000 vertices, FOLDER is emptied and used.
+# What is changed in a mesh before it is simplified, whose numbers the outputs use then, and what
+# survives when something fails late. SHAPE is an OFF file of about 2,000 vertices, FOLDER is
+# emptied and used.
 
 program=$1
 shape=$2
@@ -64,7 +65,8 @@ for phase in "reading and checking" "collapses by quadrics" "eigenpairs" "collap
   grep -q "^  $phase  *[0-9.]* s\$" said || fail "'$phase' has no line in: $(cat said)"
 done
 
-# A limit of the size of files stands for a disk that is full: the mesh fits in, the matrices of the input do not.
+# A limit of the size of files stands for a disk that is full: the mesh fits in, the matrices of the
+# input do not.
 if (trap '' XFSZ; ulimit -f 16; "$program" shape.off late.off --preset paper --vertices 40 --eigenvectors 5 --map late.txt \
   --eigenpairs late --json late.json >said 2>complained); then
   fail "pairs on a full disk: the exit status is 0"

@@ -6,14 +6,17 @@
 #   layering_test.sh INCLUDE
 #
 # Who may include whom below the folder INCLUDE/CGAL:
-# - the kernel, which is Spectral_geometry and Surface_mesh_simplification, includes nothing of Spectral_toolbox;
+# - the kernel, which is Spectral_geometry and Surface_mesh_simplification, includes nothing of
+#   Spectral_toolbox;
 # - Spectral_geometry includes nothing of Surface_mesh_simplification;
-# - Surface_mesh_simplification enters no room of Spectral_geometry/internal but numerics/ and surface/.
+# - Surface_mesh_simplification enters no room of Spectral_geometry/internal but numerics/ and
+#   surface/.
 set -eu
 cd "$1/CGAL"
 status=0
 
-# refuse SENTENCE FOLDER PATTERN [EXCEPTION]: no line of the headers in FOLDER includes what matches PATTERN.
+# refuse SENTENCE FOLDER PATTERN [EXCEPTION]: no line of the headers in FOLDER includes what matches
+# PATTERN.
 refuse()
 {
   found=$(grep -rnE "#[[:space:]]*include[[:space:]]*[<\"]$3" "$2" | grep -vE "${4:-^\$}" || true)

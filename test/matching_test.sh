@@ -5,8 +5,8 @@
 #
 # matching_test.sh SHAPE_MATCHING MAKE_DEMO_SHAPE SHAPE FOLDER
 #
-# The matching: a shape of about 2,000 vertices against another pose of it, and what is said when it cannot be done. FOLDER
-# is emptied and used.
+# The matching: a shape of about 2,000 vertices against another pose of it, and what is said when it
+# cannot be done. FOLDER is emptied and used.
 
 program=$1
 make_shape=$2
@@ -64,13 +64,15 @@ with=$(awk '$1 == "none" { print $(NF - 2) }' said)
 without=$(awk '$1 == "none" { print $(NF - 2) }' said)
 awk -v a="$with" -v b="$without" 'BEGIN { exit !(a < b) }' || fail "mean error $with with curvature, $without without"
 
-# Body and limbs stretched and compressed by up to a third: a map by the modes is off by 0.011 in the mean, as they spread what is local.
+# Body and limbs stretched and compressed by up to a third: a map by the modes is off by 0.011 in
+# the mean, as they spread what is local.
 awk 'NF == 3 && NR > 2 { $1 += 0.1 * sin(3 * $1); $3 += 0.05 * sin(4 * $3) } { print }' Y.off >stretched.off
 "$program" X.off stretched.off --vertices 300 --eigenvectors 50 --ground-truth truth.txt --output map.txt >said 2>complained ||
   fail "a stretched shape: $(cat complained)"
 awk '$1 == "spectral" { exit !($(NF - 2) < 0.005) } END { if(!NR) exit 1 }' said || fail "a stretched shape: $(cat said)"
 
-# Reduced first: the map is one of the vertices of the files all the same, landmarks too. A mesh that is small enough stays.
+# Reduced first: the map is one of the vertices of the files all the same, landmarks too. A mesh
+# that is small enough stays.
 "$program" X.off Y.off --vertices 300 --eigenvectors 50 --pre-simplify 1200 --ground-truth truth.txt --output reduced.txt \
   --report reduced.html --json reduced.json >said 2>complained || fail "--pre-simplify: $(cat complained)"
 awk '$1 == "spectral" { exit !($(NF - 2) < 0.01) }' said || fail "--pre-simplify: $(cat said)"
@@ -127,8 +129,8 @@ done
 cmp -s isolated.txt found.txt || fail "isolated vertices change the map"
 grep -q "^'isolatedY.off': 1 isolated vertex left out.$" said || fail "isolated vertices: $(cat said)"
 
-# An ellipsoid of three different axes has four rotations onto itself, which no signature can tell apart: landmarks
-# decide for one of them.
+# An ellipsoid of three different axes has four rotations onto itself, which no signature can tell
+# apart: landmarks decide for one of them.
 ellipsoid()
 {
   awk -v n="$1" -v m="$2" 'BEGIN {
@@ -159,8 +161,9 @@ for truth in same turned; do
   awk 'END { exit !($(NF - 2) < 0.1) }' said || fail "landmarks do not find '$truth': $(tail -n 1 said)"
 done
 
-# Meshes that another program made: landmarks reach them, and they need not be of one size. Without --proxy they alone are matched, beside
-# others they stand in the same table and page; each proxy has a map of its own.
+# Meshes that another program made: landmarks reach them, and they need not be of one size. Without
+# --proxy they alone are matched, beside others they stand in the same table and page; each proxy
+# has a map of its own.
 ellipsoid 20 13 >coarse242.off
 ellipsoid 16 15 >coarse226.off
 match="ellipsoid.off ellipsoid.off --eigenvectors 40 --fine-iterations 0 --landmarks landmarks.txt --ground-truth turned.txt"

@@ -2,8 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Sourced by the tests of the programs, which set $program and $folder first: goes to that folder, emptied, and says what is
-# to be said of a run. $unwanted is what a refusal must not leave behind.
+# Sourced by the tests of the programs, which set $program and $folder first: goes to that folder,
+# emptied, and says what is to be said of a run. $unwanted is what a refusal must not leave behind.
 
 set -u
 failures=0

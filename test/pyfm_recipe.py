@@ -2,9 +2,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# pyfm_recipe.py PAIRS P.mtx map.txt: what a user of pyFM does with the files of spectral_simplify, in NumPy alone, and
-# whether it holds. pyFM's TriMesh keeps W, A, eigenvalues and eigenvectors, and uses A only in products `A @ f`: any
-# symmetric matrix will do.
+# pyfm_recipe.py PAIRS P.mtx map.txt: what a user of pyFM does with the files of spectral_simplify,
+# in NumPy alone, and whether it holds. pyFM's TriMesh keeps W, A, eigenvalues and eigenvectors, and
+# uses A only in products `A @ f`: any symmetric matrix will do.
 
 import sys
 
@@ -47,7 +47,8 @@ def main(pairs, restriction, map_file):
         require(np.abs(residual).max() < 1e-3 * np.abs(mesh.W @ mesh.eigenvectors).max(), "W Phi = A Phi Lambda")
     require(np.allclose(C, coarse.project(P @ fine.eigenvectors), atol=1e-6), "C of the files")
 
-    # pyFM.spectral.p2p_to_FM(vertex_map, coarse.eigenvectors, fine.eigenvectors, A2=fine.A): from coarse to fine.
+    # pyFM.spectral.p2p_to_FM(vertex_map, coarse.eigenvectors, fine.eigenvectors, A2=fine.A): from
+    # coarse to fine.
     back = fine.project(coarse.eigenvectors[vertex_map])
     require(np.linalg.norm(back[:10, :10] - C[:10, :10].T) < 0.5 * np.linalg.norm(C[:10, :10]),
             "the vertex map gives the transposed map, roughly")

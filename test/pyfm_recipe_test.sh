@@ -5,8 +5,8 @@
 #
 # pyfm_recipe_test.sh SPECTRAL_SIMPLIFY RECIPE SHAPE FOLDER
 #
-# Runs the recipe for users of pyFM on what --eigenpairs writes, in both masses. Without NumPy it is skipped: exit status
-# 77. FOLDER is emptied and used.
+# Runs the recipe for users of pyFM on what --eigenpairs writes, in both masses. Without NumPy it is
+# skipped: exit status 77. FOLDER is emptied and used.
 
 set -u
 simplify=$1

@@ -2,8 +2,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python_adapters_test.py FOLDER Adapters|Script: the adapters of the package against what pyFM and geomfum have, as far as the adapters use
-# it; where these packages are installed they are used themselves. And the script, which needs Matplotlib.
+# python_adapters_test.py FOLDER Adapters|Script: the adapters of the package against what pyFM and
+# geomfum have, as far as the adapters use it; where these packages are installed they are used
+# themselves. And the script, which needs Matplotlib.
 
 import importlib.util
 import os

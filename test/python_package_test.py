@@ -182,7 +182,8 @@ class Results_live(Case):
         w, U = scipy.sparse.linalg.eigsh(own.L.tocsc(), 40, own.M.tocsc(), sigma=-0.01)
         given = ss.Eigenpairs.from_arrays(w, U, own.L, own.M)
         self.assertEqual((given.mass, given.zeros, len(given)), ("averaged", 1, 40))
-        # The solvers turn eigenvectors of equal eigenvalues differently: other mixtures, another run.
+        # The solvers turn eigenvectors of equal eigenvalues differently: other mixtures, another
+        # run.
         run = ss.simplify(V, F, 150, 40, eigenpairs=given)
         judged = ss.evaluate(V, F, run.V, run.F, run.P, eigenpairs=given)
         reference = ss.evaluate(V, F, RUN.V, RUN.F, RUN.P, 40)

@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python_test.py [SPECTRAL_SIMPLIFY]: the Python module beside the program, on shapes that are made here.
+# python_test.py [SPECTRAL_SIMPLIFY]: the Python module beside the program, on shapes that are made
+# here.
 
 import contextlib
 import inspect
@@ -499,7 +500,8 @@ class Control(Shapes):
         with self.assertRaises(KeyboardInterrupt):
             ss.simplify(V, F, 600, 200)
         thread.join()
-        # The thread had its turns while the computation went on: at the pace it wanted, give or take the machine's.
+        # The thread had its turns while the computation went on: at the pace it wanted, give or
+        # take the machine's.
         self.assertLess(seen[9] - start, 5)
         self.assertLess(time.monotonic() - seen[-1], 5)
 

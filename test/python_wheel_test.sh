@@ -3,8 +3,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# python_wheel_test.sh PYTHON MODULE FOLDER: the wheel and the source distribution install in fresh environments, where the tests of
-# the package pass. The MODULE has been compiled before.
+# python_wheel_test.sh PYTHON MODULE FOLDER: the wheel and the source distribution install in fresh
+# environments, where the tests of the package pass. The MODULE has been compiled before.
 
 set -eu
 python=$1

@@ -4,12 +4,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
 # Runs every test: installs what is missing (Debian), configures, builds, tests. Its last line is
-# `N passed, N failed`, its exit status 0 only if nothing failed. Settings, all optional: BUILD_DIR, JOBS
-# (2), CXX (Clang for a new folder; CXX=g++ asks for GCC), CMAKE_ARGS (handed to cmake, such as
+# `N passed, N failed`, its exit status 0 only if nothing failed. Settings, all optional: BUILD_DIR,
+# JOBS (2), CXX (Clang for a new folder; CXX=g++ asks for GCC), CMAKE_ARGS (handed to cmake, such as
 # -DCGAL_DIR=...), SPECTRAL_NO_INSTALL=1.
 #
-# With --browser it runs the tests of the page of examples/browser alone, in headless Chromium, which the others
-# leave out.
+# With --browser it runs the tests of the page of examples/browser alone, in headless Chromium,
+# which the others leave out.
 
 set -u
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd) || exit 1

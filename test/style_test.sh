@@ -7,7 +7,8 @@
 #
 # What the formatter does not see to, in the files of the project in the folder SOURCE:
 # - no comment begins with "Of", "The same" or "Those": it has a subject;
-# - no line of C++ has more than 100 characters, but for one that includes a file.
+# - no line of C++ has more than 100 characters, but for one that includes a file; nor has a comment
+#   of a script.
 set -eu
 cd "$1"
 status=0
@@ -22,7 +23,8 @@ scripts()
 }
 [ "$(sources | wc -l)" -gt 100 ] && [ "$(scripts | wc -l)" -gt 10 ] || { echo "few files were found in $1"; exit 1; }
 
-# The first line of a comment: one before it ends otherwise. Those of CMake, Python and shells begin with #.
+# The first line of a comment: one before it ends otherwise. Those of CMake, Python and shells begin
+# with #.
 first_words()
 {
   marker=$1
@@ -46,10 +48,15 @@ if [ -n "$found" ]; then
 fi
 
 # Bytes that continue a character of UTF-8 do not count.
-# shellcheck disable=SC2016
-found=$(sources | LC_ALL=C xargs awk '
-  { line = $0; gsub(/[\200-\277]/, "", line) }
-  length(line) > 100 && line !~ /^ *# *(include |if __has_include)/ { print FILENAME ":" FNR ": " length(line) " characters" }')
+too_long()
+{
+  LC_ALL=C xargs awk -v which="$1" '
+    { line = $0; gsub(/[\200-\277]/, "", line) }
+    length(line) > 100 && line ~ which && line !~ /^ *# *(include |if __has_include)/ {
+      print FILENAME ":" FNR ": " length(line) " characters"
+    }'
+}
+found=$(sources | too_long . ; scripts | too_long '^ *(#|//) ')
 if [ -n "$found" ]; then
   echo "a line is too long:"
   echo "$found"

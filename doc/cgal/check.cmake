@@ -2,7 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Included at the end of doc/cgal_layout.cmake, with its variables: stops unless what was laid out is complete.
+# Included at the end of doc/cgal_layout.cmake, with its variables: stops unless what was laid out
+# is complete.
 
 # Everything is there.
 set(wanted Installation/include/CGAL/license/Spectral_geometry.h)

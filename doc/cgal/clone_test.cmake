@@ -2,8 +2,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# The test cgal-layout-clone: doc/cgal_layout.cmake writes nothing into a clone of CGAL that lacks a file or an anchor, and names each that is
-# missing; into one that has them all it writes everything, once. Called as that script is; OUTPUT is where a mock of a clone goes.
+# The test cgal-layout-clone: doc/cgal_layout.cmake writes nothing into a clone of CGAL that lacks a
+# file or an anchor, and names each that is missing; into one that has them all it writes
+# everything, once. Called as that script is; OUTPUT is where a mock of a clone goes.
 
 cmake_minimum_required(VERSION 3.16)
 find_path(CGAL_INCLUDE_DIR NAMES CGAL/version.h PATHS /usr/local/include /usr/include)

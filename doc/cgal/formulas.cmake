@@ -2,8 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Included by doc/cgal_layout.cmake: formulas within the lines of the pages, which are in Unicode there, and
-# references, as CGAL's manuals write them. What contains another one stands before it.
+# Included by doc/cgal_layout.cmake: formulas within the lines of the pages, which are in Unicode
+# there, and references, as CGAL's manuals write them. What contains another one stands before it.
 
 # Replaces in `all`, whose paragraphs are lines.
 function(in_tex plain formula)

@@ -3,9 +3,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Makes the page that simplifies meshes in a browser, one file: installs what is missing (Debian), compiles
-# spectral_simplify to WebAssembly and packs it with a shape, which a program of the native build makes.
-# Settings, all optional: BUILD_DIR (of the native build), BROWSER_BUILD_DIR, JOBS (2),
+# Makes the page that simplifies meshes in a browser, one file: installs what is missing (Debian),
+# compiles spectral_simplify to WebAssembly and packs it with a shape, which a program of the native
+# build makes. Settings, all optional: BUILD_DIR (of the native build), BROWSER_BUILD_DIR, JOBS (2),
 # SPECTRAL_NO_INSTALL=1.
 
 set -eu

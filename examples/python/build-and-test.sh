@@ -3,8 +3,9 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Builds the Python module and tests it beside the program: installs what is missing (Debian), configures, builds, tests. Settings, all
-# optional: BUILD_DIR, JOBS (2), CMAKE_ARGS (handed to cmake), SPECTRAL_NO_INSTALL=1.
+# Builds the Python module and tests it beside the program: installs what is missing (Debian),
+# configures, builds, tests. Settings, all optional: BUILD_DIR, JOBS (2), CMAKE_ARGS (handed to
+# cmake), SPECTRAL_NO_INSTALL=1.
 
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/../.." && pwd)

@@ -4,8 +4,10 @@
 #
 #   simplify_match_plot.py X.off Y.off picture.png [N]
 #
-# Simplifies X to N vertices (600), matches X to Y, and draws both. Cells for an editor begin with %%. Two poses of one shape to try it on:
-#   make_demo_shape X.off --vertices 5000 --pose stand; make_demo_shape Y.off --vertices 5000 --pose walk --shuffle 1
+# Simplifies X to N vertices (600), matches X to Y, and draws both. Cells for an editor begin with
+# %%. Two poses of one shape to try it on:
+#   make_demo_shape X.off --vertices 5000 --pose stand
+#   make_demo_shape Y.off --vertices 5000 --pose walk --shuffle 1
 
 # %% Two meshes: arrays of positions and of corners.
 import sys

@@ -2,8 +2,8 @@
 #
 # SPDX-License-Identifier: GPL-3.0-or-later
 #
-# Makes the target spectral_report_script: the header shape_view_script.h, which has the viewer of the
-# report as a string, from shape_view.js.
+# Makes the target spectral_report_script: the header shape_view_script.h, which has the viewer of
+# the report as a string, from shape_view.js.
 
 file(READ "${CMAKE_CURRENT_LIST_DIR}/shape_view.js" SHAPE_VIEW_SCRIPT)
 string(REGEX REPLACE "^(//[^\n]*\n|\n)+" "" SHAPE_VIEW_SCRIPT "${SHAPE_VIEW_SCRIPT}")

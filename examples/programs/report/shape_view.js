@@ -59,7 +59,8 @@ function values(mesh) {
   return Uint8Array.from(mesh.T, v => mesh.values[first + v]);
 }
 
-// A corner has the normal of the vertex, or of the triangle where they differ by more than 40 degrees.
+// A corner has the normal of the vertex, or of the triangle where they differ by more than 40
+// degrees.
 function normals({P, T}) {
   const faces = new Float32Array(T.length), vertices = new Float32Array(P.length);
   for (let f = 0; f < T.length; f += 3) {
