@@ -15,8 +15,8 @@ namespace CGAL::Spectral_geometry {
 /// \brief the first K eigenpairs of \f$L \phi = \lambda B \phi\f$.
 struct Eigenpairs
 {
-  Eigen::VectorXd
-      values; ///< K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
+  /// K, ascending, not negative (what rounding leaves of the kernel's is cut at 0)
+  Eigen::VectorXd values;
   Eigen::MatrixXd vectors; ///< n x K, column k belongs to values(k), \f$\Phi^T B \Phi = I\f$
   /// K, \f$\|L \phi_k - \lambda_k B \phi_k\|_{M^{-1}} / (\lambda_k + s)\f$, see `eigenpairs()`
   Eigen::VectorXd residuals;

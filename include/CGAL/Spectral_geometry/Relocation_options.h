@@ -22,9 +22,9 @@ struct Relocation_options : Run_control
 {
   /// What a vertex' signals are while it moves.
   enum class Signals {
-    carried,             ///< P F, the restriction that came with the mesh; it stays as it is
-    carried_and_sampled, ///< both that and F at the closest point of the fine surface: good in
-                         ///< either reading
+    carried, ///< P F, the restriction that came with the mesh; it stays as it is
+    /// both that and F at the closest point of the fine surface: good in either reading
+    carried_and_sampled,
     /// F at the closest point alone, in the component that the vertex' row of P belongs to. The
     /// lowest of the three in that reading; the restriction that came with the mesh no longer
     /// fits, and the result holds the one to use instead
@@ -73,10 +73,11 @@ struct Relocation_result
   enum class Stop_reason {
     converged,  ///< ten steps lowered the objective by less than half a percent
     no_descent, ///< no step that the guards allow lowers it
-    no_gain,    ///< the norm after it was no better than before, or nothing but rounding from the
-                ///< start: everything is as it was
-    steps,      ///< `Relocation_options::maximum_steps`
-    seconds     ///< `Relocation_options::maximum_seconds`
+    /// the norm after it was no better than before, or nothing but rounding from the start:
+    /// everything is as it was
+    no_gain,
+    steps,  ///< `Relocation_options::maximum_steps`
+    seconds ///< `Relocation_options::maximum_seconds`
   };
 
   /// Vertices that a guard stopped short in one step at least, by guard.
@@ -86,8 +87,9 @@ struct Relocation_result
     std::size_t fixed = 0;
     std::size_t trust = 0;    ///< by the ball around (P V)_w in which it stays
     std::size_t boundary = 0; ///< by the end of the boundary that they slide along
-    std::size_t sheet = 0; ///< because another sheet of the fine surface would have been nearer, or
-                           ///< their closest point would have leapt to one
+    /// because another sheet of the fine surface would have been nearer, or their closest point
+    /// would have leapt to one
+    std::size_t sheet = 0;
     std::size_t triangles = 0; ///< because a triangle would have turned or become too thin
   };
 

@@ -46,10 +46,10 @@ struct Laplace_operator
   /// with `dirichlet` vertices of the border have no couplings in L and B, and `mass` is that of
   /// before
   Boundary_condition boundary = Boundary_condition::neumann;
-  Eigen::Index vanishing = 0;          ///< number of these vertices
-  std::vector<int> vanishing_vertices; ///< their numbers; where they are missing, their rows count
-                                       ///< as the others do
-  bool has_coefficients = false;       ///< whether it is that of other coefficients than 1
+  Eigen::Index vanishing = 0; ///< number of these vertices
+  /// their numbers; where they are missing, their rows count as the others do
+  std::vector<int> vanishing_vertices;
+  bool has_coefficients = false; ///< whether it is that of other coefficients than 1
 };
 
 /// \brief returns how many eigenvalues of an operator are zero: one for each connected component of
@@ -60,8 +60,8 @@ CGAL_SPECTRAL_GEOMETRY_INLINE Eigen::Index number_of_zero_eigenvalues(const Lapl
 /// \brief the cotangents of a triangle's three angles and its area.
 struct Triangle_cotangents
 {
-  Eigen::Vector3d
-      cot; ///< cot(k) is the cotangent of the angle at the k-th corner, opposite to the k-th edge
+  /// cot(k) is the cotangent of the angle at the k-th corner, opposite to the k-th edge
+  Eigen::Vector3d cot;
   double area; ///< 0 for a triangle that is degenerate to rounding, and then cot is 0, too
 };
 

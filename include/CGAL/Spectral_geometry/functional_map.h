@@ -208,24 +208,25 @@ struct Spectral_evaluation
 
   double fine_theta = 0; ///< weight of the consistent mass in the operator of the fine mesh
   double theta = 0; ///< the same for the coarse mesh. Figures of different theta are not comparable
-  std::string mass; ///< "lumped", "averaged", "voronoi", "consistent", or "theta = ..." of the
-                    ///< coarse mesh; both if they differ
+  /// "lumped", "averaged", "voronoi", "consistent", or "theta = ..." of the coarse mesh; both if
+  /// they differ
+  std::string mass;
 
   Eigen::MatrixXd C; ///< functional map, `judged_modes` x `judged_modes`, rows are coarse modes
-  Eigen::VectorXd
-      fine_values; ///< all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$
+  /// all fine eigenvalues that were given, at unit area: \f$ A \lambda \f$
+  Eigen::VectorXd fine_values;
   Eigen::VectorXd coarse_values; ///< all coarse eigenvalues that were given, at unit area
   Eigen::Index fine_zeros = 0;   ///< number of fine eigenvalues that are zero, one per component
-  Eigen::Index coarse_zeros =
-      0; ///< and of coarse ones; if they differ the modes compared are shifted
+  /// and of coarse ones; if they differ the modes compared are shifted
+  Eigen::Index coarse_zeros = 0;
 
   double norm_L = 0; ///< Eq. (3), not squared
   double norm_D = 0; ///< Eq. (4), not squared
   /// Eq. (4) of the map with `extended_modes` rows: what is much smaller here than in `norm_D` was
   /// not lost, it went into the next modes because eigenvalues `K` and `K + 1` are close
   double norm_D_extended = 0;
-  double norm_L_input_scale =
-      0; ///< Eq. (3) of the meshes as they are, in the inverse of their unit of area
+  /// Eq. (3) of the meshes as they are, in the inverse of their unit of area
+  double norm_L_input_scale = 0;
   /// `norm_L_input_scale` times the fine area: both meshes scaled by one factor, to set beside
   /// `norm_L`
   double norm_L_common_scale = 0;
@@ -238,8 +239,8 @@ struct Spectral_evaluation
 
   Eigenvalue_errors errors;     ///< of modes 1..K, zeros skipped
   Eigenvalue_errors errors_low; ///< of modes 2..K/5: limbs that lost their tips show here
-  Eigenvalue_errors
-      errors_beyond; ///< of modes K+1..1.5K, as far as both spectra were given: overfitting
+  /// of modes K+1..1.5K, as far as both spectra were given: overfitting
+  Eigenvalue_errors errors_beyond;
   Eigenvalue_errors errors_input_scale; ///< of modes 1..K of the meshes as they are
 
   double fine_area = 0;   ///< sum of the fine masses

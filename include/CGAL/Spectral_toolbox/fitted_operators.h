@@ -72,14 +72,14 @@ struct Operator_fit_result
 {
   /// L, B, and the row sums of B; `theta` is that of the coarse operator, 0 for a diagonal mass
   Laplace_operator op;
-  double objective_before =
-      0; ///< what was minimised, for the own entries brought inside of the bounds and to the total
+  /// what was minimised, for the own entries brought inside of the bounds and to the total
+  double objective_before = 0;
   double objective_after = 0; ///< and for those of `op`, never larger
   int iterations = 0;         ///< of the barrier method
-  bool converged = false;     ///< within `Operator_fit_options::tolerance`; otherwise stopped, and
-                              ///< valid all the same
-  Eigen::Index unknowns = 0;  ///< number of weights that were chosen
-  Eigen::Index at_bound = 0;  ///< and of those that ended at their lower bounds
+  /// within `Operator_fit_options::tolerance`; otherwise stopped, and valid all the same
+  bool converged = false;
+  Eigen::Index unknowns = 0; ///< number of weights that were chosen
+  Eigen::Index at_bound = 0; ///< and of those that ended at their lower bounds
 };
 
 /*!

@@ -22,8 +22,8 @@ struct Mesh_finding
 {
   std::size_t count = 0; ///< how often
   std::size_t first = 0; ///< the first vertex or face concerned, counted from 0
-  std::size_t second =
-      0; ///< what belongs to it: the other face or vertex, or the number of corners or parts
+  /// what belongs to it: the other face or vertex, or the number of corners or parts
+  std::size_t second = 0;
 
   /// \brief counts one more.
   void add(const std::size_t where, const std::size_t partner = 0)
@@ -59,29 +59,29 @@ struct Mesh_diagnosis
   Mesh_finding non_finite_vertices; ///< vertices with a coordinate that is infinite or not a number
   Mesh_finding foreign_indices;     ///< faces that use a vertex that does not exist
   Mesh_finding repeated_vertices;   ///< faces that use a vertex twice, or have fewer than three
-  Mesh_finding
-      polygons; ///< faces with more than three vertices; `second` is how many the first has
-  Mesh_finding duplicate_faces; ///< faces with the vertices of an earlier one, which `second` is
-                                ///< for the first
-  Mesh_finding
-      non_manifold_edges; ///< edges of more than two faces; from vertex `first` to vertex `second`
-  Mesh_finding
-      misoriented_edges; ///< edges along which their two faces, `first` and `second`, run alike
-  Mesh_finding non_manifold_vertices; ///< vertices where parts of the surface touch in nothing but
-                                      ///< the vertex
-  Mesh_finding isolated_vertices;     ///< vertices that no face uses
-  Mesh_finding massless_vertices;     ///< vertices all of whose faces have zero area
+  /// faces with more than three vertices; `second` is how many the first has
+  Mesh_finding polygons;
+  /// faces with the vertices of an earlier one, which `second` is for the first
+  Mesh_finding duplicate_faces;
+  /// edges of more than two faces; from vertex `first` to vertex `second`
+  Mesh_finding non_manifold_edges;
+  /// edges along which their two faces, `first` and `second`, run alike
+  Mesh_finding misoriented_edges;
+  /// vertices where parts of the surface touch in nothing but the vertex
+  Mesh_finding non_manifold_vertices;
+  Mesh_finding isolated_vertices; ///< vertices that no face uses
+  Mesh_finding massless_vertices; ///< vertices all of whose faces have zero area
   Mesh_finding overflowing_faces; ///< needles with a cotangent above 1e12, or areas that overflow
   /// @}
 
   /// \name What is handled
   /// @{
-  Mesh_finding
-      zero_length_edges; ///< from vertex `first` to `second`; merged before the first collapse
-  Mesh_finding
-      zero_area_faces; ///< degenerate to rounding, zero-length edges included; contribute nothing
-  Mesh_finding coincident_vertices; ///< vertices at the position of another, `second`, that they
-                                    ///< share no edge with
+  /// from vertex `first` to `second`; merged before the first collapse
+  Mesh_finding zero_length_edges;
+  /// degenerate to rounding, zero-length edges included; contribute nothing
+  Mesh_finding zero_area_faces;
+  /// vertices at the position of another, `second`, that they share no edge with
+  Mesh_finding coincident_vertices;
   /// @}
 
   /// of a mesh of triangles pairs of border vertices that lie together within 1e-5 of the box's
@@ -90,8 +90,8 @@ struct Mesh_diagnosis
   /// were rounded.
   std::vector<std::pair<std::size_t, std::size_t>> cracks;
 
-  std::vector<Mesh_component>
-      components; ///< in the order of their first vertices; isolated vertices are none
+  /// in the order of their first vertices; isolated vertices are none
+  std::vector<Mesh_component> components;
 
   /// \brief whether the mesh can be simplified as it is.
   bool usable() const { return number_of_faces != 0 && obstacles().empty(); }

@@ -25,8 +25,8 @@ struct Spectral_edge_collapse_result
     target_reached,  ///< the mesh has the number of vertices that was asked for
     queue_exhausted, ///< every edge that is left was refused; see `explanation`
     cancelled,       ///< by the progress callback or `Spectral_options::cancel`
-    error_reached    ///< one more collapse would have exceeded
-                     ///< `Spectral_edge_collapse_options::maximum_error`
+    /// one more collapse would have exceeded `Spectral_edge_collapse_options::maximum_error`
+    error_reached
   };
 
   std::size_t input_vertices = 0;  ///< number of vertices before
@@ -46,8 +46,8 @@ struct Spectral_edge_collapse_result
   double seconds_relocation = 0; ///< wall seconds of `Spectral_edge_collapse_options::relocate`
   double seconds_total = 0;      ///< the whole call
 
-  std::size_t signals =
-      0; ///< how many steered the collapses, all at once or in mixtures: those of positive weight
+  /// how many steered the collapses, all at once or in mixtures: those of positive weight
+  std::size_t signals = 0;
   /// Eq. 2 of all signals but constants, with their weights, for the input scaled to unit area
   double E = 0;
   double relative_error = 0; ///< see `Spectral_policies::relative_error()`

@@ -39,9 +39,9 @@ enum class Spectral_signal_source {
 /// times: it comes back whenever something near it has changed.
 struct Spectral_refusals
 {
-  std::size_t topology =
-      0; ///< CGAL's link condition and the like; a filter that is not in
-         ///< `Spectral_policies::filter()`, where a wrapper does not ask our placement
+  /// CGAL's link condition and the like; a filter that is not in `Spectral_policies::filter()`,
+  /// where a wrapper does not ask our placement
+  std::size_t topology = 0;
   std::size_t geometry = 0; ///< CGAL's geometric test, or a placement wrapper that gave no point
   std::size_t filter = 0;   ///< the `filter` named parameter
   /// no position without a degenerate triangle, none that leaves kept vertices where they are, or

@@ -28,14 +28,14 @@ struct Spectral_basis
   /// || Z ||_B^2 of all signals; the sum of lambda_k^2 for eigenvectors; exactly 0 where it is the
   /// rounding of 0
   double sum_of_squares = 0;
-  bool rough =
-      false; ///< whether Z = F Lambda is not good enough: signals of the user's, or rough pairs
+  /// whether Z = F Lambda is not good enough: signals of the user's, or rough pairs
+  bool rough = false;
   Eigen::Index constants = 0; ///< the first eigenvectors, left out: P carries them over exactly
   /// with `Spectral_signal_source::filtered_noise`, at the input's scale; those that the metric
   /// sees are the first
   std::shared_ptr<const Spectral_geometry::Filtered_signals> filtered;
-  std::shared_ptr<const Spectral_geometry::Eigenpairs>
-      eigenpairs; ///< all of them, at the input's scale
+  /// all of them, at the input's scale
+  std::shared_ptr<const Spectral_geometry::Eigenpairs> eigenpairs;
 };
 
 CGAL_SPECTRAL_GEOMETRY_INLINE void check_spectral_options(const Spectral_options& options,

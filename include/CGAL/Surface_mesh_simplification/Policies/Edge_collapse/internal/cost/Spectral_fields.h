@@ -195,8 +195,8 @@ struct Spectral_fields
   double conductivity = 1; ///< their mean on the input: the unit of cotangents
   /// Whether functions vanish there, on the border: its row is not in E. Empty: nowhere.
   std::vector<char> vanishing;
-  std::vector<char>
-      kept; ///< one flag for each slot that survives with its position and its row of P, or nothing
+  /// one flag for each slot that survives with its position and its row of P, or nothing
+  std::vector<char> kept;
   double area_scale = 1;         ///< 1 / area of the input, weighted by the density
   bool single_precision = false; ///< whether the mesh stores its points as `float`
   /// A vertex of more neighbours is a hub: an edge that leads there is costed as if it stayed,
