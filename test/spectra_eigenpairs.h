@@ -91,8 +91,8 @@ inline SG::Eigenpairs spectra_eigenpairs(const SG::Laplace_operator& op, const E
   if(solver.info() != Spectra::CompInfo::Successful)
     throw std::runtime_error("Spectra did not converge.");
   SG::Eigenpairs result;
-  result.values =
-      (s * (solver.eigenvalues().array() - 1.)).max(0.); // Spectra's are (lambda + s) / s
+  // Spectra's are (lambda + s) / s.
+  result.values = (s * (solver.eigenvalues().array() - 1.)).max(0.);
   result.vectors = std::sqrt(s) * solver.eigenvectors(K);
   result.residuals = problem.residuals(result, 1);
   return result;

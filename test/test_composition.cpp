@@ -171,8 +171,8 @@ TEST_CASE("Constrained edges survive, unmoved, and P stays right")
       mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
   for(const auto e : edges(mesh)) {
     const Point p = mesh.point(source(e, mesh)), q = mesh.point(target(e, mesh));
-    constraints[e] =
-        (p.x() < 0.3) != (q.x() < 0.3) || e.idx() % 97 == 0; // edges across a plane, and a few more
+    // Edges across a plane, and a few more.
+    constraints[e] = (p.x() < 0.3) != (q.x() < 0.3) || e.idx() % 97 == 0;
   }
   const auto segments = constrained_segments(mesh, constraints);
   const Policies policies(mesh, options);

@@ -343,8 +343,8 @@ TEST_CASE("Two rings stay linear in the degree of a vertex, and fit all the same
 {
   const shapes::Matrices gear = shapes::gear_matrices(500, 3);
   Problem p = of_itself(SG::laplace_operator(gear.V, gear.T, 0.5), 20);
-  p.coarse =
-      SG::laplace_operator(gear.V, gear.T, 0.); // lumped, to the spectrum of the averaged mass
+  // Lumped, to the spectrum of the averaged mass.
+  p.coarse = SG::laplace_operator(gear.V, gear.T, 0.);
   Operator_fit_options options;
   options.rings = 2;
   options.mass = Mass_pattern::diagonal;

@@ -118,8 +118,8 @@ TEST_CASE("What becomes of discs and gears does not depend on what a hub is, and
 
 TEST_CASE("Time and memory are linear in the degree")
 {
-  const int d =
-      4000; // were all triangles of a hub looked at for each of its edges: 4,000 times 4,000 rows
+  // Were all triangles of a hub looked at for each of its edges: 4,000 times 4,000 rows.
+  const int d = 4000;
   const shapes::Matrices input = shapes::gear_matrices(d, 2);
   const Basis basis = smooth_basis(input, 0, 8);
   std::vector<Eigen::Vector3d> points;

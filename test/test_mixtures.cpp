@@ -380,8 +380,8 @@ TEST_CASE("Eigenvectors of eigenvalue 0, one for each component, are left out of
   CAPTURE(K);
   options.eigenpairs = std::make_shared<const SG::Eigenpairs>(SG::eigenpairs(op, K));
   options.shape = 0;
-  options.keep_free_of_self_intersections =
-      false; // nothing else says what is good where nothing costs anything
+  // Nothing else says what is good where nothing costs anything.
+  options.keep_free_of_self_intersections = false;
   const SMS::internal::Spectral_basis basis = spectral_basis(input.V, input.T, options);
   const Eigen::Index left = (std::max)(K - 2, Eigen::Index(0));
   REQUIRE(basis.signals.size() == (std::min)(left, Eigen::Index(16)));

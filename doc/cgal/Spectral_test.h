@@ -36,8 +36,8 @@ struct Choice
 inline std::vector<Test_case> test_cases;
 inline std::vector<Choice> choices; // of this run, in their order
 inline std::size_t next_choice;     // the first that this run has not met yet
-inline std::vector<std::size_t>
-    sections; // by depth: 1 + the choice that entered a section in this run, or 0
+// By depth: 1 + the choice that entered a section in this run, or 0.
+inline std::vector<std::size_t> sections;
 inline std::vector<std::string> notes; // what CAPTURE and INFO hold
 inline std::size_t checks;
 

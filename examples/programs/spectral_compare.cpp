@@ -575,8 +575,8 @@ private:
   Output_files m_files;
   Progress_bar m_bar;
   Comparison m_comparison;
-  std::vector<std::string>
-      m_complaints; // about the rivals that were refused, with the options that named them
+  // About the rivals that were refused, with the options that named them.
+  std::vector<std::string> m_complaints;
   Input_mesh m_input;
   const Mesh& m_fine;
   SG::Mesh_matrices m_matrices;

@@ -51,8 +51,8 @@ struct Simplification_report
   std::string input, output, preset, operator_word;
   std::vector<std::string> attributes;   // names of those that were carried
   std::optional<std::size_t> seam_edges; // kept ones of the texture
-  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options
-      options;                       // what the preset became
+  // What the preset became.
+  CGAL::Surface_mesh_simplification::Spectral_edge_collapse_options options;
   std::vector<Repair> repairs;       // what was changed in the input, and how often
   std::vector<std::size_t> left_out; // first vertices of components that were
   std::vector<std::size_t> levels;   // those that were written

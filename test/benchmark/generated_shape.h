@@ -36,8 +36,8 @@ inline shapes::Matrices generated_shape(std::size_t vertices)
   const shapes::Matrices base = shapes::icosphere_matrices(0);
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3i> triangles;
-  std::map<std::pair<int, int>, std::vector<int>>
-      sides; // f + 1 points from the smaller corner to the larger
+  // Each has f + 1 points, from the smaller corner to the larger.
+  std::map<std::pair<int, int>, std::vector<int>> sides;
   std::vector<int> corner(base.V.rows(), -1);
   const auto add = [&](const Eigen::Vector3d& p) {
     points.push_back(p);

@@ -186,8 +186,8 @@ inline SMS::Spectral_edge_collapse_options options_from(Bytes& bytes, const shap
   options.threads = bytes.one_in(16) ? 2 : 1;
   const double losses[] = {10, 0.1, std::numeric_limits<double>::infinity()};
   options.largest_loss = losses[bytes.below(3)];
-  const unsigned basis =
-      bytes.byte(); // large meshes are rarely solved, which takes most of the time
+  // Large meshes are rarely solved, which takes most of the time.
+  const unsigned basis = bytes.byte();
   if(is_large(mesh) ? basis % 8 != 0 : basis % 4 == 3) {
     options.number_of_eigenvectors =
         (std::min)(options.number_of_eigenvectors, Eigen::Index(is_large(mesh) ? 6 : 40));

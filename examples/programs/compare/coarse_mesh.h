@@ -24,8 +24,8 @@
 struct Coarse_mesh
 {
   Mesh mesh; // without garbage
-  std::optional<Eigen::SparseMatrix<double>>
-      carried;                         // P of the simplifier, rows as `vertices(mesh)`
+  // P of the simplifier, rows as `vertices(mesh)`.
+  std::optional<Eigen::SparseMatrix<double>> carried;
   std::vector<std::size_t> vertex_map; // of collapses by CGAL's costs: where each fine vertex went
   double seconds = 0;
   std::string note; // a sentence where the result is not what was asked for

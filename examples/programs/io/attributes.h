@@ -32,8 +32,8 @@ struct Attribute
   std::string type; // "float", "uchar" and so on, as PLY has it
   std::vector<double> values;
   Kind kind = Kind::function;
-  std::vector<std::string> words =
-      {}; // what the values count from 0, as names of materials; or empty
+  // What the values count from 0, as names of materials; or empty.
+  std::vector<std::string> words = {};
 
   bool is_integer() const { return type != "float" && type != "double"; }
 };

@@ -305,8 +305,8 @@ std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
 vertices_on_edges(const Exact_soup& soup, const Repair_log& log)
 {
   using Vector = Exact_predicates::Vector_3;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>>
-      on_edge; // border edges, sorted ends
+  // Border edges, sorted ends.
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> on_edge;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> opposite;
   for(const auto& t : soup.polygons)
     for(std::size_t i = 0; i < 3; ++i)

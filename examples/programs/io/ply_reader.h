@@ -351,8 +351,8 @@ private:
   {
     if(type == Type::float32 || type == Type::float64)
       return true;
-    const int number =
-        static_cast<int>(type) - 1; // signed and unsigned ones of 8, 16, 32 bits in turn
+    // Signed and unsigned ones of 8, 16, 32 bits in turn.
+    const int number = static_cast<int>(type) - 1;
     const int bits = 8 << number / 2;
     const bool is_signed = number % 2 == 0;
     const double end = std::ldexp(1., is_signed ? bits - 1 : bits);

@@ -21,8 +21,8 @@ Texture_seams::Texture_seams(const Mesh& mesh, Corner_texture corners)
   , m_corners(std::move(corners))
   , m_is_seam(mesh.num_edges(), false)
 {
-  std::vector<std::tuple<Kernel::Point_3, Kernel::Point_3, Mesh::Edge_index>>
-      border; // ends in order
+  // Ends in order.
+  std::vector<std::tuple<Kernel::Point_3, Kernel::Point_3, Mesh::Edge_index>> border;
   for(const auto e : m_mesh.edges()) {
     const Halfedge h = m_mesh.halfedge(e), g = m_mesh.opposite(h);
     if(m_mesh.is_border(e)) {

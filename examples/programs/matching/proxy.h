@@ -22,8 +22,8 @@
 struct Shape
 {
   CGAL::Spectral_geometry::Mesh_matrices matrices; // in the unit of the file
-  std::optional<CGAL::Spectral_geometry::Mesh_matrices>
-      full; // the mesh that was reduced to this one, if one was
+  // The mesh that was reduced to this one, if one was.
+  std::optional<CGAL::Spectral_geometry::Mesh_matrices> full;
   CGAL::Spectral_geometry::Spectral_shape spectral;
   double area = 0; // in the unit of the file
 
@@ -54,8 +54,8 @@ struct Proxy
 {
   Shape shape;
   Eigen::SparseMatrix<double> restriction; // coarse x fine, binary
-  std::vector<Eigen::Index>
-      representative; // for each coarse vertex the fine one that the restriction picks
+  // For each coarse vertex the fine one that the restriction picks.
+  std::vector<Eigen::Index> representative;
   std::vector<std::size_t> vertex_map; // for each fine vertex the coarse one it went to
 };
 

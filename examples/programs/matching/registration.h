@@ -41,8 +41,8 @@ public:
   struct Maps
   {
     std::vector<Eigen::Index> map; // from X to Y
-    std::vector<Eigen::Index>
-        of_full; // between the meshes that these were reduced from, if one was
+    // Between the meshes that these were reduced from, if one was.
+    std::vector<Eigen::Index> of_full;
   };
 
   // What C, from Y to X, leads to after so many iterations; 0: its map as it is, and none of full

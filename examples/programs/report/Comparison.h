@@ -67,8 +67,8 @@ struct Shape_measures
   double hausdorff = not_computed;    // symmetric, relative to the diagonal of the fine mesh's box
   double volume_ratio = not_computed; // coarse over fine; closed meshes only
   double area_ratio = not_computed;   // coarse over fine
-  double bytes_per_vertex =
-      not_computed; // coordinates as doubles and indices of 4 bytes; an operator: its nonzeros
+  // Coordinates as doubles and indices of 4 bytes; an operator: its nonzeros.
+  double bytes_per_vertex = not_computed;
 };
 
 // One simplifier at one size.

@@ -315,8 +315,8 @@ inline std::string svg(const Bars& bars)
   std::size_t longest = 0;
   for(const std::string& name : bars.names)
     longest = (std::max)(longest, name.size());
-  const double left =
-      (std::max)(bars.names_width, 12 + 6.1 * static_cast<double>(longest)); // 12 px sans-serif
+  // A letter of 12 px sans-serif is 6.1 px wide.
+  const double left = (std::max)(bars.names_width, 12 + 6.1 * static_cast<double>(longest));
   const double width = bars.width + left - bars.names_width;
   const double right = width - 56, height = bottom + 40;
   const Axis axis(0, largest > 0 ? largest : 1, false, left, right);

@@ -98,8 +98,8 @@ inline void check_eigenpairs_options(const Eigenpairs_options& options, const Ei
           options.maximum_vectors, ".");
 }
 
-constexpr Eigen::Index largest_dense =
-    2000; // vertices, where an iteration has failed: some seconds
+// Vertices, where an iteration has failed: some seconds.
+constexpr Eigen::Index largest_dense = 2000;
 
 // Whether K pairs of n vertices are computed densely, see `Eigenpairs_method`. The Krylov space
 // must fit into n dimensions, with the vectors that a restart keeps, two panels more, and room for

@@ -309,8 +309,8 @@ private:
       const double L = m_tau * m_entries.L(Index(e));
       diagonal(i) -= L;
       diagonal(j) -= L;
-      const bool apart =
-          m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j); // but for the diagonal
+      // A row that vanishes has its diagonal alone.
+      const bool apart = m_geometry.vanishes_at(i) || m_geometry.vanishes_at(j);
       entries.emplace_back((std::max)(i, j), (std::min)(i, j),
                            apart ? 0. : m_entries.B(Index(e)) + L);
     }

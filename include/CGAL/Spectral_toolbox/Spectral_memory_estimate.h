@@ -104,8 +104,8 @@ estimated_memory(const std::size_t number_of_vertices, const Eigen::Index number
           : 0;
   const double both =
       (std::max)({solver, collapses, n * 8 * given + (std::max)(n * 8 * after, fit)});
-  const double coefficients =
-      5. * 8 * double(options.coefficients.size()); // options and their copies, metric, judge
+  // The options and their copies, the metric and the judge have them.
+  const double coefficients = 5. * 8 * double(options.coefficients.size());
   return input * internal::bytes_of_mesh + coefficients +
          (reduced ? (std::max)(input * first_stage, both) : both);
 }

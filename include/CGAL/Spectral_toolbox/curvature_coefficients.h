@@ -69,8 +69,8 @@ Operator_coefficients curvature_coefficients(const Eigen::MatrixXd& V, const Eig
   std::vector<Point> points;
   const auto vector = [](const auto& v) { return Eigen::Vector3d(v.x(), v.y(), v.z()); };
   const auto psi = [&](const double kappa) { return 1 / (1 + alpha * std::abs(kappa)); };
-  Eigen::MatrixXd D =
-      weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>(); // the identity
+  // The identity at each vertex.
+  Eigen::MatrixXd D = weighted_coefficients({}, Eigen::VectorXd::Ones(V.rows())).rightCols<6>();
   for(Eigen::Index v = 0; v < V.rows() && alpha > 0; ++v) {
     if(v % 1024 == 0)
       internal::report_to({1, progress}, {Phase::curvature, double(v) / double(V.rows())});

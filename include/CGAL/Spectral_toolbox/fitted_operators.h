@@ -551,8 +551,8 @@ private:
     Vector y(r.size()), q, p;
     if(m_steps > 5) { // products are cheaper than a factorisation
       Sparse_matrix M = (m_options.whole_residual + 0.1) * m_H;
-      M.diagonal() +=
-          m_regularization + barrier + 1e-10 * M.diagonal(); // definite after rounding, too
+      // It stays definite after rounding, too.
+      M.diagonal() += m_regularization + barrier + 1e-10 * M.diagonal();
       if(m_cholesky)
         m_cholesky->factorise(M, m_options.threads);
       else
@@ -657,8 +657,8 @@ inline void check_operator_fit(const Laplace_operator& coarse, const Eigen::Spar
   const double area = fine.mass.sum();
   require(area > 0. && std::isfinite(area),
           "operator fit: the area of the fine mesh is not a positive number.");
-  const double rounding =
-      1e-6 * pairs.values.cwiseAbs().maxCoeff(); // of an eigenvalue that is zero
+  // What rounding leaves of an eigenvalue that is zero.
+  const double rounding = 1e-6 * pairs.values.cwiseAbs().maxCoeff();
   for(Eigen::Index k = 0; k < K; ++k)
     require(pairs.values(k) >= -rounding && std::isfinite(pairs.values(k)) &&
                 pairs.vectors.col(k).allFinite(),

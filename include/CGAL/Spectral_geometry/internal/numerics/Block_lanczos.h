@@ -600,8 +600,8 @@ private:
   Eigen::MatrixXd m_Y; // its eigenpairs, the wanted first
   double m_norm = 1.;  // of S: 1 with the shift below, otherwise as far as T shows it
   double m_loss = 1.;  // estimated loss of orthogonality
-  Index m_rank =
-      panel_width; // columns of the next panel that have a link; 0 where the space is invariant
+  // Columns of the next panel that have a link; 0 where the space is invariant.
+  Index m_rank = panel_width;
   bool m_after_restart = false;
   bool m_complete = false;
   bool m_locked = false; // the basis begins with Ritz vectors whose link has been dropped

@@ -102,8 +102,8 @@ private:
   std::shared_ptr<typename Policies::State> m_state;
   std::size_t m_target;
   double m_bound;
-  Vertex_count_stop_predicate<typename Policies::Triangle_mesh>
-      m_count_stop; // of the mesh, whoever follows it
+  // It counts the vertices of the mesh, whoever follows it.
+  Vertex_count_stop_predicate<typename Policies::Triangle_mesh> m_count_stop;
   Spectral_error_stop_predicate<Policies, GetPlacement> m_error_stop;
   // The run that the rest is of, and its number of vertices at the first call.
   mutable std::size_t m_run = 0, m_begin = 0;

@@ -489,8 +489,8 @@ inline Spectral_basis basis_of_noise(const Spectral_geometry::Laplace_operator& 
   basis.sum_of_squares = area * area * squares.sum();
   if(is_rounding(basis.sum_of_squares, double(options.number_of_eigenvectors), op.L.rows()))
     basis.sum_of_squares = 0;
-  const double scale =
-      std::sqrt(area * double(how.signals) / double(r)); // the columns are for all of them
+  // The columns are scaled for all signals; the metric sees r of them.
+  const double scale = std::sqrt(area * double(how.signals) / double(r));
   basis.signals = Spectral_signals(op.L.rows(), r);
   basis.signals.set(0, scale * filtered->F.leftCols(r), scale * area * filtered->Z.leftCols(r),
                     options.threads);
@@ -515,8 +515,8 @@ Spectral_basis spectral_basis(const Eigen::MatrixXd& V, const Eigen::MatrixXi& T
     std::shared_ptr<const Spectral_geometry::Eigenpairs> pairs = options.eigenpairs;
     if(!pairs) {
       Spectral_geometry::Eigenpairs_options solver = options.eigenpairs_options;
-      solver.threads =
-          (std::max)(solver.threads, options.threads); // the result does not depend on it
+      // The result does not depend on it.
+      solver.threads = (std::max)(solver.threads, options.threads);
       // A callback of the solver's own is asked as well.
       solver.progress = [&options, &V](const Spectral_geometry::Progress& p) {
         const auto& own = options.eigenpairs_options.progress;

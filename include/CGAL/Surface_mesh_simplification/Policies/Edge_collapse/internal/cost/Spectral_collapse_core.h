@@ -218,8 +218,8 @@ private:
   Spectral_collapse_kernel m_kernel;
   bool m_has_input = false;
   Slot m_last_kept = null_spectral_slot;
-  std::vector<std::uint32_t>
-      m_last_neighbor; // for each slot the last collapse, by number, that it was a neighbour of
+  // For each slot the last collapse, by number, that it was a neighbour of.
+  std::vector<std::uint32_t> m_last_neighbor;
   std::vector<Spectral_row_entry> m_row; // scratch of update_row()
 
   Sum m_total;
