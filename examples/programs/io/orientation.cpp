@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace {
 
@@ -30,7 +29,6 @@ std::vector<Component> components_of(const Eigen::MatrixXd& V, const Eigen::Matr
   const std::vector<Index> component =
       CGAL::Spectral_geometry::internal::connected_components(V.rows(), T);
   std::vector<Component> result;
-  std::vector<std::pair<int, int>> edges; // directed
   for(Index t = 0; t < T.rows(); ++t) {
     const auto c = static_cast<std::size_t>(component[std::size_t(T(t, 0))]);
     result.resize((std::max)(result.size(), c + 1));
@@ -41,16 +39,13 @@ std::vector<Component> components_of(const Eigen::MatrixXd& V, const Eigen::Matr
     for(int i = 0; i < 3; ++i) {
       p.col(i) = V.row(T(t, i)).transpose();
       own.box.extend(p.col(i));
-      edges.emplace_back(T(t, i), T(t, (i + 1) % 3));
     }
     p.colwise() -= origin;
     own.volume += p.col(0).dot(p.col(1).cross(p.col(2))) / 6;
     own.area += (p.col(1) - p.col(0)).cross(p.col(2) - p.col(0)).norm() / 2;
   }
-  std::sort(edges.begin(), edges.end());
-  for(const auto& [a, b] : edges)
-    if(!std::binary_search(edges.begin(), edges.end(), std::make_pair(b, a)))
-      result[static_cast<std::size_t>(component[std::size_t(a)])].closed = false;
+  for(const auto& edge : CGAL::Spectral_geometry::internal::boundary_edges(T))
+    result[static_cast<std::size_t>(component[std::size_t(edge.first)])].closed = false;
   return result;
 }
 
