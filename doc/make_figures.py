@@ -577,8 +577,8 @@ def frontier():
 def main():
     if len(sys.argv) not in (2, 3):
         sys.exit("usage: make_figures.py BUILD [FOLDER]")
-    folder = os.path.abspath(sys.argv[2] if len(sys.argv) ==
-                             3 else os.path.join(sys.argv[1], "figures"))
+    folder = sys.argv[2] if len(sys.argv) == 3 else os.path.join(sys.argv[1], "figures")
+    folder = os.path.abspath(folder)
     run_all(sys.argv[1], folder)
     warnings.simplefilter("ignore")  # K = 100 modes on 150 vertices
     ss = package(sys.argv[1])
